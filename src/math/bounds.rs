@@ -1,0 +1,82 @@
+//! Boxes along the axes.
+
+use super::{DAffine3, DVec3};
+
+/// A box along the axes, closed: `lo ≤ p ≤ hi`. Empty where any `lo > hi`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// The smallest coordinates.
+    pub lo: DVec3,
+    /// The largest coordinates.
+    pub hi: DVec3,
+}
+
+impl Bounds {
+    /// The box that holds nothing; the neutral element of [`Bounds::join`].
+    pub const EMPTY: Self = Self { lo: DVec3::INFINITY, hi: DVec3::NEG_INFINITY };
+
+    /// The box from `lo` to `hi`.
+    pub const fn new(lo: DVec3, hi: DVec3) -> Self {
+        Self { lo, hi }
+    }
+
+    /// The smallest box around points.
+    pub fn around(points: impl IntoIterator<Item = DVec3>) -> Self {
+        points.into_iter().fold(Self::EMPTY, |b, p| Self { lo: b.lo.min(p), hi: b.hi.max(p) })
+    }
+
+    /// Whether no point is inside.
+    pub fn is_empty(&self) -> bool {
+        !self.lo.cmple(self.hi).all()
+    }
+
+    /// The smallest box that holds both.
+    #[must_use]
+    pub fn join(&self, other: &Self) -> Self {
+        Self { lo: self.lo.min(other.lo), hi: self.hi.max(other.hi) }
+    }
+
+    /// The box of the points in both; empty where they do not meet.
+    #[must_use]
+    pub fn meet(&self, other: &Self) -> Self {
+        Self { lo: self.lo.max(other.lo), hi: self.hi.min(other.hi) }
+    }
+
+    /// The same box with every face moved outward by `margin` of its axis.
+    #[must_use]
+    pub fn padded(&self, margin: DVec3) -> Self {
+        Self { lo: self.lo - margin, hi: self.hi + margin }
+    }
+
+    /// Whether the point is inside or on a face.
+    pub fn contains(&self, p: DVec3) -> bool {
+        self.lo.cmple(p).all() && p.cmple(self.hi).all()
+    }
+
+    /// The point in the middle; halves are taken first, so that no sum overflows.
+    pub fn center(&self) -> DVec3 {
+        self.lo * 0.5 + self.hi * 0.5
+    }
+
+    /// Half the edge lengths.
+    pub fn half(&self) -> DVec3 {
+        self.hi * 0.5 - self.lo * 0.5
+    }
+
+    /// The eight corners.
+    pub fn corners(&self) -> [DVec3; 8] {
+        std::array::from_fn(|i| {
+            DVec3::new(
+                if i & 1 == 0 { self.lo.x } else { self.hi.x },
+                if i & 2 == 0 { self.lo.y } else { self.hi.y },
+                if i & 4 == 0 { self.lo.z } else { self.hi.z },
+            )
+        })
+    }
+
+    /// The box around this box moved by `map`.
+    #[must_use]
+    pub fn mapped(&self, map: &DAffine3) -> Self {
+        Self::around(self.corners().map(|corner| map.transform_point3(corner)))
+    }
+}

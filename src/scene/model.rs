@@ -1,0 +1,203 @@
+//! The scene: what a reader gives and every later stage takes. Lengths are the scene's own unit, angles
+//! degrees, colours and intensities linear light.
+
+use std::sync::Arc;
+
+use crate::math::{Bounds, DAffine3, DVec3};
+
+/// Everything that can be seen, what lights it and from where it is seen.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Scene {
+    /// The objects of the lattice, in file order. Top-level unions and groups are already opened.
+    pub objects: Vec<Object>,
+    /// Materials, indexed by [`MaterialId`].
+    pub materials: Vec<Material>,
+    /// Lights in file order. Empty: the default lights ([`Light::defaults`]) are used.
+    pub lights: Vec<Light>,
+    /// Named views in file order. Empty: the scene is framed from its bounds.
+    pub views: Vec<Camera>,
+    /// Ambient light, background and depth constant.
+    pub world: World,
+    /// What the reader left out or took differently, one sentence each, for the person who looks.
+    pub notes: Vec<String>,
+}
+
+/// One object of the lattice.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Object {
+    /// The name given by `object("…")`.
+    pub name: Option<String>,
+    /// What it is made of.
+    pub solid: Solid,
+}
+
+/// A CSG expression. Its primitives are numbered in file order, which decides which of two coincident
+/// surfaces shows.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Solid {
+    /// One primitive.
+    Primitive(Primitive),
+    /// In any of these. Empty: nothing.
+    Union(Vec<Solid>),
+    /// In all of these. Empty: nothing.
+    Intersection(Vec<Solid>),
+    /// In the first and in none of the others. Empty: nothing.
+    Difference(Vec<Solid>),
+}
+
+/// A shape, put into the world by an invertible map.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Primitive {
+    /// The unit shape.
+    pub shape: Shape,
+    /// From the shape's own coordinates to the world's. Finite and invertible.
+    pub map: DAffine3,
+    /// Its surface.
+    pub material: MaterialId,
+}
+
+/// A unit solid. Closed sets: the surface belongs to the solid.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// `x² + y² + z² ≤ 1`.
+    Sphere,
+    /// `x² + y² ≤ r(z)²`, `|z| ≤ 1`, with `r` linear from `bottom` at z = −1 to `top` at z = 1.
+    /// Both are in `0..=1` and the larger is exactly 1. Both 1 is a cylinder, one 0 a cone.
+    Frustum {
+        /// Radius at z = −1.
+        bottom: f64,
+        /// Radius at z = 1.
+        top: f64,
+    },
+    /// `|x|, |y|, |z| ≤ 1`.
+    Cube,
+    /// A convex solid of flat faces.
+    Facets(Arc<Facets>),
+    /// A closed solid of triangles, not necessarily convex: the points around which an odd number of
+    /// surfaces lie.
+    Mesh(Arc<Mesh>),
+}
+
+/// A bounded convex solid as an intersection of half-spaces.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Facets {
+    /// At least four; their intersection is bounded and has an interior.
+    pub faces: Vec<HalfSpace>,
+    /// The box of the solid, in its own coordinates.
+    pub bounds: Bounds,
+}
+
+/// The points `p` with `normal · p ≤ offset`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HalfSpace {
+    /// Outward; its length is 1 within rounding.
+    pub normal: DVec3,
+    /// Distance of the plane from the origin, along `normal`.
+    pub offset: f64,
+}
+
+/// A closed surface of triangles: every edge is shared by an even number of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mesh {
+    /// Corner points, in the mesh's own coordinates.
+    pub points: Vec<DVec3>,
+    /// Three indices into `points` each; either order of turning. No triangle names a point twice.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+/// An index into [`Scene::materials`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct MaterialId(pub u32);
+
+/// How a surface answers light: `docs/scene-language.md` has the equation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// The name given by `material(name = …)`.
+    pub name: Option<String>,
+    /// C: the colour of diffuse and ambient light, each channel in `0..=1`.
+    pub color: DVec3,
+    /// Diffuse share, in `0..=1`.
+    pub kd: f64,
+    /// Highlight share, in `0..=1`.
+    pub ks: f64,
+    /// Highlight exponent, above 0.
+    pub n: f64,
+    /// Mirror share, in `0..=1`.
+    pub kr: f64,
+    /// Share of light let through, in `0..=1`.
+    pub kt: f64,
+    /// Index of refraction, above 0.
+    pub index: f64,
+}
+
+impl Default for Material {
+    /// A light gray, slightly shining, opaque surface.
+    fn default() -> Self {
+        Self { name: None, color: DVec3::splat(0.9), kd: 0.8, ks: 0.2, n: 24.0, kr: 0.0, kt: 0.0, index: 1.0 }
+    }
+}
+
+/// A point of light.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Light {
+    /// Where it stands.
+    pub anchor: Anchor,
+    /// Ip: its strength, 0 or more.
+    pub intensity: f64,
+    /// Its colour, each channel in `0..=1`.
+    pub color: DVec3,
+}
+
+/// What a place is fixed to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Anchor {
+    /// A point of the world.
+    World(DVec3),
+    /// A point that moves with the eye: (right, up, back) in units of the distance from the eye to its target.
+    Eye(DVec3),
+}
+
+impl Light {
+    /// The lights of a scene that names none: a key light over the viewer's left shoulder and a weak fill
+    /// light on the right, both moving with the eye.
+    pub fn defaults() -> [Self; 2] {
+        [
+            Self { anchor: Anchor::Eye(DVec3::new(-0.6, 0.8, 0.2)), intensity: 0.85, color: DVec3::ONE },
+            Self { anchor: Anchor::Eye(DVec3::new(0.9, 0.1, 0.3)), intensity: 0.2, color: DVec3::ONE },
+        ]
+    }
+}
+
+/// A view of the scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Camera {
+    /// The name given by `camera(name = …)`.
+    pub name: Option<String>,
+    /// The viewpoint.
+    pub eye: DVec3,
+    /// A point the eye looks at; not the eye itself.
+    pub target: DVec3,
+    /// Upwards in the picture; not along the line of sight.
+    pub up: DVec3,
+    /// Full angles across and down, in degrees, each inside `0 < angle < 180`.
+    pub field: [f64; 2],
+    /// Divides the tangents of both half angles; above 0.
+    pub zoom: f64,
+}
+
+/// What belongs to no object.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct World {
+    /// Ia: light that comes from everywhere, each channel 0 or more.
+    pub ambient: DVec3,
+    /// What a ray sees that meets nothing, each channel 0 or more.
+    pub background: DVec3,
+    /// The constant of the depth term of eq. (2): the lights' part is divided by `R + k`. Absent: no division.
+    pub k: Option<f64>,
+}
+
+impl Default for World {
+    fn default() -> Self {
+        Self { ambient: DVec3::splat(0.1), background: DVec3::ZERO, k: None }
+    }
+}

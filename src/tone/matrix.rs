@@ -30,7 +30,7 @@ mod tests {
     #[test]
     fn a_level_lights_its_share_of_the_matrix() {
         for level in 0..=12 {
-            let share = f64::from(level) / 12.0;
+            let share = level as f64 / 12.0;
             let lit = (0..12).filter(|&k| INK_ONLY.threshold(k % 4, k / 4) < share).count();
             assert_eq!(lit, level);
         }

@@ -1,0 +1,3 @@
+mod brute;
+#[test]
+fn x() {}

@@ -2,6 +2,8 @@
 //! docs/paper.md names these tests.
 
 mod picture;
+mod rays;
+mod request;
 
 use picture::{Seen, look, look_at, shape};
 use ray13::math::{DAffine3, DMat3, DVec3};

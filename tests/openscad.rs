@@ -2,6 +2,8 @@
 //! be hit by one and missed by the other, and their depths agree to nine digits.
 
 mod brute;
+mod rays;
+mod request;
 mod scenery;
 
 use std::path::{Path, PathBuf};
@@ -10,36 +12,15 @@ use brute::Brute;
 use ray13::frame::Studio;
 use ray13::math::{DVec3, Size};
 use ray13::scene::{Camera, ReadOptions, Scene, read_file};
-use scenery::{embedded_scenes, request};
+use rays::directions;
+use request::request;
+use scenery::embedded_scenes;
 
 const DOTS: Size = Size::new(96, 64);
 
 /// OpenSCAD's examples are not part of this repository; they may stand beside it.
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/scenes/openscad")
-}
-
-/// The direction that each dot looks along, of length 1, in scan order: the picture geometry of the design, written
-/// out again.
-fn directions(camera: &Camera, dots: Size) -> Vec<DVec3> {
-    let forward = (camera.target - camera.eye).normalize();
-    let right = forward.cross(camera.up).normalize();
-    let up = right.cross(forward);
-    let tangent = |degrees: f64| libm::tan(degrees.to_radians() / 2.0) / camera.zoom;
-    let (mut across, mut down) = (tangent(camera.field[0]), tangent(camera.field[1]));
-    // The field asked for is contained: the other angle widens until dots are as wide as high.
-    let (width, height) = (f64::from(dots.width), f64::from(dots.height));
-    across = across.max(down * width / height);
-    down = down.max(across * height / width);
-    let mut all = Vec::new();
-    for j in 0..dots.height {
-        for i in 0..dots.width {
-            let x = (2.0 * (f64::from(i) + 0.5) / width - 1.0) * across;
-            let y = (1.0 - 2.0 * (f64::from(j) + 0.5) / height) * down;
-            all.push((forward + x * right + y * up).normalize());
-        }
-    }
-    all
 }
 
 /// The scene's own framing and the same distance from other sides: along an axis, where faces are edge on and

@@ -1,5 +1,6 @@
 //! Every view of every scene inside the program, as text that a person can look at and compare.
 
+mod request;
 mod scenery;
 
 use ray13::frame::{Frame, Studio};
@@ -7,7 +8,8 @@ use ray13::glyph::GlyphMode;
 use ray13::math::Size;
 use ray13::output::{ansi, levels, text};
 use ray13::scene::Camera;
-use scenery::{embedded_scenes, request};
+use request::request;
+use scenery::embedded_scenes;
 
 /// What `Write` functions of the library write, as text.
 fn written(write: impl FnOnce(&mut Vec<u8>) -> std::io::Result<()>) -> String {

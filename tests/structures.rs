@@ -1,12 +1,14 @@
 //! A lattice only saves work: with it and without it, every dot sees the same surface.
 
+mod request;
 mod scenery;
 
 use ray13::frame::{Frame, Studio};
 use ray13::math::{Bounds, DVec3, Size};
 use ray13::plan::StructureChoice;
 use ray13::scene::{Camera, Scene, Shape, Solid};
-use scenery::{embedded_scenes, request};
+use request::request;
+use scenery::embedded_scenes;
 
 const DOTS: Size = Size::new(80, 60);
 

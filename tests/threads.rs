@@ -1,12 +1,14 @@
 //! The same input gives the same bytes, on any number of threads.
 
+mod request;
 mod scenery;
 
 use std::process::Command;
 
 use ray13::frame::{Frame, Studio};
 use ray13::math::Size;
-use scenery::{embedded_scenes, request};
+use request::request;
+use scenery::embedded_scenes;
 
 /// One, an even number and more than divide the rows evenly.
 const THREADS: [usize; 3] = [1, 2, 7];

@@ -1,11 +1,12 @@
 //! Pictures of single solids, read back dot by dot: where each dot's ray met the solid, with which normal, how bright.
 
-use ray13::frame::{Frame, Request, Studio};
-use ray13::glyph::{GlyphMode, Palette};
-use ray13::math::{DAffine3, DVec3, Size};
-use ray13::plan::{Options, Shading};
+use ray13::frame::{Frame, Studio};
+use ray13::math::{DAffine3, DVec2, DVec3, Size};
+use ray13::plan::Shading;
 use ray13::scene::{Camera, Material, MaterialId, Object, Primitive, Scene, Shape, Solid};
-use ray13::tone::Tone;
+
+use crate::rays::directions;
+use crate::request::request;
 
 /// A picture and the eye that saw it.
 pub struct Seen {
@@ -39,17 +40,10 @@ pub fn draw(scene: Scene, width: u32, height: u32) -> Seen {
 }
 
 fn see(scene: Scene, eye: DVec3, dots: Size, shading: Shading) -> Seen {
-    let up = if eye.truncate() == ray13::math::DVec2::ZERO { DVec3::Y } else { DVec3::Z };
+    let up = if eye.truncate() == DVec2::ZERO { DVec3::Y } else { DVec3::Z };
     let camera = Camera { name: None, eye, target: DVec3::ZERO, up, field: [40.0, 40.0], zoom: 1.0 };
-    let request = Request {
-        camera: camera.clone(),
-        dots,
-        dot_aspect: 1.0,
-        options: Options { shading, ..Options::default() },
-        glyphs: GlyphMode::Shade,
-        palette: Palette::Dos,
-        tone: Tone::Lightness,
-    };
+    let mut request = request(camera.clone(), dots);
+    request.options.shading = shading;
     Seen { frame: Studio::new(scene).draw(&request), camera }
 }
 
@@ -66,20 +60,13 @@ impl Seen {
 
     /// Point, normal and light of every dot that meets the solid.
     pub fn lit_hits(&self) -> impl Iterator<Item = (DVec3, DVec3, f64)> {
-        let Size { width, height } = self.frame.light.size();
-        let forward = (self.camera.target - self.camera.eye).normalize();
-        let right = forward.cross(self.camera.up).normalize();
-        let up = right.cross(forward);
-        let tangent = |k: usize| libm::tan(self.camera.field[k].to_radians() / 2.0);
-        let aspect = f64::from(width) / f64::from(height);
-        let across = tangent(0).max(tangent(1) * aspect);
-        let down = across / aspect;
-        (0..height).flat_map(move |j| (0..width).map(move |i| (i, j))).filter_map(move |dot| {
-            let x = (2.0 * (f64::from(dot.0) + 0.5) / f64::from(width) - 1.0) * across;
-            let y = (1.0 - 2.0 * (f64::from(dot.1) + 0.5) / f64::from(height)) * down;
-            let depth = self.frame.depth[dot];
-            let point = self.camera.eye + (forward + x * right + y * up).normalize() * depth;
-            depth.is_finite().then(|| (point, self.frame.normal[dot], self.frame.light[dot]))
+        let directions = directions(&self.camera, self.frame.light.size());
+        directions.into_iter().enumerate().filter_map(|(place, toward)| {
+            let depth = self.frame.depth.values()[place];
+            let point = self.camera.eye + toward * depth;
+            depth
+                .is_finite()
+                .then(|| (point, self.frame.normal.values()[place], self.frame.light.values()[place]))
         })
     }
 }

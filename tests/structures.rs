@@ -105,7 +105,7 @@ fn the_lattice_changes_no_dot() {
     for (name, scene) in embedded_scenes() {
         let own = scene.views.clone().into_iter().map(|camera| ("own view", camera));
         let all: Vec<(&str, Camera)> = cameras(&scene).into_iter().chain(own).collect();
-        let studio = Studio::new(scene);
+        let studio = Studio::new(scene).unwrap();
         let mut walked = 0;
         for (view, camera) in all {
             let draw = |structure| {

@@ -3,6 +3,6 @@
 mod model;
 
 pub use model::{
-    Anchor, Camera, Facets, HalfSpace, Light, Material, MaterialId, Mesh, Object, Primitive, Scene, Shape, Solid,
-    World,
+    Anchor, Camera, Facets, HalfSpace, Light, Material, MaterialId, Mesh, Object, Primitive, Scene, Shape,
+    Solid, World,
 };

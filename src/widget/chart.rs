@@ -113,12 +113,15 @@ impl FlowChart {
             Stage::Csg => mean(counts.csg_evaluations),
             Stage::Shade => self.shading.map_or_else(
                 || counted(counts.primary_hits),
-                |shading| Line { count: format!("eq. ({})", shading.number()), busy: counts.primary_hits > 0 },
+                |shading| Line {
+                    count: format!("eq. ({})", shading.number()),
+                    busy: counts.primary_hits > 0,
+                },
             ),
             Stage::Dither => Line { count: "13".to_owned(), busy: rays > 0 },
-            Stage::Display => self
-                .bytes
-                .map_or_else(Line::idle, |bytes| Line { count: figures::bytes(bytes), busy: true }),
+            Stage::Display => {
+                self.bytes.map_or_else(Line::idle, |bytes| Line { count: figures::bytes(bytes), busy: true })
+            }
         }
     }
 
@@ -138,7 +141,8 @@ impl Line {
 /// A bar in steps of half a column. A stage that took any time shows at least one step.
 fn bar(share: f64, columns: u16) -> String {
     let whole = usize::from(columns) * 2;
-    let steps = (share * whole as f64).round().clamp(if share > 0.0 { 1.0 } else { 0.0 }, whole as f64) as usize;
+    let steps =
+        (share * whole as f64).round().clamp(if share > 0.0 { 1.0 } else { 0.0 }, whole as f64) as usize;
     let mut bar = "█".repeat(steps / 2);
     bar.push_str(if steps % 2 == 1 { "▌" } else { "" });
     bar
@@ -215,10 +219,8 @@ mod tests {
 
     #[test]
     fn each_stage_has_its_count_and_its_share() {
-        let chart = FlowChart::new(&frame())
-            .field([40.0, 25.0])
-            .shading(Shading::Phong)
-            .sent(1_946, Duration::ZERO);
+        let chart =
+            FlowChart::new(&frame()).field([40.0, 25.0]).shading(Shading::Phong).sent(1_946, Duration::ZERO);
         let (buffer, lines) = drawn(&chart, 24, 11);
         assert_eq!(
             lines,

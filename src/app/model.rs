@@ -11,6 +11,7 @@ use crate::glyph::GlyphMode;
 use crate::math;
 use crate::plan::Shading;
 use crate::scene::Camera;
+use crate::view::{Lens, Picture};
 
 /// Width of a cell divided by its height, where the terminal does not say.
 const CELL_ASPECT: f64 = 0.5;
@@ -145,6 +146,14 @@ impl Model {
             glyphs: self.settings.glyphs,
             palette: self.settings.palette,
             tone: self.settings.tone,
+        })
+    }
+
+    /// The field of the picture, zoomed and widened to its shape: full angles across and down, in degrees.
+    pub fn field(&self) -> [f64; 2] {
+        self.request().map_or(self.camera.field, |request| {
+            let picture = Picture { dots: request.dots, dot_aspect: request.dot_aspect };
+            Lens::new(&self.camera, &picture).field()
         })
     }
 

@@ -1,6 +1,6 @@
 //! How the keys move the camera: orbit about the target, fly with it, zoom. Every move keeps the camera valid.
 
-use libm::{atan, atan2, cos, hypot, sin, tan};
+use libm::{atan2, cos, hypot, sin, tan};
 
 use crate::math::DVec3;
 use crate::scene::Camera;
@@ -63,11 +63,6 @@ pub fn zoom(camera: &Camera, factor: f64) -> Camera {
     Camera { zoom, ..camera.clone() }
 }
 
-/// The field as zoomed: full angles across and down, in degrees.
-pub fn zoomed_field(camera: &Camera) -> [f64; 2] {
-    camera.field.map(|angle| 2.0 * atan(half_tangent(angle) / camera.zoom).to_degrees())
-}
-
 /// From the eye to the target.
 pub fn distance(camera: &Camera) -> f64 {
     length(camera.target - camera.eye)
@@ -124,6 +119,11 @@ mod tests {
             field: [40.0, 25.0],
             zoom: 1.0,
         }
+    }
+
+    /// Half tangents of the field as zoomed.
+    fn tangents(camera: &Camera) -> [f64; 2] {
+        camera.field.map(|angle| half_tangent(angle) / camera.zoom)
     }
 
     fn near(a: f64, b: f64) -> bool {
@@ -183,12 +183,12 @@ mod tests {
     #[test]
     fn zoom_divides_both_tangents_alike_between_its_limits() {
         let near_by = (0..4).fold(front(), |camera, _| zoom(&camera, ZOOM_STEP));
-        let [across, down] = zoomed_field(&near_by).map(half_tangent);
+        let [across, down] = tangents(&near_by);
         assert!(near(across * 2.0, half_tangent(40.0)) && near(down * 2.0, half_tangent(25.0)));
         let widest = (0..100).fold(front(), |camera, _| zoom(&camera, 1.0 / ZOOM_STEP));
-        assert!(near(zoomed_field(&widest)[0], 170.0));
+        assert!(near(tangents(&widest)[0], half_tangent(170.0)));
         let nearest = (0..100).fold(front(), |camera, _| zoom(&camera, ZOOM_STEP));
-        assert!(near(zoomed_field(&nearest)[0], 0.1));
+        assert!(near(tangents(&nearest)[0], half_tangent(0.1)));
         let beyond = Camera { field: [179.0, 25.0], ..front() };
         assert_eq!(zoom(&beyond, 1.0 / ZOOM_STEP).zoom, 1.0);
     }

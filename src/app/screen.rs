@@ -67,7 +67,7 @@ fn draw_panels(model: &Model, shown: Option<&Shown>, panels: &Panels, theme: &Th
     chart.render(panels.chart, buffer);
     if let Some(shown) = shown {
         FlowChart::new(&shown.frame)
-            .field(motion::zoomed_field(&model.camera))
+            .field(model.field())
             .shading(model.settings.options.shading)
             .sent(shown.bytes, shown.display)
             .styles(theme.text, theme.dim)
@@ -139,7 +139,7 @@ fn status(model: &Model, shown: Option<&Shown>) -> String {
     let digits = decimals(motion::distance(camera));
     let [x, y, z] = [x, y, z].map(|coordinate| length(coordinate, digits));
     let [azimuth, elevation] = motion::direction(camera).map(tenths);
-    let [across, down] = motion::zoomed_field(camera).map(tenths);
+    let [across, down] = model.field().map(tenths);
     let view = format!(" EYE {x} {y} {z}  DIR {azimuth} {elevation}  FIELD {across}×{down}");
     shown.map_or(view.clone(), |shown| {
         let ms = shown.total_ms();

@@ -1,0 +1,396 @@
+//! What the command `ray13` promises to a shell: exit codes, which stream, and no half-written files.
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Command, Output, Stdio};
+
+/// A folder of its own for each test, empty.
+fn folder(test: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("command_line").join(test);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn ray13() -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_ray13"));
+    command.stdin(Stdio::null()).env_remove("NO_COLOR");
+    command
+}
+
+fn run(arguments: &[&str]) -> Output {
+    ray13().args(arguments).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).expect("text")
+}
+
+/// Exit code 0, nothing on standard error; gives standard output.
+#[track_caller]
+fn done(output: &Output) -> Vec<u8> {
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert_eq!(text(&output.stderr), "");
+    output.stdout.clone()
+}
+
+/// An exit code with a message, nothing on standard output; gives the message.
+#[track_caller]
+fn fails(output: &Output, code: i32) -> String {
+    let message = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{message}");
+    assert_eq!(text(&output.stdout), "");
+    assert!(!message.trim().is_empty(), "an error says nothing");
+    assert!(!message.contains("panicked"), "{message}");
+    message
+}
+
+const BALL: &str = "sphere(1);\n";
+
+/// A file of a test's folder that holds `contents`.
+fn scene(test: &str, contents: &str) -> (PathBuf, String) {
+    let folder = folder(test);
+    let file = folder.join("given.scene");
+    fs::write(&file, contents).unwrap();
+    (folder, file.to_str().unwrap().to_owned())
+}
+
+mod scenes {
+    use super::*;
+
+    #[test]
+    fn lists_the_embedded_scenes() {
+        let list = text(&done(&run(&["scenes"])));
+        for name in ["hanyang", "die", "bolt", "temple"] {
+            assert!(
+                list.lines().any(|line| line.split_whitespace().next() == Some(name)),
+                "{name} in {list}"
+            );
+        }
+    }
+
+    #[test]
+    fn prints_each_as_a_file_that_can_be_read() {
+        let folder = folder("prints_each");
+        for name in ["hanyang", "die", "bolt", "temple"] {
+            let file = folder.join(format!("{name}.scene"));
+            fs::write(&file, done(&run(&["scenes", name]))).unwrap();
+            done(&run(&["check", file.to_str().unwrap()]));
+        }
+    }
+
+    #[test]
+    fn knows_when_there_is_no_such_scene() {
+        let message = fails(&run(&["scenes", "hanjang"]), 2);
+        assert!(message.contains("hanyang"), "the nearest name is not offered: {message}");
+    }
+}
+
+mod a_still {
+    use super::*;
+
+    #[test]
+    fn is_printed_where_output_is_no_terminal() {
+        let (_, file) = scene("no_terminal", BALL);
+        for arguments in [&[file.as_str()][..], &[]] {
+            let picture = text(&done(&run(arguments)));
+            assert!(picture.lines().count() > 5, "{picture}");
+            assert!(picture.contains(|c| "░▒▓█".contains(c)), "{picture}");
+        }
+    }
+
+    #[test]
+    fn has_the_size_asked_for() {
+        let (_, file) = scene("size", BALL);
+        let cells = text(&done(&run(&["render", &file, "--cells", "30x12", "--format", "txt"])));
+        assert_eq!(cells.lines().map(|line| line.chars().count()).collect::<Vec<_>>(), [30; 12]);
+        let dots = text(&done(&run(&["render", &file, "--dots", "30x12", "--format", "levels"])));
+        assert_eq!(dots.lines().map(str::len).collect::<Vec<_>>(), [30; 12]);
+        assert!(dots.chars().all(|c| "0123456789ABC\n".contains(c)), "{dots}");
+    }
+
+    #[test]
+    fn comes_in_every_format() {
+        let (_, file) = scene("formats", BALL);
+        let format = |name| done(&run(&["render", &file, "--dots", "20x16", "--format", name]));
+        assert!(format("png").starts_with(b"\x89PNG\r\n\x1a\n"));
+        assert!(format("pfm").starts_with(b"Pf\n20 16\n-1"));
+        assert!(format("ans").contains(&0x1b));
+        assert!(!format("txt").contains(&0x1b));
+        assert!(!format("levels").contains(&0x1b));
+    }
+
+    #[test]
+    fn holds_the_channel_asked_for() {
+        let (_, file) = scene("channels", BALL);
+        let channel = |name| {
+            let view = ["--eye", "0,-5,0", "--target", "0,0,0", "--up", "0,0,1"];
+            let size = ["--dots", "9x9", "--format", "pfm", "--channel", name];
+            done(&run(&[&["render", &file][..], &size, &view].concat()))
+        };
+        for (name, kind, channels) in
+            [("light", "Pf", 1), ("depth", "Pf", 1), ("normal", "PF", 3), ("object", "Pf", 1)]
+        {
+            let bytes = channel(name);
+            assert!(bytes.starts_with(kind.as_bytes()), "{name}");
+            let header = bytes.iter().enumerate().filter(|(_, b)| **b == b'\n').nth(2).unwrap().0 + 1;
+            let values: Vec<f32> =
+                bytes[header..].chunks(4).map(|b| f32::from_le_bytes(b.try_into().unwrap())).collect();
+            assert_eq!(values.len(), 81 * channels);
+            // The dot in the middle looks straight at the sphere of radius 1, five away.
+            let middle = &values[40 * channels..41 * channels];
+            let corner = &values[..channels];
+            match name {
+                "depth" => assert_eq!((middle, corner), (&[4.0][..], &[f32::INFINITY][..])),
+                "normal" => assert_eq!((middle, corner), (&[0.0, -1.0, 0.0][..], &[0.0; 3][..])),
+                "object" => assert_eq!((middle, corner), (&[1.0][..], &[0.0][..])),
+                _ => assert!(middle[0] > corner[0]),
+            }
+        }
+    }
+
+    #[test]
+    fn goes_to_a_file() {
+        let (folder, file) = scene("to_a_file", BALL);
+        let out = folder.join("picture.png");
+        let printed = done(&run(&["render", &file, "--format", "png"]));
+        assert!(done(&run(&["render", &file, "--format", "png", "-o", out.to_str().unwrap()])).is_empty());
+        assert_eq!(fs::read(out).unwrap(), printed);
+    }
+
+    #[test]
+    fn follows_every_option() {
+        let (_, file) = scene("options", "world(k = 5); cube(2, center = true);\nsphere(1.3);\n");
+        let plain = done(&run(&["render", &file, "--cells", "40x20", "--format", "ans"]));
+        let options: [&[&str]; 13] = [
+            &["--eye", "9,9,9"],
+            &["--target", "1,0,0"],
+            &["--up", "1,0,0"],
+            &["--field", "70x50"],
+            &["--zoom", "2"],
+            &["--shading", "1"],
+            &["--shading", "2"],
+            &["--samples", "3"],
+            &["--glyphs", "cp437"],
+            &["--glyphs", "shade"],
+            &["--glyphs", "ascii"],
+            &["--palette", "mono"],
+            &["--tone", "even"],
+        ];
+        for option in options {
+            let picture =
+                done(&run(&[&["render", &file, "--cells", "40x20", "--format", "ans"][..], option].concat()));
+            assert_ne!(picture, plain, "{option:?} changes nothing");
+        }
+        for option in
+            [["--structure", "none"], ["--structure", "lattice"], ["--threads", "3"], ["--shading", "3"]]
+        {
+            let picture =
+                done(
+                    &run(&[&["render", &file, "--cells", "40x20", "--format", "ans"][..], &option].concat()),
+                );
+            assert_eq!(picture, plain, "{option:?} changes the picture");
+        }
+    }
+
+    #[test]
+    fn leaves_shadows_out_when_asked() {
+        let shadow = "light(at = [0, 0, 9]); sphere(1);\ntranslate([-9, -9, -3]) cube([18, 18, 1]);\n";
+        let (_, file) = scene("shadows", shadow);
+        let view = ["render", &file, "--eye", "9,-9,9", "--target", "0,0,-2", "--format", "levels"];
+        let with = done(&run(&view));
+        assert_ne!(done(&run(&[&view[..], &["--no-shadows"]].concat())), with);
+    }
+
+    #[test]
+    fn takes_a_view_by_its_name() {
+        let views =
+            "camera(name = \"a\", eye = [0, -9, 3]);\ncamera(name = \"b\", eye = [9, 0, 3]);\ncube(2);\n";
+        let (_, file) = scene("views", views);
+        let view = |name| run(&["render", &file, "--view", name, "--format", "levels"]);
+        assert_ne!(done(&view("a")), done(&view("b")));
+        let message = fails(&view("c"), 2);
+        assert!(message.contains('a') && message.contains('b'), "{message}");
+    }
+
+    #[test]
+    fn counts_what_it_did() {
+        let (_, file) = scene("stats", "difference() { cube(2, center = true); sphere(1.2); }\n");
+        let arguments = ["render", &file, "--dots", "30x20", "--format", "levels", "--stats", "json"];
+        let output = run(&arguments);
+        assert!(output.status.success());
+        let stats: serde_json::Value =
+            serde_json::from_slice(&output.stderr).expect("JSON on standard error");
+        let keys = "primary_rays primary_hits shadow_rays shadow_hits secondary_rays secondary_hits cells_visited \
+                    primitive_tests truncated_rays build_ms trace_ms stage_ms threads engine structure";
+        for key in keys.split_whitespace() {
+            assert!(stats.get(key).is_some(), "{key} is missing in {stats}");
+        }
+        assert_eq!(stats["primary_rays"], 600);
+        let hits = stats["primary_hits"].as_u64().unwrap();
+        assert!(0 < hits && hits < 600, "{stats}");
+        assert!(stats["primitive_tests"].as_u64().unwrap() > 0, "{stats}");
+        for stage in ray13::stage::Stage::ALL {
+            let found =
+                stats["stage_ms"].as_object().unwrap().keys().any(|k| k.eq_ignore_ascii_case(stage.name()));
+            assert!(found, "{} is missing in {stats}", stage.name());
+        }
+        // The picture itself is not disturbed.
+        assert_eq!(output.stdout, done(&run(&arguments[..6])));
+        let words = run(&[&arguments[..7], &["text"]].concat());
+        assert!(words.status.success() && text(&words.stderr).contains("600"), "{}", text(&words.stderr));
+    }
+}
+
+mod bad_input {
+    use super::*;
+
+    #[test]
+    fn has_exit_code_2_and_a_place() {
+        let cases = [
+            ("word", "sphere(1);\nsphera(2);\n", "sphere"),
+            ("argument", "sphere(1);\nsphere(radius = 2);\n", ":2:"),
+            ("braces", "sphere(1);\nunion() { sphere(2);\n", ":2:"),
+            ("singular", "sphere(1);\nscale([1, 0, 1]) sphere(2);\n", ":2:"),
+            ("empty", "", "error"),
+        ];
+        for (name, contents, says) in cases {
+            let (folder, file) = scene(&format!("bad_{name}"), contents);
+            let out = folder.join("out.txt");
+            let message = fails(&run(&["render", &file, "-o", out.to_str().unwrap()]), 2);
+            assert!(message.contains(says), "{name}: {says} is not in\n{message}");
+            assert!(!out.exists(), "{name}: a file was left behind");
+            assert_eq!(fs::read_dir(&folder).unwrap().count(), 1, "{name}: something was left behind");
+            fails(&run(&["check", &file]), 2);
+            fails(&run(&[&file]), 2);
+        }
+    }
+
+    #[test]
+    fn is_also_a_file_that_is_not_there_or_no_text() {
+        let (folder, _) = scene("no_file", BALL);
+        fails(&run(&["check", folder.join("nothing.scene").to_str().unwrap()]), 2);
+        fails(&run(&["check", folder.to_str().unwrap()]), 2);
+        let bytes = folder.join("bytes.scene");
+        fs::write(&bytes, b"sphere(1);\xff\xfe").unwrap();
+        fails(&run(&["check", bytes.to_str().unwrap()]), 2);
+    }
+
+    #[test]
+    fn is_deep_nesting_without_a_crash() {
+        let deep = format!("{}sphere(1);{}", "union() { ".repeat(100_000), "}".repeat(100_000));
+        let (_, file) = scene("deep", &deep);
+        fails(&run(&["check", &file]), 2);
+    }
+
+    #[test]
+    fn can_be_skipped_where_openscad_is_larger_than_ray13() {
+        let (_, file) = scene("skip", "sphere(1);\nhull() { cube(1); sphere(1); }\n");
+        assert!(fails(&run(&["render", &file, "--format", "txt"]), 2).contains("hull"));
+        let skipped = run(&["render", &file, "--format", "txt", "--skip-unsupported"]);
+        assert!(skipped.status.success());
+        assert!(!skipped.stdout.is_empty());
+        assert!(text(&skipped.stderr).contains("hull"), "what was left out is not said");
+    }
+}
+
+mod bad_arguments {
+    use super::*;
+
+    #[test]
+    fn have_exit_code_2() {
+        let (_, file) = scene("arguments", BALL);
+        let cases: [&[&str]; 19] = [
+            &["render"],
+            &["rendre", &file],
+            &["--cels", "80x25", &file],
+            &["render", &file, "--cells", "80"],
+            &["render", &file, "--cells", "0x25"],
+            &["render", &file, "--dots", "99999999x99999999"],
+            &["render", &file, "--dots", "-3x5"],
+            &["render", &file, "--eye", "1,2"],
+            &["render", &file, "--eye", "1,2,nan"],
+            &["render", &file, "--eye", "1,2,3", "--target", "1,2,3"],
+            &["render", &file, "--field", "180x40"],
+            &["render", &file, "--field", "0x40"],
+            &["render", &file, "--zoom", "0"],
+            &["render", &file, "--zoom", "inf"],
+            &["render", &file, "--samples", "0"],
+            &["render", &file, "--shading", "7"],
+            &["render", &file, "--format", "jpeg"],
+            &["render", &file, "--glyphs", "block"],
+            &["render", &file, "--structure", "octree"],
+        ];
+        for arguments in cases {
+            fails(&run(arguments), 2);
+        }
+    }
+
+    #[test]
+    fn do_not_include_the_request_for_help() {
+        for arguments in [&["--help"][..], &["--version"], &["render", "--help"]] {
+            assert!(!done(&run(arguments)).is_empty());
+        }
+    }
+}
+
+mod bad_output {
+    use super::*;
+
+    #[test]
+    fn has_exit_code_1_and_leaves_nothing() {
+        let (folder, file) = scene("unwritable", BALL);
+        let nowhere = folder.join("missing/picture.png");
+        fails(&run(&["render", &file, "--format", "png", "-o", nowhere.to_str().unwrap()]), 1);
+        fails(&run(&["render", &file, "--format", "png", "-o", folder.to_str().unwrap()]), 1);
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 1, "something was left behind");
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn is_a_full_disk() {
+        let (_, file) = scene("full", BALL);
+        for arguments in
+            [&["render", &file, "--format", "ans"][..], &["scenes"], &["scenes", "die"], &[&file]]
+        {
+            let full = fs::File::options().write(true).open("/dev/full").unwrap();
+            let output = ray13().args(arguments).stdout(full).output().unwrap();
+            fails(&output, 1);
+        }
+        fails(&run(&["render", &file, "-o", "/dev/full"]), 1);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn is_not_a_reader_that_has_seen_enough() {
+        let (_, file) = scene("pipe", BALL);
+        // Larger than the buffer of a pipe, so that writing meets the closed end.
+        let mut child = ray13()
+            .args(["render", &file, "--dots", "600x400", "--format", "levels"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        let message = text(&output.stderr);
+        assert!(!message.contains("panicked"), "{message}");
+        assert_ne!(output.status.code(), Some(101));
+        assert_ne!(output.status.code(), Some(2), "{message}");
+    }
+}
+
+#[test]
+fn bench_measures() {
+    let (_, file) = scene("bench", BALL);
+    let table = text(&done(&run(&["bench", &file, "--dots", "16x16"])));
+    assert!(table.contains("ms"), "{table}");
+    let json = done(&run(&["bench", &file, "--dots", "16x16", "--json"]));
+    let figures: serde_json::Value = serde_json::from_slice(&json).expect("JSON");
+    for key in
+        ["frame_ms_min", "frame_ms_median", "rays_per_second", "bytes_per_frame", "objects", "primitives"]
+    {
+        assert!(figures.get(key).is_some(), "{key} is missing in {figures}");
+    }
+    assert_eq!((&figures["objects"], &figures["primitives"]), (&1.into(), &1.into()));
+}

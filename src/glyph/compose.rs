@@ -18,7 +18,7 @@ pub fn compose(light: &Grid<f64>, mode: GlyphMode, palette: Palette, tone: Tone)
             shade(tone.level(light[(column, row)]), palette, column, row)
         }),
         GlyphMode::Ascii => light.map(|&light| ascii(tone.level(light))),
-        GlyphMode::Blocks => BestFit::new(BLOCKS, palette, false).compose(light, tone),
-        GlyphMode::Cp437 => BestFit::new(HALVES, palette, true).compose(light, tone),
+        GlyphMode::Blocks => BestFit::new(BLOCKS, palette.papers(), palette).compose(light, tone),
+        GlyphMode::Cp437 => BestFit::new(HALVES, palette.dim_papers(), palette).compose(light, tone),
     }
 }

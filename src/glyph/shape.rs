@@ -29,6 +29,11 @@ impl Shape {
         }
         Self { glyph, mask }
     }
+
+    /// Each dot's own of two values.
+    pub fn dots<T: Copy>(self, ink: T, paper: T) -> [T; DOT_COUNT] {
+        std::array::from_fn(|dot| if self.mask >> dot & 1 == 1 { ink } else { paper })
+    }
 }
 
 /// The shapes of code page 437: upright and level halves.

@@ -43,7 +43,9 @@ fn blurred(light: &Grid<f64>, sigma: f64) -> Grid<f64> {
     let mut weights: Vec<f64> =
         (-reach..=reach).map(|n| libm::exp(-((n * n) as f64) / (2.0 * sigma * sigma))).collect();
     let sum: f64 = weights.iter().sum();
-    weights.iter_mut().for_each(|weight| *weight /= sum);
+    for weight in &mut weights {
+        *weight /= sum;
+    }
     let Size { width, height } = light.size();
     let near = |at: u32, n: i64, end: u32| (i64::from(at) + n).clamp(0, i64::from(end) - 1) as u32;
     let across = Grid::from_fn(light.size(), |x, y| {

@@ -78,7 +78,8 @@ impl<'a> Brute<'a> {
         Self { scene, pieces, smallest: size * COINCIDENT }
     }
 
-    /// The first point in front of the origin where the ray enters, or leaves, the union of all objects.
+    /// The first point in front of the origin where the ray enters or leaves an object. From outside all of them that
+    /// is where it enters their union; from inside one it may be an object that lies within it.
     pub fn hit(&self, origin: DVec3, toward: DVec3) -> Option<Hit> {
         let (o, d) = (point(origin), direction(toward));
         let mut crossings = Vec::new();
@@ -103,7 +104,7 @@ impl<'a> Brute<'a> {
             let here = crossings[end - 1].t;
             let next = crossings.get(end).map_or(here + Wide::from(1.0), |next| next.t);
             let after = self.inside(&crossings, &along(&o, &d, (here + next) * half));
-            if self.in_any(&before) != self.in_any(&after) {
+            if self.in_objects(&before) != self.in_objects(&after) {
                 return Some(self.surface(&crossings[at..end], &before, &after, toward));
             }
             before = after;
@@ -131,11 +132,7 @@ impl<'a> Brute<'a> {
         self.scene.objects.iter().map(|object| member(&object.solid, &mut rest)).collect()
     }
 
-    fn in_any(&self, inside: &[bool]) -> bool {
-        self.in_objects(inside).contains(&true)
-    }
-
-    /// The object and the surface that show at a place where the union changes: the first object that changes there,
+    /// The object and the surface that show at a place where objects change: the first object that changes there,
     /// and the first of its pieces whose crossing makes a difference.
     fn surface(&self, here: &[Crossing], before: &[bool], after: &[bool], toward: DVec3) -> Hit {
         let changes =

@@ -1,6 +1,7 @@
 //! A character cell and the choices that decide what may stand in it.
 
 use crate::math::Size;
+use crate::tone::GRAYS;
 
 /// One character of the screen with its two colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -26,6 +27,31 @@ pub enum Paint {
     LightGray,
     /// Attribute 15.
     White,
+}
+
+impl Paint {
+    /// The linear light, 0 to 1, of one of the four grays; `None` for the terminal's own colours, which nothing knows.
+    pub const fn light(self) -> Option<f64> {
+        match self {
+            Self::Terminal => None,
+            Self::Black => Some(GRAYS[0]),
+            Self::DarkGray => Some(GRAYS[1]),
+            Self::LightGray => Some(GRAYS[2]),
+            Self::White => Some(GRAYS[3]),
+        }
+    }
+}
+
+impl Cell {
+    /// The light of the ink. The terminal's own ink counts as white.
+    pub fn ink_light(self) -> f64 {
+        self.ink.light().unwrap_or(1.0)
+    }
+
+    /// The light of the paper. The terminal's own paper counts as black.
+    pub fn paper_light(self) -> f64 {
+        self.paper.light().unwrap_or(0.0)
+    }
 }
 
 /// Which characters draw the picture.

@@ -1,1 +1,102 @@
-//! (to be written)
+//! Stages 2, 5 and 6, LATTICE, CLIP and CELL: the world cut into cells at every object's bounds, and rays walking
+//! through them.
+//!
+//! The paper's lists, by its own words: the lattice-coordinate lists are [`Planes`]; the lattice list (cell number
+//! → object pointers) is [`Lattice::objects_in`]; the object list is [`crate::solid::Assembly::objects`], each
+//! composite one with its [`SubLattice`]; the sub-object list is [`crate::solid::Assembly::primitives`].
+
+mod clip;
+mod planes;
+mod sub;
+
+pub use clip::{Outcode, entry};
+pub use planes::{Planes, SLACK, Step};
+pub use sub::SubLattice;
+
+use crate::solid::{Assembly, Body};
+
+/// The most cells, and pointers to objects from them, that a lattice may have: 80 MB.
+pub const BUDGET: f64 = 1e7;
+
+/// The paper's lattice over a whole scene.
+#[derive(Clone, Debug)]
+pub struct Lattice {
+    planes: Planes,
+    /// By cell: where its objects start in `pointers`; one more than there are cells.
+    starts: Vec<u32>,
+    pointers: Vec<u32>,
+    subs: Vec<Option<SubLattice>>,
+}
+
+/// A lattice would need more than [`BUDGET`].
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("the lattice would have {cells:.2e} cells and {pointers:.2e} object pointers, more than its budget of {BUDGET:.0e} in all")]
+pub struct OverBudget {
+    /// Cells that it would have.
+    pub cells: f64,
+    /// Pointers from cells to objects that it would have.
+    pub pointers: f64,
+}
+
+impl Lattice {
+    /// Cuts the world of an assembly.
+    pub fn new(assembly: &Assembly) -> Result<Self, OverBudget> {
+        let planes = Planes::new(assembly.objects.iter().map(|o| o.bounds), &assembly.limit);
+        let ranges: Vec<_> = assembly.objects.iter().map(|o| planes.reach(&o.bounds)).collect();
+        let cells = planes.cells();
+        let pointers: f64 =
+            ranges.iter().map(|r| r.iter().map(|(from, to)| (to - from + 1) as f64).product::<f64>()).sum();
+        if cells + pointers > BUDGET {
+            return Err(OverBudget { cells, pointers });
+        }
+        let mut starts = vec![0_u32; cells as usize + 1];
+        for_each_cell(&planes, &ranges, |_, cell| starts[cell + 1] += 1);
+        for cell in 1..starts.len() {
+            starts[cell] += starts[cell - 1];
+        }
+        let mut ends = starts.clone();
+        let mut list = vec![0; pointers as usize];
+        for_each_cell(&planes, &ranges, |object, cell| {
+            list[ends[cell] as usize] = object as u32;
+            ends[cell] += 1;
+        });
+        let subs = sub_lattices(assembly);
+        Ok(Self { planes, starts, pointers: list, subs })
+    }
+
+    /// The objects that reach into a cell, ascending.
+    #[inline]
+    pub fn objects_in(&self, cell: usize) -> &[u32] {
+        &self.pointers[self.starts[cell] as usize..self.starts[cell + 1] as usize]
+    }
+
+    /// The lattice-coordinate lists.
+    pub fn planes(&self) -> &Planes {
+        &self.planes
+    }
+
+    /// The sub-lattice of an object, where it has one.
+    pub fn sub(&self, object: usize) -> Option<&SubLattice> {
+        self.subs[object].as_ref()
+    }
+}
+
+fn for_each_cell(planes: &Planes, ranges: &[[(usize, usize); 3]], mut f: impl FnMut(usize, usize)) {
+    for (object, [x, y, z]) in ranges.iter().enumerate() {
+        for k in z.0..=z.1 {
+            for j in y.0..=y.1 {
+                for i in x.0..=x.1 {
+                    f(object, planes.number([i, j, k]));
+                }
+            }
+        }
+    }
+}
+
+fn sub_lattices(assembly: &Assembly) -> Vec<Option<SubLattice>> {
+    let of = |object: &crate::solid::Object| match &object.body {
+        Body::Single(_) => None,
+        Body::Composite { tree, .. } => SubLattice::new(tree, &assembly.primitives, &object.bounds),
+    };
+    assembly.objects.iter().map(of).collect()
+}

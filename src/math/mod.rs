@@ -1,9 +1,13 @@
-//! Vectors, boxes and grids: the arithmetic that every stage shares. All of it is f64; powers and
+//! Vectors, rays, boxes and grids: the arithmetic that every stage shares. All of it is f64; powers and
 //! trigonometry come from `libm`, so that every platform computes the same bits.
 
 mod bounds;
 mod grid;
+mod placement;
+mod ray;
 
 pub use bounds::Bounds;
 pub use glam::{DAffine3, DMat3, DVec2, DVec3};
 pub use grid::{Grid, Size};
+pub use placement::Placement;
+pub use ray::Ray;

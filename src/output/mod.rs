@@ -1,1 +1,9 @@
-//! (to be written)
+//! Stage 11, DISPLAY: cells, levels and light in, bytes out. Nothing here opens a file or prints; each function
+//! writes to what it is given, in pieces: give it a buffered writer. The only errors are the writer's own, and a
+//! PNG of no dots.
+
+mod cells;
+mod pictures;
+
+pub use cells::{ansi, text};
+pub use pictures::{levels, pfm_gray, pfm_vectors, png};

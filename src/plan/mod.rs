@@ -1,61 +1,94 @@
-//! What a picture requires: the scene, the view and the options, compiled.
+//! What a picture requires: the scene, the view and the options, compiled. What can not change the picture is
+//! left out here, once, and not asked about again for every dot.
 
-/// What the person asked for, beside the scene and the view.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Options {
-    /// The illumination model.
-    pub shading: Shading,
+mod options;
+
+pub use options::{Options, Shading, StructureChoice};
+
+use crate::math::DVec3;
+use crate::scene::{Anchor, Light, Scene};
+use crate::solid::{Assembly, Body};
+use crate::view::Lens;
+
+/// Everything that the later stages need to know.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Whether a lattice is wanted. Whether it can be had within its budget shows when it is built.
+    pub lattice: bool,
+    /// The constant of the depth term, in the scene's unit; absent where the division is left out.
+    pub depth: Option<f64>,
+    /// Whether any surface has a highlight that this shading model shows.
+    pub highlight: bool,
     /// Whether lights are tested for what stands before them.
     pub shadows: bool,
-    /// How space is cut into cells.
-    pub structure: StructureChoice,
-    /// Rays per dot along each axis; 1 or more. The light of a dot is their mean.
+    /// Whether lights have colours: if not, light is one gray channel, which is exact, for a gray light on a
+    /// coloured surface is as bright as on a gray one of the same luminance.
+    pub channels: Channels,
+    /// The lights, where they stand for this view, in the scene's coordinates. Those of no intensity are left out.
+    pub lamps: Vec<Lamp>,
+    /// Rays per dot along each axis.
     pub samples: u32,
-    /// Worker threads; 0 takes one per processor.
-    pub threads: usize,
 }
 
-impl Default for Options {
-    fn default() -> Self {
+/// How many channels of light are computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Channels {
+    /// The luminance.
+    Gray,
+    /// The three primaries.
+    Three,
+}
+
+/// A light in its place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lamp {
+    /// Where it stands, in the scene's coordinates.
+    pub at: DVec3,
+    /// Intensity times colour.
+    pub light: DVec3,
+}
+
+impl Plan {
+    /// Compiles one picture.
+    pub fn new(scene: &Scene, assembly: &Assembly, lens: &Lens, options: &Options) -> Self {
+        let phong = options.shading >= Shading::Phong;
+        let depth = scene.world.k.filter(|_| options.shading >= Shading::Depth);
+        let lamps: Vec<Lamp> = if scene.lights.is_empty() {
+            Light::defaults().iter().map(|light| lamp(light, lens)).collect()
+        } else {
+            scene.lights.iter().filter(|l| l.intensity > 0.0).map(|light| lamp(light, lens)).collect()
+        };
+        let grays = [scene.world.ambient, scene.world.background].into_iter().chain(lamps.iter().map(|l| l.light));
+        let gray = |c: DVec3| c.x == c.y && c.y == c.z;
+        let channels = if grays.into_iter().all(gray) { Channels::Gray } else { Channels::Three };
         Self {
-            shading: Shading::Phong,
-            shadows: true,
-            structure: StructureChoice::Auto,
-            samples: 1,
-            threads: 0,
+            lattice: wants_lattice(assembly, options.structure),
+            depth,
+            highlight: phong && !lamps.is_empty() && scene.materials.iter().any(|m| m.ks > 0.0),
+            shadows: options.shadows && !lamps.is_empty(),
+            channels,
+            lamps,
+            samples: options.samples.max(1),
         }
     }
 }
 
-/// The illumination models of the paper, by the number of their equation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Shading {
-    /// Eq. (1): ambient and diffuse light.
-    Lambert = 1,
-    /// Eq. (2): the depth term, in a scene that gives `world(k = …)`.
-    Depth = 2,
-    /// Eq. (3): the highlight.
-    Phong = 3,
-}
-
-impl Shading {
-    /// All models, in the paper's order.
-    pub const ALL: [Self; 3] = [Self::Lambert, Self::Depth, Self::Phong];
-
-    /// The number of the equation.
-    pub const fn number(self) -> u8 {
-        self as u8
+/// A lattice over one primitive or two would only add its own steps.
+fn wants_lattice(assembly: &Assembly, choice: StructureChoice) -> bool {
+    match choice {
+        StructureChoice::None => false,
+        StructureChoice::Lattice => true,
+        StructureChoice::Auto => {
+            assembly.objects.len() > 2
+                || assembly.objects.iter().any(|o| matches!(&o.body, Body::Composite { .. }))
+        }
     }
 }
 
-/// How space is cut into cells, as asked for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum StructureChoice {
-    /// Whatever suits the scene.
-    #[default]
-    Auto,
-    /// No structure: every ray is tested against every object.
-    None,
-    /// The paper's lattice.
-    Lattice,
+fn lamp(light: &Light, lens: &Lens) -> Lamp {
+    let at = match light.anchor {
+        Anchor::World(p) => p,
+        Anchor::Eye(p) => lens.place(p),
+    };
+    Lamp { at, light: light.intensity * light.color }
 }

@@ -45,6 +45,16 @@ pub enum Solid {
     Difference(Vec<Solid>),
 }
 
+impl Solid {
+    /// Calls `f` with each primitive, in file order.
+    pub fn visit<'a>(&'a self, f: &mut impl FnMut(&'a Primitive)) {
+        match self {
+            Self::Primitive(p) => f(p),
+            Self::Union(c) | Self::Intersection(c) | Self::Difference(c) => c.iter().for_each(|s| s.visit(f)),
+        }
+    }
+}
+
 /// A shape, put into the world by an invertible map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Primitive {
@@ -76,6 +86,17 @@ pub enum Shape {
     /// A closed solid of triangles, not necessarily convex: the points around which an odd number of
     /// surfaces lie.
     Mesh(Arc<Mesh>),
+}
+
+impl Shape {
+    /// A box around the shape, in its own coordinates.
+    pub fn bounds(&self) -> Bounds {
+        match self {
+            Self::Sphere | Self::Frustum { .. } | Self::Cube => Bounds::new(DVec3::NEG_ONE, DVec3::ONE),
+            Self::Facets(facets) => facets.bounds,
+            Self::Mesh(mesh) => Bounds::around(mesh.points.iter().copied()),
+        }
+    }
 }
 
 /// A bounded convex solid as an intersection of half-spaces.

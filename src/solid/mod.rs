@@ -1,1 +1,19 @@
-//! (to be written)
+//! Stages 7 and 8, SOLID and CSG: ray × primitive → interval, intervals × expression → hit, and an expression
+//! pruned to a box.
+
+mod assembly;
+mod ball;
+mod crossing;
+mod expression;
+mod facets;
+mod mesh;
+mod primitive;
+mod round;
+mod slabs;
+mod span;
+
+pub use assembly::{Assembly, AssemblyError, Body, Datum, Object};
+pub use crossing::{Crossing, Reach, Scratch, first_of_expression, first_of_span};
+pub use expression::{Child, Expression, Leaf, Pruned, Tree};
+pub use primitive::{Cover, Form, Primitive};
+pub use span::{Departure, End, ROUNDING, Span};

@@ -1,5 +1,15 @@
 //! Stage 10, DITHER: light in, levels 0 to 12 out.
 
+mod level;
+mod lightness;
+mod matrix;
+
+pub use level::{GRAYS, Level};
+pub use lightness::{light_of_lightness, light_of_srgb, lightness};
+pub use matrix::{INK_ONLY, Matrix};
+
+use level::{BORDERS, LIGHTS};
+
 /// How light becomes a level.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Tone {
@@ -8,4 +18,87 @@ pub enum Tone {
     Lightness,
     /// Even steps of 1/12 in light, as in 1986.
     Even,
+}
+
+impl Tone {
+    /// The light, 0 to 1, that the screen should show for a computed `light`, which is clamped to 0 to 1 here.
+    ///
+    /// [`Tone::Lightness`] changes nothing more. [`Tone::Even`] bends light by straight pieces, so that k/12 is
+    /// shown as the light of level k, and the borders between the even steps fall on the borders in lightness:
+    /// everything that comes after may then forget the tone. NaN, which no stage gives, stays NaN.
+    pub fn shown(self, light: f64) -> f64 {
+        let light = light.clamp(0.0, 1.0);
+        match self {
+            Self::Lightness => light,
+            Self::Even => {
+                let half_steps = light * 2.0 * f64::from(Level::MAX.get());
+                let below = half_steps as usize;
+                let (low, high) = (even_knot(below), even_knot(below + 1));
+                low + (high - low) * (half_steps - below as f64)
+            }
+        }
+    }
+
+    /// The level that shows `light` (0 to 1; clamped). A light midway between two takes the lighter one; NaN takes
+    /// level 0.
+    pub fn level(self, light: f64) -> Level {
+        Level::nearest(self.shown(light))
+    }
+}
+
+/// What is shown at `half_steps` / 24 under [`Tone::Even`]: a level's light, then the border above it, in turn.
+fn even_knot(half_steps: usize) -> f64 {
+    let level = half_steps / 2;
+    if half_steps % 2 == 0 { LIGHTS.get(level) } else { BORDERS.get(level) }.copied().unwrap_or(1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn each_level_is_its_own_nearest() {
+        for level in Level::all() {
+            assert_eq!(Tone::Lightness.level(level.light()), level);
+            assert_eq!(Tone::Even.level(f64::from(level.get()) / 12.0), level);
+            assert_eq!(Tone::Even.shown(f64::from(level.get()) / 12.0), level.light());
+        }
+    }
+
+    #[test]
+    fn light_outside_the_range_and_nan_have_a_level() {
+        for tone in [Tone::Lightness, Tone::Even] {
+            assert_eq!(tone.level(-1.0), Level::MIN);
+            assert_eq!(tone.level(f64::NEG_INFINITY), Level::MIN);
+            assert_eq!(tone.level(7.5), Level::MAX);
+            assert_eq!(tone.level(f64::INFINITY), Level::MAX);
+            assert_eq!(tone.level(f64::NAN), Level::MIN);
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn the_level_is_the_nearest_in_lightness(light in 0.0..=1.0) {
+            let chosen = Tone::Lightness.level(light);
+            let distance = |level: Level| (lightness(level.light()) - lightness(light)).abs();
+            let least = Level::all().map(distance).fold(f64::INFINITY, f64::min);
+            prop_assert!(distance(chosen) <= least + 1e-9);
+        }
+
+        #[test]
+        fn the_even_level_is_the_nearest_twelfth(light in 0.0..=1.0) {
+            let away = (f64::from(Tone::Even.level(light).get()) - light * 12.0).abs();
+            prop_assert!(away <= 0.5 + 1e-12);
+        }
+
+        #[test]
+        fn more_light_is_never_a_lower_level(a in 0.0..=1.0, b in 0.0..=1.0) {
+            let (low, high) = if a < b { (a, b) } else { (b, a) };
+            for tone in [Tone::Lightness, Tone::Even] {
+                prop_assert!(tone.shown(low) <= tone.shown(high));
+                prop_assert!(tone.level(low) <= tone.level(high));
+            }
+        }
+    }
 }

@@ -1,1 +1,9 @@
-//! (to be written)
+//! Stages 3 and 4, VIEW and RAY: camera, field, zoom and picture size in; rays, in tiles, out.
+
+mod framing;
+mod lens;
+mod tile;
+
+pub use framing::framed;
+pub use lens::{Lens, Picture};
+pub use tile::{TILE, Tile, tiles};

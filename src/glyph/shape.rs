@@ -1,0 +1,130 @@
+//! What stands in a cell: block shapes as masks over its dots, the three shades, and the ASCII ramp.
+
+use crate::math::Size;
+
+/// The finest division of a cell that any shape here needs, and the traced dots of the modes that use shapes.
+pub const DOTS: Size = Size::new(2, 4);
+/// Their number.
+pub const DOT_COUNT: usize = DOTS.area();
+
+/// A glyph that fills some dots of its cell with ink and leaves the others to the paper.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shape {
+    /// The character.
+    pub glyph: char,
+    /// The inked dots in scan order, the top left one in the lowest bit.
+    pub mask: u8,
+}
+
+impl Shape {
+    /// From the four rows of the cell, the top one first; in each, bit 1 is the left dot and bit 0 the right one,
+    /// as they are read.
+    const fn new(glyph: char, rows: [u8; 4]) -> Self {
+        let mut mask = 0;
+        let mut row = 0;
+        while row < 4 {
+            let reversed = (rows[row] >> 1) | ((rows[row] & 1) << 1);
+            mask |= reversed << (2 * row);
+            row += 1;
+        }
+        Self { glyph, mask }
+    }
+}
+
+/// The shapes of code page 437: upright and level halves.
+pub const HALVES: &[Shape] = &[
+    Shape::new('▀', [0b11, 0b11, 0b00, 0b00]),
+    Shape::new('▄', [0b00, 0b00, 0b11, 0b11]),
+    Shape::new('▌', [0b10, 0b10, 0b10, 0b10]),
+    Shape::new('▐', [0b01, 0b01, 0b01, 0b01]),
+];
+
+/// The halves and every other choice of quadrants, and the lower quarter and three quarters.
+pub const BLOCKS: &[Shape] = &[
+    Shape::new('▀', [0b11, 0b11, 0b00, 0b00]),
+    Shape::new('▄', [0b00, 0b00, 0b11, 0b11]),
+    Shape::new('▌', [0b10, 0b10, 0b10, 0b10]),
+    Shape::new('▐', [0b01, 0b01, 0b01, 0b01]),
+    Shape::new('▘', [0b10, 0b10, 0b00, 0b00]),
+    Shape::new('▝', [0b01, 0b01, 0b00, 0b00]),
+    Shape::new('▖', [0b00, 0b00, 0b10, 0b10]),
+    Shape::new('▗', [0b00, 0b00, 0b01, 0b01]),
+    Shape::new('▙', [0b10, 0b10, 0b11, 0b11]),
+    Shape::new('▟', [0b01, 0b01, 0b11, 0b11]),
+    Shape::new('▛', [0b11, 0b11, 0b10, 0b10]),
+    Shape::new('▜', [0b11, 0b11, 0b01, 0b01]),
+    Shape::new('▚', [0b10, 0b10, 0b01, 0b01]),
+    Shape::new('▞', [0b01, 0b01, 0b10, 0b10]),
+    Shape::new('▂', [0b00, 0b00, 0b00, 0b11]),
+    Shape::new('▆', [0b00, 0b11, 0b11, 0b11]),
+];
+
+/// Blank, the three shades and the full block, by quarters of ink.
+pub const SHADES: [char; 5] = [' ', '░', '▒', '▓', '█'];
+
+/// One ASCII character per level with the share of its cell that is ink, measured on the outlines of DejaVu Sans
+/// Mono 2.37 (advance × line height). The lightest strokes any font has are far above level 1's light, so the
+/// ramp keeps the order of the levels, at even steps of lightness, not their light.
+pub const RAMP: [(char, f64); 13] = [
+    (' ', 0.0),
+    ('.', 0.0261),
+    ('-', 0.0291),
+    (',', 0.0442),
+    (':', 0.0521),
+    (';', 0.0702),
+    ('*', 0.0956),
+    ('=', 0.1230),
+    ('x', 0.1463),
+    ('o', 0.1783),
+    ('$', 0.2101),
+    ('#', 0.2425),
+    ('@', 0.2763),
+];
+
+/// Where a glyph's ink is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Coverage {
+    /// Evenly over the cell: the share of it, 0 to 1.
+    Even(f64),
+    /// In whole dots, as a [`Shape`]'s mask.
+    Dots(u8),
+}
+
+/// Where the ink of one of this program's glyphs is; `None` for any other character.
+pub fn coverage(glyph: char) -> Option<Coverage> {
+    if let Some(quarters) = SHADES.iter().position(|&shade| shade == glyph) {
+        return Some(Coverage::Even(quarters as f64 / 4.0));
+    }
+    if let Some(shape) = BLOCKS.iter().find(|shape| shape.glyph == glyph) {
+        return Some(Coverage::Dots(shape.mask));
+    }
+    RAMP.iter().find(|(ascii, _)| *ascii == glyph).map(|&(_, share)| Coverage::Even(share))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn masks_read_from_the_top_left() {
+        let mask = |glyph| BLOCKS.iter().find(|shape| shape.glyph == glyph).map(|shape| shape.mask);
+        assert_eq!(mask('▘'), Some(0b0000_0101));
+        assert_eq!(mask('▗'), Some(0b1010_0000));
+        assert_eq!(mask('▂'), Some(0b1100_0000));
+    }
+
+    #[test]
+    fn every_choice_of_quadrants_is_there_once() {
+        let mut masks: Vec<u8> = BLOCKS.iter().map(|shape| shape.mask).collect();
+        masks.sort_unstable();
+        masks.dedup();
+        assert_eq!(masks.len(), BLOCKS.len());
+        let quadrants = |mask: u8| (mask & 0b11_0011) << 2 == mask & 0b1100_1100;
+        assert_eq!(masks.iter().filter(|&&mask| quadrants(mask)).count(), 14);
+    }
+
+    #[test]
+    fn the_ramp_grows() {
+        assert!(RAMP.windows(2).all(|pair| pair[0].1 < pair[1].1));
+    }
+}

@@ -1,0 +1,188 @@
+//! A screen of cells as text, with and without its colours.
+
+use std::io::{self, Write};
+
+use crate::glyph::{Cell, Paint};
+use crate::math::Grid;
+
+/// The characters alone, one line per row of cells, each line at its full width. Colours are lost, so this is for
+/// pictures in the terminal's own ink ([`Palette::Mono`](crate::glyph::Palette::Mono)) and in ASCII.
+pub fn text(cells: &Grid<Cell>, out: &mut impl Write) -> io::Result<()> {
+    let mut line = String::new();
+    for row in cells.rows() {
+        line.clear();
+        line.extend(row.iter().map(|cell| cell.glyph));
+        line.push('\n');
+        out.write_all(line.as_bytes())?;
+    }
+    Ok(())
+}
+
+/// The cells with the SGR sequences of 16-colour terminals (ECMA-48, and the bright colours of aixterm), one line
+/// per row. Only the colour that changes is sent, and none for the ink of a blank. Each line ends in the terminal's
+/// own colours, so that nothing beyond the picture is painted.
+pub fn ansi(cells: &Grid<Cell>, out: &mut impl Write) -> io::Result<()> {
+    let mut line = String::new();
+    for row in cells.rows() {
+        line.clear();
+        let mut now = Colours::TERMINAL;
+        for cell in row {
+            let ink = if cell.glyph == ' ' { now.ink } else { cell.ink };
+            now = now.change_to(Colours { ink, paper: cell.paper }, &mut line);
+            line.push(cell.glyph);
+        }
+        now.change_to(Colours::TERMINAL, &mut line);
+        line.push('\n');
+        out.write_all(line.as_bytes())?;
+    }
+    Ok(())
+}
+
+/// The colours that the terminal has been told.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Colours {
+    ink: Paint,
+    paper: Paint,
+}
+
+impl Colours {
+    const TERMINAL: Self = Self { ink: Paint::Terminal, paper: Paint::Terminal };
+
+    /// Appends the shortest sequence that changes `self` to `next`, which is given back.
+    fn change_to(self, next: Self, line: &mut String) -> Self {
+        match (self.ink == next.ink, self.paper == next.paper) {
+            (true, true) => {}
+            _ if next == Self::TERMINAL => line.push_str("\x1b[m"),
+            (false, true) => sequence(line, &[ink_code(next.ink)]),
+            (true, false) => sequence(line, &[paper_code(next.paper)]),
+            (false, false) => sequence(line, &[ink_code(next.ink), paper_code(next.paper)]),
+        }
+        next
+    }
+}
+
+fn sequence(line: &mut String, codes: &[&str]) {
+    line.push_str("\x1b[");
+    line.push_str(&codes.join(";"));
+    line.push('m');
+}
+
+/// The SGR parameter of an ink: 30 + colour, 90 + colour for a bright one, 39 for the terminal's own.
+const fn ink_code(ink: Paint) -> &'static str {
+    match ink {
+        Paint::Terminal => "39",
+        Paint::Black => "30",
+        Paint::DarkGray => "90",
+        Paint::LightGray => "37",
+        Paint::White => "97",
+    }
+}
+
+/// The SGR parameter of a paper: 10 more than the ink's.
+const fn paper_code(paper: Paint) -> &'static str {
+    match paper {
+        Paint::Terminal => "49",
+        Paint::Black => "40",
+        Paint::DarkGray => "100",
+        Paint::LightGray => "47",
+        Paint::White => "107",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Size;
+    use proptest::prelude::*;
+    use std::num::NonZeroU16;
+
+    const PAINTS: [Paint; 5] =
+        [Paint::Terminal, Paint::Black, Paint::DarkGray, Paint::LightGray, Paint::White];
+
+    fn row(cells: &[(char, Paint, Paint)]) -> Grid<Cell> {
+        let cells: Vec<Cell> = cells.iter().map(|&(glyph, ink, paper)| Cell { glyph, ink, paper }).collect();
+        Grid::from_values(Size::new(cells.len() as u32, 1), cells)
+    }
+
+    fn written(cells: &Grid<Cell>) -> String {
+        let mut out = Vec::new();
+        ansi(cells, &mut out).expect("a vector takes every byte");
+        String::from_utf8(out).expect("text")
+    }
+
+    #[test]
+    fn only_the_colour_that_changes_is_sent() {
+        use Paint::{Black, DarkGray, LightGray, Terminal};
+        let cells = row(&[
+            ('░', DarkGray, Black),
+            ('▒', DarkGray, Black),
+            ('▒', DarkGray, LightGray),
+            (' ', Black, LightGray),
+            ('▌', LightGray, LightGray),
+            ('x', Terminal, Terminal),
+        ]);
+        assert_eq!(written(&cells), "\x1b[90;40m░▒\x1b[47m▒ \x1b[37m▌\x1b[mx\n");
+        assert_eq!(written(&row(&[('x', Terminal, Terminal)])), "x\n");
+    }
+
+    #[test]
+    fn text_keeps_the_full_width() {
+        let cells = row(&[('a', Paint::White, Paint::Black), (' ', Paint::White, Paint::White)]);
+        let mut out = Vec::new();
+        text(&cells, &mut out).expect("a vector takes every byte");
+        assert_eq!(out, b"a \n");
+    }
+
+    /// What a terminal holds for a paint.
+    fn seen(paint: Paint) -> vt100::Color {
+        match paint {
+            Paint::Terminal => vt100::Color::Default,
+            Paint::Black => vt100::Color::Idx(0),
+            Paint::DarkGray => vt100::Color::Idx(8),
+            Paint::LightGray => vt100::Color::Idx(7),
+            Paint::White => vt100::Color::Idx(15),
+        }
+    }
+
+    fn any_cell() -> impl Strategy<Value = Cell> {
+        let glyphs = prop::sample::select(" ░▒▓█▀▄▌▐▘▝▖▗▙▟▛▜▚▞▂▆.-,:;*=xo$#@".chars().collect::<Vec<_>>());
+        let paint = prop::sample::select(PAINTS.to_vec());
+        (glyphs, paint.clone(), paint).prop_map(|(glyph, ink, paper)| Cell { glyph, ink, paper })
+    }
+
+    fn any_grid() -> impl Strategy<Value = Grid<Cell>> {
+        (1_u32..12, 1_u32..8).prop_flat_map(|(width, height)| {
+            let size = Size::new(width, height);
+            prop::collection::vec(any_cell(), size.area())
+                .prop_map(move |cells| Grid::from_values(size, cells))
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn a_terminal_shows_the_cells_that_were_meant(cells in any_grid()) {
+            // One column and row more than the picture, to see that nothing beyond it is painted.
+            let Size { width, height } = cells.size();
+            let [rows, columns] = [height, width].map(|n| NonZeroU16::new(n as u16 + 1).expect("not 0"));
+            let mut terminal = vt100::Parser::new(rows, columns, 0);
+            terminal.process(written(&cells).replace('\n', "\r\n").as_bytes());
+            for y in 0..=height {
+                for x in 0..=width {
+                    let place = (y as u16, x as u16);
+                    let shown = terminal.screen().cell(place.0, place.1).expect("on the screen");
+                    if x == width || y == height {
+                        prop_assert!(!shown.has_contents());
+                        prop_assert_eq!(shown.bgcolor(), vt100::Color::Default);
+                        continue;
+                    }
+                    let meant = cells[(x, y)];
+                    prop_assert_eq!(shown.contents(), meant.glyph.to_string());
+                    prop_assert_eq!(shown.bgcolor(), seen(meant.paper));
+                    if meant.glyph != ' ' {
+                        prop_assert_eq!(shown.fgcolor(), seen(meant.ink));
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! Stage 7, SOLID: all objects of a scene, in coordinates of their own.
+//!
+//! The world's numbers are brought to magnitudes near 1, by a power of two and, where the scene lies far from
+//! the origin, a shift: every later bound on rounding then holds at any scale and any distance from the origin.
+
+use crate::math::{Bounds, DAffine3, DVec3, Ray};
+use crate::scene::{MaterialId, Scene};
+
+use super::expression::{Expression, Tree};
+use super::primitive::{Form, Primitive};
+
+/// The objects of a scene, ready for rays.
+#[derive(Clone, Debug)]
+pub struct Assembly {
+    /// All primitives, in file order.
+    pub primitives: Vec<Primitive>,
+    /// All objects, in file order, without those that hold nothing.
+    pub objects: Vec<Object>,
+    /// The world limit: the box of all objects. Within −2..=2 on every axis.
+    pub limit: Bounds,
+    /// From the scene's coordinates to those of the assembly.
+    pub datum: Datum,
+}
+
+/// One object of the lattice.
+#[derive(Clone, Debug)]
+pub struct Object {
+    /// Its number in the scene, from 0.
+    pub number: u32,
+    /// A box around it.
+    pub bounds: Bounds,
+    /// What it is made of.
+    pub body: Body,
+}
+
+/// What an object is made of.
+#[derive(Clone, Debug)]
+pub enum Body {
+    /// One convex primitive, by its index.
+    Single(u32),
+    /// A CSG expression, or a solid that is not convex.
+    Composite {
+        /// The expression as a tree, to be pruned.
+        tree: Tree,
+        /// The same laid out for rays.
+        whole: Expression,
+    },
+}
+
+/// Where the assembly's coordinates have their origin, and their unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Datum {
+    /// The origin, in the scene's coordinates.
+    pub origin: DVec3,
+    /// The unit, in the scene's unit: a power of two.
+    pub unit: f64,
+}
+
+impl Datum {
+    /// The datum for a scene in the box `b`.
+    fn new(b: &Bounds) -> Self {
+        let half = b.half().max_element();
+        let center = b.center();
+        // A shift rounds coordinates that lie nearer the origin than the box's size. Up to 8 sizes away the
+        // origin costs 3 bits, less than the shift would.
+        let far = center.abs().max_element() > 8.0 * half;
+        let scale_of = |x: f64| libm::ldexp(1.0, libm::ilogb(x).clamp(-1000, 1000));
+        let unit = |size: f64| if size > 0.0 && size.is_finite() { 2.0 * scale_of(size) } else { 1.0 };
+        if far {
+            // A multiple of the scene's size, so that coordinates of few bits keep them all.
+            let grid = unit(half);
+            let origin = (center / grid).round() * grid;
+            Self { origin: if origin.is_finite() { origin } else { center }, unit: grid }
+        } else {
+            Self { origin: DVec3::ZERO, unit: unit(b.lo.abs().max(b.hi.abs()).max_element()) }
+        }
+    }
+
+    /// A point of the scene in the assembly.
+    pub fn inward(&self, p: DVec3) -> DVec3 {
+        (p - self.origin) / self.unit
+    }
+
+    /// A point of the assembly in the scene.
+    pub fn outward(&self, p: DVec3) -> DVec3 {
+        p * self.unit + self.origin
+    }
+
+    fn map(&self, map: &DAffine3) -> DAffine3 {
+        DAffine3 { matrix3: map.matrix3 * self.unit.recip(), translation: self.inward(map.translation) }
+    }
+}
+
+/// Why a scene can not be put together. Readers refuse such scenes with the place in their text.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum AssemblyError {
+    /// A primitive whose map flattens it, or is not finite.
+    #[error("object {object} has a primitive (number {primitive} in it) whose map has no inverse")]
+    Singular {
+        /// The object's number in the scene, from 1.
+        object: usize,
+        /// The primitive's number in the object, from 1.
+        primitive: usize,
+    },
+    /// More primitives than a 32-bit index can name.
+    #[error("the scene has more than 2³² − 1 primitives")]
+    TooMany,
+}
+
+impl Assembly {
+    /// Puts a scene together.
+    pub fn new(scene: &Scene) -> Result<Self, AssemblyError> {
+        let mut bounds = Bounds::EMPTY;
+        for object in &scene.objects {
+            object.solid.visit(&mut |p| bounds = bounds.join(&p.shape.bounds().mapped(&p.map)));
+        }
+        let datum = Datum::new(&bounds);
+        let (mut primitives, mut objects) = (Vec::new(), Vec::new());
+        let mut limit = Bounds::EMPTY;
+        for (number, object) in scene.objects.iter().enumerate() {
+            let start = primitives.len();
+            let mut singular = None;
+            object.solid.visit(&mut |p| match Form::new(&p.shape, &datum.map(&p.map)) {
+                Some(form) => primitives.push(Primitive { form, material: p.material }),
+                None => singular = singular.or(Some(primitives.len() - start + 1)),
+            });
+            if let Some(primitive) = singular {
+                return Err(AssemblyError::Singular { object: number + 1, primitive });
+            }
+            u32::try_from(primitives.len()).map_err(|_| AssemblyError::TooMany)?;
+            let Some(tree) = Tree::new(&object.solid, &mut (start as u32)) else { continue };
+            let bounds = tree.bounds(&primitives);
+            if bounds.is_empty() {
+                continue;
+            }
+            let body = match tree {
+                Tree::Leaf(index) if primitives[index as usize].form.is_convex() => Body::Single(index),
+                tree => Body::Composite { whole: Expression::new(&tree), tree },
+            };
+            limit = limit.join(&bounds);
+            objects.push(Object { number: number as u32, bounds, body });
+        }
+        Ok(Self { primitives, objects, limit, datum })
+    }
+
+    /// The material of a primitive.
+    pub fn material(&self, primitive: u32) -> MaterialId {
+        self.primitives[primitive as usize].material
+    }
+
+    /// The normal of a primitive's surface at a point of the assembly, turned to the side that a ray along `d`
+    /// comes from, of length 1.
+    pub fn turned_normal(&self, primitive: u32, surface: u32, p: DVec3, d: DVec3) -> DVec3 {
+        let normal = self.primitives[primitive as usize].form.normal(p, surface).normalize_or(-d);
+        if normal.dot(d) > 0.0 { -normal } else { normal }
+    }
+
+    /// A ray of the scene in the assembly; distances along it are divided by [`Datum::unit`].
+    pub fn ray(&self, ray: &Ray) -> Ray {
+        Ray::new(self.datum.inward(ray.o), ray.d)
+    }
+}

@@ -1,0 +1,196 @@
+//! Stage 8, CSG: the first place along a ray where an expression changes.
+//!
+//! The crossings of all primitives are sorted along the ray. Those whose error intervals overlap that of the
+//! first of them form a cluster and count as one place: they toggle together, and only the expression's value
+//! before and behind the cluster matters. So a solid minus itself is nothing, and a hole flush with a face is
+//! open, whatever the order of the operands. A cluster ends where a crossing's interval no longer meets that of
+//! the cluster's **first** crossing: overlap is not transitive, and chains would weld a whole stack of sheets.
+
+use crate::math::Ray;
+use crate::stage::{Meter, Probe, Stage};
+
+use super::expression::Expression;
+use super::primitive::Primitive;
+use super::span::{Departure, End};
+
+/// A place where a ray goes into or out of a solid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// Distance along the ray, above 0.
+    pub t: f64,
+    /// The exact distance lies within `t ± error`.
+    pub error: f64,
+    /// The primitive whose surface it is.
+    pub primitive: u32,
+    /// The face of that primitive.
+    pub surface: u32,
+    /// Whether the ray goes into the solid.
+    pub entering: bool,
+}
+
+/// One crossing of one primitive.
+#[derive(Clone, Copy, Debug)]
+struct Event {
+    end: End,
+    /// The leaf of the expression.
+    leaf: u32,
+}
+
+/// Memory that is used again for every ray.
+#[derive(Clone, Debug, Default)]
+pub struct Scratch {
+    events: Vec<Event>,
+    inside: Vec<bool>,
+    counts: Vec<u32>,
+    changed: Vec<u32>,
+}
+
+/// The part of a ray that is asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reach {
+    /// Crossings before this are passed over.
+    pub from: f64,
+    /// Crossings behind this are not looked for.
+    pub to: f64,
+}
+
+impl Reach {
+    /// The whole ray.
+    pub const ALL: Self = Self { from: 0.0, to: f64::INFINITY };
+}
+
+/// Whether a crossing lies at the start of the ray: its own error, and as much again for the start, which was
+/// itself computed as a crossing.
+#[inline]
+pub fn at_start(end: &End) -> bool {
+    end.t <= 2.0 * end.error
+}
+
+/// The first crossing of one convex primitive.
+#[inline]
+pub fn first_of_span(
+    ray: &Ray,
+    primitive: &Primitive,
+    index: u32,
+    departure: Option<Departure>,
+    meter: &mut Meter<impl Probe>,
+) -> Option<Crossing> {
+    meter.counts.primitive_tests += 1;
+    let here = departure.filter(|d| d.primitive == index);
+    if here.is_some_and(|d| !d.inward) {
+        // A convex solid is not met again by a ray that leaves it.
+        return None;
+    }
+    let span = primitive.form.span(ray)?;
+    let (end, entering) = if here.is_some() || at_start(&span.enter) {
+        (span.leave, false)
+    } else {
+        (span.enter, true)
+    };
+    let behind = if here.is_some() { end.t <= 0.0 } else { at_start(&end) };
+    (!behind).then_some(Crossing { t: end.t, error: end.error, primitive: index, surface: end.surface, entering })
+}
+
+/// The first crossing of an expression within `reach`.
+pub fn first_of_expression(
+    ray: &Ray,
+    expression: &Expression,
+    primitives: &[Primitive],
+    departure: Option<Departure>,
+    reach: Reach,
+    scratch: &mut Scratch,
+    meter: &mut Meter<impl Probe>,
+) -> Option<Crossing> {
+    let Scratch { events, inside, counts: state, changed } = scratch;
+    meter.at(Stage::Solid);
+    meter.counts.primitive_tests += expression.leaves.len() as u64;
+    gather(ray, expression, primitives, departure, reach, events);
+    if events.is_empty() {
+        return None;
+    }
+    meter.at(Stage::Csg);
+    meter.counts.csg_evaluations += 1;
+    events.sort_unstable_by(|a, b| a.end.t.total_cmp(&b.end.t).then(a.leaf.cmp(&b.leaf)));
+    expression.reset(state);
+    inside.clear();
+    inside.resize(expression.leaves.len(), false);
+    let mut value = expression.value(state, false);
+    let mut rest = &events[..];
+    while let [first, ..] = rest {
+        let limit = first.end.t + first.end.error;
+        let length = rest.iter().take_while(|e| e.end.t - e.end.error <= limit).count().max(1);
+        let (cluster, behind) = rest.split_at(length);
+        rest = behind;
+        if first.end.t > reach.to {
+            return None;
+        }
+        changed.clear();
+        for event in cluster {
+            let leaf = event.leaf as usize;
+            inside[leaf] = !inside[leaf];
+            expression.toggle(state, leaf, inside[leaf], |node| changed.push(node));
+        }
+        let before = value;
+        value = expression.value(state, inside[0]);
+        let passed = at_start(&first.end) || cluster.iter().all(|e| e.end.t < reach.from);
+        if value == before || passed {
+            continue;
+        }
+        let net = |node: u32| changed.iter().filter(|&&c| c == node).count() % 2 == 1;
+        let flipped = |leaf: u32| cluster.iter().filter(|e| e.leaf == leaf).count() % 2 == 1;
+        // The first in the file among those that made the change shows.
+        let shown = cluster
+            .iter()
+            .filter(|e| flipped(e.leaf))
+            .filter(|e| expression.decides(state, e.leaf as usize, inside[e.leaf as usize], net))
+            .min_by_key(|e| e.leaf)
+            .unwrap_or(first);
+        return Some(Crossing {
+            t: shown.end.t,
+            error: shown.end.error,
+            primitive: expression.leaves[shown.leaf as usize].primitive,
+            surface: shown.end.surface,
+            entering: value,
+        });
+    }
+    None
+}
+
+/// Collects the crossings of every primitive of the expression that can matter within `reach`.
+fn gather(
+    ray: &Ray,
+    expression: &Expression,
+    primitives: &[Primitive],
+    departure: Option<Departure>,
+    reach: Reach,
+    events: &mut Vec<Event>,
+) {
+    events.clear();
+    for (leaf, place) in expression.leaves.iter().enumerate() {
+        let leaf = leaf as u32;
+        let form = &primitives[place.primitive as usize].form;
+        let here = departure.filter(|d| d.primitive == place.primitive);
+        let zero = End { t: 0.0, error: 0.0, surface: 0 };
+        if !form.is_convex() {
+            let start = here.map(|d| d.surface);
+            form.crossings(ray, |end| {
+                let end = if Some(end.surface) == start { zero } else { end };
+                events.push(Event { end, leaf });
+            });
+            continue;
+        }
+        let outward = here.is_some_and(|d| !d.inward);
+        let Some(mut span) = (if outward { None } else { form.span(ray) }) else { continue };
+        if here.is_some() {
+            span.enter = zero;
+        }
+        // Far outside the reach only the state inside it matters: none for a span that ends before it or
+        // starts behind it.
+        let ends_before = span.leave.t + span.leave.error < reach.from;
+        let starts_behind = span.enter.t - span.enter.error > reach.to;
+        if !ends_before && !starts_behind && span.enter.t < span.leave.t {
+            events.push(Event { end: span.enter, leaf });
+            events.push(Event { end: span.leave, leaf });
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! Convex solids of flat faces: prisms, pyramids, coarse spheres.
+
+use crate::math::{Bounds, DVec3, Placement, Ray};
+use crate::scene;
+
+use super::span::{End, ROUNDING, Span};
+
+/// An intersection of half-spaces, in the world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Facets {
+    /// The points `p` with `normal · (p − center) ≤ offset`; normals have length 1.
+    faces: Box<[scene::HalfSpace]>,
+    center: DVec3,
+    bounds: Bounds,
+    reach: f64,
+}
+
+impl Facets {
+    /// The faces of `unit`, put at `place`.
+    pub fn new(unit: &scene::Facets, place: &Placement) -> Self {
+        let turn = place.inverse.transpose();
+        let faces = unit
+            .faces
+            .iter()
+            .map(|face| {
+                let normal = turn * face.normal;
+                // Scaled before its length is taken, so that no square overflows.
+                let size = normal.abs().max_element();
+                let length = (normal / size).length();
+                scene::HalfSpace { normal: normal / size / length, offset: face.offset / size / length }
+            })
+            .collect();
+        let map = crate::math::DAffine3 { matrix3: place.linear, translation: place.center };
+        let bounds = unit.bounds.mapped(&map);
+        let reach = place.center.length() + bounds.half().length();
+        Self { faces, center: place.center, bounds, reach }
+    }
+
+    /// Where the ray is inside. A ray in the plane of a face is decided half open, as for slabs: inside where
+    /// the normal's first component that is not 0 is negative.
+    #[inline]
+    pub fn span(&self, ray: &Ray) -> Option<Span> {
+        let from_center = ray.o - self.center;
+        let off = ROUNDING * (self.reach + from_center.length());
+        let mut span = Span::LINE;
+        for (surface, face) in self.faces.iter().enumerate() {
+            let above = face.normal.dot(from_center) - face.offset;
+            let d = face.normal.dot(ray.d);
+            let end = End { t: -above / d, error: off / d.abs(), surface: surface as u32 };
+            if d < 0.0 {
+                span.clip(end, Span::LINE.leave);
+            } else if d > 0.0 {
+                span.clip(Span::LINE.enter, end);
+            } else if above > 0.0 || (above == 0.0 && !points_down(face.normal)) {
+                return None;
+            }
+        }
+        span.if_any()
+    }
+
+    /// The outward normal of a face, of length 1.
+    pub fn normal(&self, surface: u32) -> DVec3 {
+        self.faces[surface as usize].normal
+    }
+
+    /// A box around it.
+    pub fn bounds(&self) -> Bounds {
+        self.bounds
+    }
+
+    /// Whether the box is certainly outside.
+    pub fn misses(&self, b: &Bounds) -> bool {
+        let (center, half) = (b.center() - self.center, b.half());
+        self.bounds.meet(b).is_empty()
+            || self.faces.iter().any(|f| f.normal.dot(center) - f.normal.abs().dot(half) > f.offset)
+    }
+
+    /// Whether the box is certainly inside.
+    pub fn covers(&self, b: &Bounds) -> bool {
+        let (center, half) = (b.center() - self.center, b.half());
+        self.faces.iter().all(|f| f.normal.dot(center) + f.normal.abs().dot(half) < f.offset)
+    }
+}
+
+fn points_down(normal: DVec3) -> bool {
+    normal.to_array().into_iter().find(|&x| x != 0.0).is_some_and(|x| x < 0.0)
+}

@@ -1,0 +1,170 @@
+//! One primitive, put into the world and specialised: only what its map requires is computed per ray.
+
+use crate::math::{Bounds, DAffine3, DMat3, DVec3, Placement, Ray};
+use crate::scene::{MaterialId, Shape};
+
+use super::ball::Ball;
+use super::facets::Facets;
+use super::mesh::Mesh;
+use super::round::Round;
+use super::slabs::{AxisBox, SkewBox};
+use super::span::{End, ROUNDING, Span};
+
+/// A primitive in the world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Primitive {
+    /// Its form.
+    pub form: Form,
+    /// Its surface.
+    pub material: MaterialId,
+}
+
+/// The forms, each with its own intersection.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Form {
+    /// A sphere.
+    Ball(Ball),
+    /// A box along the axes.
+    AxisBox(AxisBox),
+    /// A box in any position.
+    SkewBox(SkewBox),
+    /// An ellipsoid or frustum in any position.
+    Round(Round),
+    /// A convex solid of flat faces.
+    Facets(Facets),
+    /// A closed surface of triangles.
+    Mesh(Mesh),
+}
+
+/// How a primitive lies to a box.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cover {
+    /// The whole box is inside the primitive.
+    All,
+    /// The box and the primitive do not meet.
+    None,
+    /// Neither is certain.
+    Some,
+}
+
+impl Form {
+    /// The form of a unit shape under a map; `None` where the map is singular or not finite.
+    pub fn new(shape: &Shape, map: &DAffine3) -> Option<Self> {
+        let place = Placement::new(map)?;
+        Some(match shape {
+            Shape::Sphere => match similarity(&place.linear) {
+                Some(radius) => Self::Ball(Ball::new(place.center, radius)),
+                None => Self::Round(Round::ellipsoid(place)),
+            },
+            Shape::Frustum { bottom, top } => Self::Round(Round::frustum(place, *bottom, *top)),
+            Shape::Cube => match axis_half(&place.linear) {
+                Some(half) => Self::AxisBox(AxisBox::new(Bounds::new(place.center - half, place.center + half))),
+                None => Self::SkewBox(SkewBox::new(place)),
+            },
+            Shape::Facets(unit) => Self::Facets(Facets::new(unit, &place)),
+            Shape::Mesh(unit) => Self::Mesh(Mesh::new(unit, &place)),
+        })
+    }
+
+    /// The ray's span in a convex form; a mesh has crossings instead.
+    #[inline]
+    pub fn span(&self, ray: &Ray) -> Option<Span> {
+        match self {
+            Self::Ball(ball) => ball.span(ray),
+            Self::AxisBox(slabs) => slabs.span(ray),
+            Self::SkewBox(slabs) => slabs.span(ray),
+            Self::Round(round) => round.span(ray),
+            Self::Facets(facets) => facets.span(ray),
+            Self::Mesh(_) => None,
+        }
+    }
+
+    /// All crossings of the line with the surface, in no order; each one toggles between outside and inside.
+    #[inline]
+    pub fn crossings(&self, ray: &Ray, mut found: impl FnMut(End)) {
+        if let Self::Mesh(mesh) = self {
+            mesh.crossings(ray, found);
+        } else if let Some(span) = self.span(ray) {
+            found(span.enter);
+            found(span.leave);
+        }
+    }
+
+    /// Whether a ray meets it in one span at most.
+    pub fn is_convex(&self) -> bool {
+        !matches!(self, Self::Mesh(_))
+    }
+
+    /// The normal at a point of a surface, of length 1 within rounding; outward except for a mesh, whose
+    /// triangles may turn either way.
+    pub fn normal(&self, p: DVec3, surface: u32) -> DVec3 {
+        match self {
+            Self::Ball(ball) => ball.normal(p),
+            Self::AxisBox(_) => AxisBox::normal(surface),
+            Self::SkewBox(slabs) => slabs.normal(surface),
+            Self::Round(round) => round.normal(p, surface),
+            Self::Facets(facets) => facets.normal(surface),
+            Self::Mesh(mesh) => mesh.normal(surface),
+        }
+    }
+
+    /// The box around it. Faces of a box along the axes are exact; all other bounds are moved outward by what
+    /// rounding may have taken.
+    pub fn bounds(&self) -> Bounds {
+        let exact = match self {
+            Self::AxisBox(slabs) => return slabs.bounds(),
+            Self::Ball(ball) => ball.bounds(),
+            Self::SkewBox(slabs) => slabs.bounds(),
+            Self::Round(round) => round.bounds(),
+            Self::Facets(facets) => facets.bounds(),
+            Self::Mesh(mesh) => mesh.bounds(),
+        };
+        let size = exact.lo.abs().max(exact.hi.abs()).max_element();
+        exact.padded(DVec3::splat(ROUNDING * size))
+    }
+
+    /// How it lies to a box.
+    pub fn cover(&self, b: &Bounds) -> Cover {
+        let (misses, covers) = match self {
+            Self::Ball(ball) => {
+                let (nearest, farthest) = ball.distances(b);
+                (nearest > 1.0, farthest < 1.0)
+            }
+            Self::AxisBox(slabs) => {
+                let own = slabs.bounds();
+                let inside = own.lo.cmplt(b.lo).all() && b.hi.cmplt(own.hi).all();
+                (own.meet(b).is_empty(), inside)
+            }
+            Self::SkewBox(slabs) => (slabs.misses(b), slabs.covers(b)),
+            Self::Round(round) => (round.misses(b), round.covers(b)),
+            Self::Facets(facets) => (facets.misses(b), facets.covers(b)),
+            Self::Mesh(mesh) => (mesh.misses(b), false),
+        };
+        match (misses, covers) {
+            (true, _) => Cover::None,
+            (_, true) => Cover::All,
+            _ => Cover::Some,
+        }
+    }
+}
+
+/// The factor of a map that keeps all angles, within the rounding of the map's own numbers; else `None`.
+fn similarity(linear: &DMat3) -> Option<f64> {
+    let columns = [linear.x_axis, linear.y_axis, linear.z_axis];
+    let longest = columns.iter().map(|c| c.abs().max_element()).fold(0.0, f64::max);
+    let even = columns.map(|c| c / longest);
+    let radius = even[0].length();
+    // A column of three rounded numbers: its length and its products are off by 4 roundings at most.
+    let off = 4.0 * f64::EPSILON;
+    let same_length = even.iter().all(|c| (c.length() - radius).abs() <= off * radius);
+    let right_angles =
+        [(0, 1), (1, 2), (2, 0)].iter().all(|&(i, j)| even[i].dot(even[j]).abs() <= off * radius * radius);
+    (same_length && right_angles).then_some(radius * longest)
+}
+
+/// Half the edges of the cube's image where that is a box along the axes; else `None`.
+fn axis_half(linear: &DMat3) -> Option<DVec3> {
+    let columns = [linear.x_axis, linear.y_axis, linear.z_axis];
+    let along_an_axis = |c: &DVec3| c.to_array().iter().filter(|&&x| x != 0.0).count() == 1;
+    columns.iter().all(along_an_axis).then(|| columns[0].abs() + columns[1].abs() + columns[2].abs())
+}

@@ -1,0 +1,263 @@
+//! Curved solids in their unit space: ellipsoids, and cylinders, cones and frustums of any slant.
+
+use crate::math::{Bounds, DVec3, Placement, Ray};
+
+use super::span::{End, ROUNDING, Span};
+
+/// The face numbers of a frustum.
+const SIDE: u32 = 0;
+const BOTTOM: u32 = 1;
+const TOP: u32 = 2;
+
+/// A unit sphere or frustum under an affine map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Round {
+    place: Placement,
+    profile: Profile,
+    /// The largest factor by which a length of the world grows in the unit space.
+    stretch: f64,
+    reach: f64,
+}
+
+/// The outline that is turned about the z axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Profile {
+    Sphere,
+    /// `r(z) = middle + slope · z` for `|z| ≤ 1`.
+    Frustum { middle: f64, slope: f64 },
+}
+
+/// A ray in the unit space, re-centred: `o` is its point closest to the unit origin.
+struct Centred {
+    o: DVec3,
+    d: DVec3,
+    d_squared: f64,
+    /// `t` of the closest point.
+    t: f64,
+    /// How far `o` may be off.
+    off: f64,
+}
+
+impl Round {
+    /// The unit sphere at `place`.
+    pub fn ellipsoid(place: Placement) -> Self {
+        Self::new(place, Profile::Sphere)
+    }
+
+    /// The unit frustum at `place`, of radius `bottom` at z = −1 and `top` at z = 1.
+    pub fn frustum(place: Placement, bottom: f64, top: f64) -> Self {
+        Self::new(place, Profile::Frustum { middle: 0.5 * bottom + 0.5 * top, slope: 0.5 * top - 0.5 * bottom })
+    }
+
+    fn new(place: Placement, profile: Profile) -> Self {
+        let rows = place.inverse.transpose();
+        let stretch = (rows.x_axis.length_squared() + rows.y_axis.length_squared() + rows.z_axis.length_squared())
+            .sqrt();
+        let linear = place.linear;
+        let size = linear.x_axis.length() + linear.y_axis.length() + linear.z_axis.length();
+        Self { place, profile, stretch, reach: place.center.length() + size }
+    }
+
+    /// Where the ray is inside. A chord that rounding could have made counts as none.
+    #[inline]
+    pub fn span(&self, ray: &Ray) -> Option<Span> {
+        let ray = self.centred(ray);
+        match self.profile {
+            Profile::Sphere => sphere_span(&ray),
+            Profile::Frustum { middle, slope } => frustum_span(&ray, middle, slope),
+        }
+    }
+
+    fn centred(&self, ray: &Ray) -> Centred {
+        let from_center = ray.o - self.place.center;
+        let o = self.place.inverse * from_center;
+        let d = self.place.inverse * ray.d;
+        let d_squared = d.length_squared();
+        let first = -o.dot(d) / d_squared;
+        let o = o + first * d;
+        let second = -o.dot(d) / d_squared;
+        let o = o + second * d;
+        let off = ROUNDING * self.stretch * (from_center.length() + self.reach);
+        Centred { o, d, d_squared, t: first + second, off }
+    }
+
+    /// The outward normal at a point of the surface, of length 1; along the axis at the apex of a cone.
+    pub fn normal(&self, p: DVec3, surface: u32) -> DVec3 {
+        let q = self.place.inverse * (p - self.place.center);
+        let gradient = match (self.profile, surface) {
+            (Profile::Sphere, _) => q,
+            (Profile::Frustum { .. }, BOTTOM) => DVec3::NEG_Z,
+            (Profile::Frustum { .. }, TOP) => DVec3::Z,
+            (Profile::Frustum { middle, slope }, _) => {
+                // The gradient of x² + y² − r(z)², with r taken from the point's own distance to the axis:
+                // on the surface they are equal, and this one can not turn inward.
+                let r = libm::hypot(q.x, q.y);
+                let side = DVec3::new(q.x, q.y, -slope * r);
+                if r > 0.0 && (middle + slope * q.z > 0.0 || r > f64::EPSILON) {
+                    side
+                } else {
+                    DVec3::Z * if slope < 0.0 { 1.0 } else { -1.0 }
+                }
+            }
+        };
+        // A normal goes through the transposed inverse; scaled first, so that no square overflows.
+        let normal = self.place.inverse.transpose() * gradient;
+        let size = normal.abs().max_element();
+        (normal / size).normalize_or(DVec3::Z)
+    }
+
+    /// The box around it.
+    pub fn bounds(&self) -> Bounds {
+        let linear = self.place.linear;
+        let rows = [linear.row(0), linear.row(1), linear.row(2)];
+        match self.profile {
+            Profile::Sphere => {
+                let half = DVec3::from_array(rows.map(DVec3::length));
+                Bounds::new(self.place.center - half, self.place.center + half)
+            }
+            Profile::Frustum { middle, slope } => {
+                // The two discs: centre ± axis, half-width r · |(x, y) part of the row|.
+                let disc = |z: f64| {
+                    let r = middle + slope * z;
+                    let half = DVec3::from_array(rows.map(|row| r * libm::hypot(row.x, row.y)));
+                    let center = self.place.center + linear.z_axis * z;
+                    Bounds::new(center - half, center + half)
+                };
+                disc(-1.0).join(&disc(1.0))
+            }
+        }
+    }
+
+    /// How the box lies in the unit space: the box around it there.
+    fn unit_bounds(&self, b: &Bounds) -> Bounds {
+        let inverse = &self.place.inverse;
+        let center = *inverse * (b.center() - self.place.center);
+        let half = inverse.x_axis.abs() * b.half().x
+            + inverse.y_axis.abs() * b.half().y
+            + inverse.z_axis.abs() * b.half().z;
+        Bounds::new(center - half, center + half)
+    }
+
+    /// Whether the box is certainly outside.
+    pub fn misses(&self, b: &Bounds) -> bool {
+        let u = self.unit_bounds(b);
+        let nearest = DVec3::ZERO.clamp(u.lo, u.hi);
+        match self.profile {
+            Profile::Sphere => nearest.length_squared() > 1.0,
+            Profile::Frustum { middle, slope } => {
+                let widest = middle + (slope * u.lo.z.max(-1.0)).max(slope * u.hi.z.min(1.0));
+                u.lo.z > 1.0 || u.hi.z < -1.0 || nearest.truncate().length() > widest
+            }
+        }
+    }
+
+    /// Whether the box is certainly inside.
+    pub fn covers(&self, b: &Bounds) -> bool {
+        let u = self.unit_bounds(b);
+        let farthest = u.lo.abs().max(u.hi.abs());
+        match self.profile {
+            Profile::Sphere => farthest.length_squared() < 1.0,
+            Profile::Frustum { middle, slope } => {
+                let narrowest = middle + (slope * u.lo.z).min(slope * u.hi.z);
+                farthest.z < 1.0 && farthest.truncate().length() < narrowest
+            }
+        }
+    }
+}
+
+fn sphere_span(ray: &Centred) -> Option<Span> {
+    let l_squared = ray.o.length_squared();
+    if l_squared > 1.0 {
+        return None;
+    }
+    let l = l_squared.sqrt();
+    let half_squared = (1.0 - l) * (1.0 + l);
+    if half_squared.is_nan() || half_squared <= 2.0 * ray.off {
+        return None;
+    }
+    let root = half_squared.sqrt();
+    let speed = ray.d_squared.sqrt();
+    let half = root / speed;
+    let error = ray.off / speed * (1.0 + l / root);
+    Some(Span {
+        enter: End { t: ray.t - half, error, surface: 0 },
+        leave: End { t: ray.t + half, error, surface: 0 },
+    })
+}
+
+/// The line against `x² + y² ≤ ρ²`, `ρ = middle + slope · z ≥ 0`, then against `|z| ≤ 1`.
+fn frustum_span(ray: &Centred, middle: f64, slope: f64) -> Option<Span> {
+    let (o, d) = (ray.o, ray.d);
+    // The frustum lies within √2 of the unit origin.
+    if o.length_squared() > 2.0 + 4.0 * ray.off {
+        return None;
+    }
+    let mut span = Span::LINE;
+    let end = |t: f64, error: f64, surface: u32| End { t: ray.t + t, error, surface };
+    if d.z == 0.0 {
+        if !(-1.0..1.0).contains(&o.z) {
+            return None;
+        }
+    } else {
+        let (low, high) = ((-1.0 - o.z) / d.z, (1.0 - o.z) / d.z);
+        let error = ray.off / d.z.abs();
+        if d.z > 0.0 {
+            span.clip(end(low, error, BOTTOM), end(high, error, TOP));
+        } else {
+            span.clip(end(high, error, TOP), end(low, error, BOTTOM));
+        }
+    }
+    let (rho, d_rho) = (middle + slope * o.z, slope * d.z);
+    let a = d.x * d.x + d.y * d.y - d_rho * d_rho;
+    let b = o.x * d.x + o.y * d.y - rho * d_rho;
+    let c = o.x * o.x + o.y * o.y - rho * rho;
+    // b² − ac by Lagrange's identity for the form x² + y² − ρ²: differences of products of nearby lengths,
+    // never of their squares.
+    let across = d.x * o.y - d.y * o.x;
+    let along = (squared(d.x * rho - d_rho * o.x) + squared(d.y * rho - d_rho * o.y)).sqrt();
+    let discriminant = (along - across.abs()) * (along + across.abs());
+    // |∇(x² + y² − ρ²)| is at most 3 within the frustum: off sideways changes the form by 4·off at most.
+    let form_off = 4.0 * ray.off;
+    if a > 0.0 {
+        if discriminant.is_nan() || discriminant <= form_off * a {
+            return None;
+        }
+    } else if discriminant.is_nan() {
+        return None;
+    }
+    // A line along or inside the cone always crosses it: below 0 there is rounding only.
+    let root = discriminant.max(0.0).sqrt();
+    let side_error = if root > 0.0 { 0.5 * form_off / root } else { f64::INFINITY };
+    // The root whose terms do not cancel, and the other from the product c / a.
+    let q = -(b + root.copysign(b));
+    let (t1, t2) = if q == 0.0 { (0.0, 0.0) } else { (q / a, c / q) };
+    let (low, high) = if t1 < t2 { (t1, t2) } else { (t2, t1) };
+    let before = End { t: f64::NEG_INFINITY, error: 0.0, surface: SIDE };
+    let after = End { t: f64::INFINITY, error: 0.0, surface: SIDE };
+    if a > 0.0 {
+        span.clip(end(low, side_error, SIDE), end(high, side_error, SIDE));
+    } else if a < 0.0 {
+        // Steeper than the side: one crossing per nappe; only the one with ρ ≥ 0 is the solid's.
+        if d_rho > 0.0 {
+            span.clip(end(high, side_error, SIDE), after);
+        } else {
+            span.clip(before, end(low, side_error, SIDE));
+        }
+    } else if b != 0.0 {
+        // Parallel to the side, or to the axis of a cylinder: 2bt + c ≤ 0.
+        let t = -0.5 * c / b;
+        let error = 0.5 * form_off / b.abs();
+        if b > 0.0 {
+            span.clip(before, end(t, error, SIDE));
+        } else {
+            span.clip(end(t, error, SIDE), after);
+        }
+    } else if c >= 0.0 {
+        return None;
+    }
+    span.if_any()
+}
+
+fn squared(x: f64) -> f64 {
+    x * x
+}

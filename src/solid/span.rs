@@ -1,0 +1,62 @@
+//! Where a ray is inside a solid.
+
+/// How far a coordinate of a crossing may be off, as a share of the lengths it was computed from.
+///
+/// The longest chain of roundings between the scene's numbers and a crossing: composing two maps (a dot product
+/// of three terms and a sum, 4 roundings each), inverting one (6), moving a ray into the unit space (4), and
+/// re-centring it twice (4 each): 26, rounded up to 32 half-ulps of `f64::EPSILON / 2`.
+pub const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// One end of a span.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct End {
+    /// Distance along the ray, negative behind its start.
+    pub t: f64,
+    /// The exact distance lies within `t ± error`.
+    pub error: f64,
+    /// Which face of the primitive is crossed, counted from 0 by the primitive.
+    pub surface: u32,
+}
+
+/// The one interval in which a ray is inside a convex primitive.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    /// Where the ray comes in.
+    pub enter: End,
+    /// Where it goes out; its `t` is the larger.
+    pub leave: End,
+}
+
+impl Span {
+    /// The whole line: the neutral element of [`Span::clip`].
+    pub(super) const LINE: Self = Self {
+        enter: End { t: f64::NEG_INFINITY, error: 0.0, surface: 0 },
+        leave: End { t: f64::INFINITY, error: 0.0, surface: 0 },
+    };
+
+    /// Cuts the span to `enter..leave`. Of two faces crossed at the same `t` the one clipped first stays.
+    pub(super) fn clip(&mut self, enter: End, leave: End) {
+        if enter.t > self.enter.t {
+            self.enter = enter;
+        }
+        if leave.t < self.leave.t {
+            self.leave = leave;
+        }
+    }
+
+    /// The span, unless nothing is left of it. Not-a-number counts as nothing.
+    pub(super) fn if_any(self) -> Option<Self> {
+        (self.enter.t < self.leave.t).then_some(self)
+    }
+}
+
+/// The surface that a ray starts on. The crossing there is at 0 by construction: it is never computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Departure {
+    /// The primitive that the surface belongs to.
+    pub primitive: u32,
+    /// The face of the primitive.
+    pub surface: u32,
+    /// Whether the ray goes to the inside of the primitive.
+    pub inward: bool,
+}

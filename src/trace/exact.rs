@@ -1,0 +1,236 @@
+//! The exact engine: f64, one ray at a time, every crossing with its error bound.
+
+use std::ops::ControlFlow;
+
+use crate::lattice::{self, Lattice, SLACK};
+use crate::math::{Bounds, DVec3, Ray};
+use crate::solid::{self, Assembly, Body, Crossing, Departure, Reach, first_of_expression, first_of_span};
+use crate::stage::{Meter, Probe, Stage};
+
+use super::{Engine, Hit};
+
+/// A start farther outside the world than this, in the assembly's unit, is moved to half of it before the world,
+/// so that the way to the world adds no rounding. The rest keeps surfaces at the world's limit ahead of the ray.
+const FAR: f64 = 1.0;
+
+/// The reference engine, over an assembly and, where there is one, its lattice.
+#[derive(Clone, Copy, Debug)]
+pub struct Exact<'a> {
+    assembly: &'a Assembly,
+    lattice: Option<&'a Lattice>,
+    limit: Bounds,
+}
+
+/// Memory of one worker.
+#[derive(Clone, Debug, Default)]
+pub struct Memory {
+    scratch: solid::Scratch,
+    /// By object: the last ray that was tested against it.
+    tested: Vec<u32>,
+    ray: u32,
+    /// Hits that may be the first: all within [`SLACK`] behind the nearest.
+    nearest: Vec<(u32, Crossing)>,
+}
+
+impl Memory {
+    /// Forgets the last ray.
+    fn start_ray(&mut self) {
+        self.nearest.clear();
+        self.ray = self.ray.wrapping_add(1);
+        if self.ray == 0 {
+            self.tested.fill(0);
+            self.ray = 1;
+        }
+    }
+
+    /// Whether the object is new to this ray.
+    fn first_time(&mut self, object: u32) -> bool {
+        std::mem::replace(&mut self.tested[object as usize], self.ray) != self.ray
+    }
+
+    fn keep(&mut self, object: u32, crossing: Crossing) {
+        let best = self.best_t();
+        if crossing.t <= best + SLACK {
+            if crossing.t < best {
+                self.nearest.retain(|(_, other)| other.t <= crossing.t + SLACK);
+            }
+            self.nearest.push((object, crossing));
+        }
+    }
+
+    fn best_t(&self) -> f64 {
+        self.nearest.iter().map(|(_, c)| c.t).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The nearest hit; of those that coincide with it within their errors, the first object's in the file.
+    fn chosen(&self) -> Option<Hit> {
+        let best = self.nearest.iter().min_by(|a, b| a.1.t.total_cmp(&b.1.t))?.1;
+        let coincides = |c: &Crossing| c.t - c.error <= best.t + best.error;
+        let (object, c) = *self.nearest.iter().filter(|(_, c)| coincides(c)).min_by_key(|(object, _)| *object)?;
+        Some(Hit { t: c.t, object, primitive: c.primitive, surface: c.surface, entering: c.entering })
+    }
+}
+
+impl<'a> Exact<'a> {
+    /// An engine over an assembly. Without a lattice every ray is tested against every object.
+    pub fn new(assembly: &'a Assembly, lattice: Option<&'a Lattice>) -> Self {
+        // Moved outward by what rounding may take from a hit at the limit.
+        let limit = assembly.limit.padded(DVec3::splat(SLACK));
+        Self { assembly, lattice, limit }
+    }
+
+    /// The first crossing of one object, if it lies before `to`.
+    #[inline]
+    fn object(
+        &self,
+        object: u32,
+        ray: &Ray,
+        departure: Option<Departure>,
+        to: f64,
+        memory: &mut Memory,
+        meter: &mut Meter<impl Probe>,
+    ) -> Option<Crossing> {
+        meter.at(Stage::Solid);
+        match &self.assembly.objects[object as usize].body {
+            Body::Single(index) => {
+                let primitive = &self.assembly.primitives[*index as usize];
+                first_of_span(ray, primitive, *index, departure, meter)
+            }
+            Body::Composite { whole, .. } => {
+                let primitives = &self.assembly.primitives;
+                let scratch = &mut memory.scratch;
+                match self.lattice.and_then(|l| l.sub(object as usize)) {
+                    None => {
+                        let reach = Reach { from: 0.0, to };
+                        first_of_expression(ray, whole, primitives, departure, reach, scratch, meter)
+                    }
+                    Some(sub) => {
+                        meter.at(Stage::Cell);
+                        let mut visited = 0;
+                        let found = sub.walk(ray, &mut visited, |part, step| {
+                            if step.from > to {
+                                return ControlFlow::Break(None);
+                            }
+                            let reach = Reach { from: step.from - SLACK, to: step.to + SLACK };
+                            let found =
+                                first_of_expression(ray, part, primitives, departure, reach, scratch, meter);
+                            meter.at(Stage::Cell);
+                            found.map_or(ControlFlow::Continue(()), |c| ControlFlow::Break(Some(c)))
+                        });
+                        meter.counts.cells_visited += visited;
+                        found.flatten()
+                    }
+                }
+            }
+        }
+    }
+
+    /// The nearest hit of a ray that starts inside the world or near it.
+    fn closest(
+        &self,
+        ray: &Ray,
+        entry: f64,
+        departure: Option<Departure>,
+        memory: &mut Memory,
+        meter: &mut Meter<impl Probe>,
+    ) -> Option<Hit> {
+        memory.tested.resize(self.assembly.objects.len(), 0);
+        memory.start_ray();
+        let test = |object: u32, memory: &mut Memory, meter: &mut Meter<_>| {
+            let to = memory.best_t() + SLACK;
+            if let Some(crossing) = self.object(object, ray, departure, to, memory, meter) {
+                memory.keep(object, crossing);
+            }
+        };
+        let Some(lattice) = self.lattice else {
+            for object in 0..self.assembly.objects.len() as u32 {
+                test(object, memory, meter);
+            }
+            return memory.chosen();
+        };
+        meter.at(Stage::Cell);
+        lattice.planes().walk(ray, entry, f64::INFINITY, |step| {
+            if step.from > memory.best_t() + SLACK {
+                return ControlFlow::Break(());
+            }
+            meter.counts.cells_visited += 1;
+            for &object in lattice.objects_in(step.cell) {
+                if memory.first_time(object) {
+                    test(object, memory, meter);
+                    meter.at(Stage::Cell);
+                }
+            }
+            ControlFlow::Continue(())
+        });
+        memory.chosen()
+    }
+}
+
+impl Engine for Exact<'_> {
+    type Memory = Memory;
+
+    fn memory(&self) -> Memory {
+        Memory { tested: vec![0; self.assembly.objects.len()], ..Memory::default() }
+    }
+
+    fn first(&self, ray: &Ray, memory: &mut Memory, meter: &mut Meter<impl Probe>) -> Option<Hit> {
+        meter.at(Stage::Clip);
+        let Some(entry) = lattice::entry(ray, &self.limit) else {
+            meter.counts.clipped_rays += 1;
+            return None;
+        };
+        let way = if entry > FAR { entry - 0.5 * FAR } else { 0.0 };
+        let near = Ray::new(start_nearer(ray, way), ray.d);
+        let hit = self.closest(&near, entry - way, None, memory, meter)?;
+        Some(Hit { t: way + hit.t, ..hit })
+    }
+
+    fn blocked(
+        &self,
+        ray: &Ray,
+        departure: Departure,
+        distance: f64,
+        memory: &mut Memory,
+        meter: &mut Meter<impl Probe>,
+    ) -> bool {
+        memory.tested.resize(self.assembly.objects.len(), 0);
+        memory.start_ray();
+        let blocks = |c: Crossing| c.t + c.error < distance;
+        let Some(lattice) = self.lattice else {
+            return (0..self.assembly.objects.len() as u32).any(|object| {
+                self.object(object, ray, Some(departure), distance, memory, meter).is_some_and(blocks)
+            });
+        };
+        meter.at(Stage::Cell);
+        let found = lattice.planes().walk(ray, 0.0, distance, |step| {
+            meter.counts.cells_visited += 1;
+            for &object in lattice.objects_in(step.cell) {
+                if memory.first_time(object) {
+                    let crossing = self.object(object, ray, Some(departure), distance, memory, meter);
+                    meter.at(Stage::Cell);
+                    if crossing.is_some_and(blocks) {
+                        return ControlFlow::Break(());
+                    }
+                }
+            }
+            ControlFlow::Continue(())
+        });
+        found.is_some()
+    }
+}
+
+/// The point `way` along a ray. Over a long way the product is larger than the sum, and each coordinate takes one
+/// rounding of the sum alone: a fused multiply-add, in software where the processor has none, gives the same bits
+/// everywhere.
+fn start_nearer(ray: &Ray, way: f64) -> DVec3 {
+    // Below this the product's rounding is at most what `ROUNDING` allows for coordinates near 1.
+    const FUSED: f64 = 8.0;
+    if way == 0.0 {
+        ray.o
+    } else if way < FUSED {
+        ray.at(way)
+    } else {
+        let fused = |d: f64, o: f64| libm::fma(way, d, o);
+        DVec3::new(fused(ray.d.x, ray.o.x), fused(ray.d.y, ray.o.y), fused(ray.d.z, ray.o.z))
+    }
+}

@@ -1,0 +1,121 @@
+//! The picture geometry: which way each dot looks.
+
+use crate::math::{DVec3, Ray, Size};
+use crate::scene::Camera;
+
+/// The raster of a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Picture {
+    /// Traced dots across and down.
+    pub dots: Size,
+    /// Width of a dot on the screen divided by its height, above 0.
+    pub dot_aspect: f64,
+}
+
+impl Picture {
+    /// Width of the picture on the screen divided by its height.
+    pub fn aspect(&self) -> f64 {
+        f64::from(self.dots.width) / f64::from(self.dots.height) * self.dot_aspect
+    }
+}
+
+/// A camera and a picture, made ready to give rays.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lens {
+    /// The viewpoint.
+    pub eye: DVec3,
+    /// Along the line of sight, length 1.
+    pub forward: DVec3,
+    /// To the right in the picture, length 1.
+    pub right: DVec3,
+    /// Upwards in the picture, length 1.
+    pub up: DVec3,
+    /// Distance from the eye to its target.
+    pub focus: f64,
+    /// Tangents of half the angles across and down.
+    pub tangents: [f64; 2],
+    dots: Size,
+}
+
+impl Lens {
+    /// The lens of a camera for a picture. The camera's field is contained: the other angle widens until dots
+    /// are as wide as high on the screen.
+    pub fn new(camera: &Camera, picture: &Picture) -> Self {
+        let sight = camera.target - camera.eye;
+        // Scaled first, so that no square overflows or vanishes.
+        let size = sight.abs().max_element();
+        let length = (sight / size).length();
+        let forward = sight / size / length;
+        let up = camera.up / camera.up.abs().max_element();
+        let right = forward.cross(up).normalize_or(forward.any_orthonormal_vector());
+        let half = |degrees: f64| libm::tan(0.5 * degrees.to_radians()) / camera.zoom;
+        let (tx, ty) = (half(camera.field[0]), half(camera.field[1]));
+        let aspect = picture.aspect();
+        let tangents = if tx > ty * aspect { [tx, tx / aspect] } else { [ty * aspect, ty] };
+        Self {
+            eye: camera.eye,
+            forward,
+            right,
+            up: right.cross(forward),
+            focus: size * length,
+            tangents,
+            dots: picture.dots,
+        }
+    }
+
+    /// The ray through a point of the picture, in dots from its upper left corner: dot (i, j) spans
+    /// `i..i + 1`, `j..j + 1`, and its middle is at (i + ½, j + ½).
+    #[inline]
+    pub fn ray(&self, x: f64, y: f64) -> Ray {
+        let across = (2.0 * x / f64::from(self.dots.width) - 1.0) * self.tangents[0];
+        let upward = (1.0 - 2.0 * y / f64::from(self.dots.height)) * self.tangents[1];
+        let d = self.forward + across * self.right + upward * self.up;
+        Ray::new(self.eye, d.normalize())
+    }
+
+    /// The full angles of the field across and down, in degrees.
+    pub fn field(&self) -> [f64; 2] {
+        self.tangents.map(|t| 2.0 * libm::atan(t).to_degrees())
+    }
+
+    /// The place of a point given in (right, up, back), in units of the distance to the target.
+    pub fn place(&self, p: DVec3) -> DVec3 {
+        self.eye + self.focus * (p.x * self.right + p.y * self.up - p.z * self.forward)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn camera(field: [f64; 2]) -> Camera {
+        Camera { name: None, eye: DVec3::new(0.0, -5.0, 0.0), target: DVec3::ZERO, up: DVec3::Z, field, zoom: 1.0 }
+    }
+
+    #[test]
+    fn the_field_is_contained_and_dots_are_square() {
+        let wide = Picture { dots: Size::new(200, 50), dot_aspect: 1.0 };
+        let lens = Lens::new(&camera([40.0, 25.0]), &wide);
+        assert!((lens.field()[1] - 25.0).abs() < 1e-12 && lens.field()[0] > 40.0);
+        assert!((lens.tangents[0] / 200.0 - lens.tangents[1] / 50.0).abs() < 1e-15);
+        let tall = Picture { dots: Size::new(50, 200), dot_aspect: 1.0 };
+        let lens = Lens::new(&camera([40.0, 25.0]), &tall);
+        assert!((lens.field()[0] - 40.0).abs() < 1e-12 && lens.field()[1] > 25.0);
+    }
+
+    #[test]
+    fn the_middle_looks_forward_and_x_goes_right() {
+        let lens = Lens::new(&camera([40.0, 25.0]), &Picture { dots: Size::new(160, 100), dot_aspect: 1.0 });
+        assert_eq!(lens.ray(80.0, 50.0).d, DVec3::Y);
+        assert!(lens.ray(160.0, 50.0).d.x > 0.0);
+        assert!(lens.ray(80.0, 0.0).d.z > 0.0);
+    }
+
+    #[test]
+    fn zoom_divides_both_tangents() {
+        let picture = Picture { dots: Size::new(160, 100), dot_aspect: 1.0 };
+        let plain = Lens::new(&camera([40.0, 25.0]), &picture);
+        let near = Lens::new(&Camera { zoom: 2.0, ..camera([40.0, 25.0]) }, &picture);
+        assert_eq!(plain.tangents.map(|t| t / 2.0), near.tangents);
+    }
+}

@@ -1,0 +1,55 @@
+//! The picture in tiles: the unit of work that threads share.
+
+use crate::math::Size;
+
+/// Dots along each side of a tile: large enough that a thread seldom asks for work, small enough that many
+/// threads end together.
+pub const TILE: u32 = 16;
+
+/// A rectangle of dots.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Tile {
+    /// Its number in scan order of tiles.
+    pub number: u32,
+    /// Its leftmost column and top row.
+    pub corner: [u32; 2],
+    /// Its columns and rows; smaller at the right and lower rim.
+    pub size: Size,
+}
+
+impl Tile {
+    /// Its dots in scan order.
+    pub fn dots(&self) -> impl Iterator<Item = (u32, u32)> + use<> {
+        let ([x, y], size) = (self.corner, self.size);
+        (y..y + size.height).flat_map(move |j| (x..x + size.width).map(move |i| (i, j)))
+    }
+}
+
+/// Cuts a picture into tiles, in scan order.
+pub fn tiles(dots: Size) -> Vec<Tile> {
+    let mut all = Vec::new();
+    for y in (0..dots.height).step_by(TILE as usize) {
+        for x in (0..dots.width).step_by(TILE as usize) {
+            let size = Size::new(TILE.min(dots.width - x), TILE.min(dots.height - y));
+            all.push(Tile { number: all.len() as u32, corner: [x, y], size });
+        }
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tiles_hold_every_dot_once() {
+        let dots = Size::new(37, 21);
+        let mut seen = vec![0; dots.area()];
+        for tile in tiles(dots) {
+            for (i, j) in tile.dots() {
+                seen[(j * dots.width + i) as usize] += 1;
+            }
+        }
+        assert!(seen.iter().all(|&n| n == 1));
+    }
+}

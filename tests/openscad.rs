@@ -47,7 +47,7 @@ fn views(studio: &Studio) -> Vec<(&'static str, Camera)> {
 
 /// Panics with the first dots where the tracer and the brute force disagree.
 fn assert_agrees(name: &str, scene: Scene) {
-    let studio = Studio::new(scene);
+    let studio = Studio::new(scene).unwrap();
     let brute = Brute::new(studio.scene());
     let own = studio.scene().views.iter().map(|camera| ("own view", camera.clone()));
     let mut hits = 0;

@@ -11,6 +11,7 @@ use std::sync::Arc;
 use agreement::compare;
 use brute::Brute;
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 use ray13::frame::Studio;
 use ray13::math::{Bounds, DAffine3, DMat3, DVec3, Size};
 use ray13::scene::{
@@ -121,7 +122,7 @@ fn camera(direction: DVec3, by: &DAffine3) -> Camera {
 }
 
 fn assert_agrees(solids: &[Solid], by: &DAffine3, direction: DVec3) -> Result<(), TestCaseError> {
-    let studio = Studio::new(scene(solids, by));
+    let studio = Studio::new(scene(solids, by)).unwrap();
     let brute = Brute::new(studio.scene());
     let comparison = compare(&studio, &brute, &camera(direction, by), DOTS);
     prop_assert!(comparison.faults.is_empty(), "{}", comparison.first_faults());
@@ -133,7 +134,8 @@ fn any_direction() -> impl Strategy<Value = DVec3> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(400))]
+    // The same cases each time: a test that fails tells of the change before it.
+    #![proptest_config(ProptestConfig { cases: 400, rng_seed: RngSeed::Fixed(13), failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn agree_as_they_stand(solids in prop::collection::vec(any_solid(), 1..=3), direction in any_direction()) {

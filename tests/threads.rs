@@ -25,7 +25,7 @@ fn contents(frame: &Frame) -> impl PartialEq {
 #[test]
 fn frames_do_not_depend_on_threads() {
     for (name, scene) in embedded_scenes() {
-        let studio = Studio::new(scene);
+        let studio = Studio::new(scene).unwrap();
         let draw = |threads| {
             let mut request = request(studio.camera(0, 1.5), Size::new(122, 84));
             request.options.threads = threads;

@@ -60,7 +60,8 @@ impl Tree {
                 fold(Self::All(children?), false)
             }
             Solid::Difference(children) => {
-                let mut children = children.iter().map(|c| Self::new(c, next)).collect::<Vec<_>>().into_iter();
+                let mut children =
+                    children.iter().map(|c| Self::new(c, next)).collect::<Vec<_>>().into_iter();
                 let first = children.next().flatten().map(plain);
                 let cuts = children.flatten().map(|tree| Child { tree, negated: true });
                 fold(Self::All(std::iter::once(first?).chain(cuts).collect()), false)

@@ -58,7 +58,9 @@ impl Form {
             },
             Shape::Frustum { bottom, top } => Self::Round(Round::frustum(place, *bottom, *top)),
             Shape::Cube => match axis_half(&place.linear) {
-                Some(half) => Self::AxisBox(AxisBox::new(Bounds::new(place.center - half, place.center + half))),
+                Some(half) => {
+                    Self::AxisBox(AxisBox::new(Bounds::new(place.center - half, place.center + half)))
+                }
                 None => Self::SkewBox(SkewBox::new(place)),
             },
             Shape::Facets(unit) => Self::Facets(Facets::new(unit, &place)),

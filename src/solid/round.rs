@@ -24,7 +24,10 @@ pub struct Round {
 enum Profile {
     Sphere,
     /// `r(z) = middle + slope · z` for `|z| ≤ 1`.
-    Frustum { middle: f64, slope: f64 },
+    Frustum {
+        middle: f64,
+        slope: f64,
+    },
 }
 
 /// A ray in the unit space, re-centred: `o` is its point closest to the unit origin.
@@ -46,13 +49,17 @@ impl Round {
 
     /// The unit frustum at `place`, of radius `bottom` at z = −1 and `top` at z = 1.
     pub fn frustum(place: Placement, bottom: f64, top: f64) -> Self {
-        Self::new(place, Profile::Frustum { middle: 0.5 * bottom + 0.5 * top, slope: 0.5 * top - 0.5 * bottom })
+        Self::new(
+            place,
+            Profile::Frustum { middle: 0.5 * bottom + 0.5 * top, slope: 0.5 * top - 0.5 * bottom },
+        )
     }
 
     fn new(place: Placement, profile: Profile) -> Self {
         let rows = place.inverse.transpose();
-        let stretch = (rows.x_axis.length_squared() + rows.y_axis.length_squared() + rows.z_axis.length_squared())
-            .sqrt();
+        let stretch =
+            (rows.x_axis.length_squared() + rows.y_axis.length_squared() + rows.z_axis.length_squared())
+                .sqrt();
         let linear = place.linear;
         let size = linear.x_axis.length() + linear.y_axis.length() + linear.z_axis.length();
         Self { place, profile, stretch, reach: place.center.length() + size }

@@ -34,7 +34,14 @@ pub fn framed(b: &Bounds, aspect: f64) -> Camera {
         (1.0 + MARGIN) * across.max(upward) + q.dot(back)
     };
     let distance = b.corners().into_iter().map(needed).fold(0.0, f64::max);
-    Camera { name: None, eye: center + distance * back, target: center, up: DVec3::Z, field: FIELD, zoom: 1.0 }
+    Camera {
+        name: None,
+        eye: center + distance * back,
+        target: center,
+        up: DVec3::Z,
+        field: FIELD,
+        zoom: 1.0,
+    }
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ mod side;
 mod wide;
 mod worked;
 
-use ray13::math::{DAffine3, DVec3};
+use ray13::math::DVec3;
 use ray13::scene::{Primitive, Scene, Shape, Solid};
 
 use side::{Row, Side, Triangle, along, direction, point, sides};
@@ -72,7 +72,7 @@ impl<'a> Brute<'a> {
     pub fn new(scene: &'a Scene) -> Self {
         let mut pieces = Vec::new();
         for (object, part) in scene.objects.iter().enumerate() {
-            each_primitive(&part.solid, &mut |primitive| pieces.push(Piece::new(object, primitive)));
+            part.solid.visit(&mut |primitive| pieces.push(Piece::new(object, primitive)));
         }
         let size = pieces.iter().map(|p| p.center.length() + p.radius).fold(0.0, f64::max);
         Self { scene, pieces, smallest: size * COINCIDENT }
@@ -154,18 +154,6 @@ impl<'a> Brute<'a> {
     }
 }
 
-/// Primitives in file order.
-fn each_primitive(solid: &Solid, found: &mut impl FnMut(&Primitive)) {
-    match solid {
-        Solid::Primitive(primitive) => found(primitive),
-        Solid::Union(parts) | Solid::Intersection(parts) | Solid::Difference(parts) => {
-            for part in parts {
-                each_primitive(part, found);
-            }
-        }
-    }
-}
-
 /// Whether a solid holds a point, from whether each of its primitives does, in file order.
 fn member(solid: &Solid, inside: &mut impl Iterator<Item = bool>) -> bool {
     // Every part takes its own primitives' answers, so none may be passed over.
@@ -244,16 +232,4 @@ impl Piece {
             }
         }
     }
-}
-
-fn unit_corners() -> Vec<DVec3> {
-    let ends = [-1.0, 1.0];
-    ends.iter().flat_map(|&x| ends.iter().flat_map(move |&y| ends.map(|z| DVec3::new(x, y, z)))).collect()
-}
-
-/// A ball around mapped points.
-fn ball(map: &DAffine3, corners: &[DVec3]) -> (DVec3, f64) {
-    let points: Vec<DVec3> = corners.iter().map(|&p| map.transform_point3(p)).collect();
-    let center = points.iter().fold(DVec3::ZERO, |sum, &p| sum + p / points.len() as f64);
-    (center, points.iter().map(|p| p.distance(center)).fold(0.0, f64::max))
 }

@@ -14,7 +14,7 @@ use scenery::embedded_scenes;
 const THREADS: [usize; 3] = [1, 2, 7];
 
 /// Everything of a frame that is not a time, floats to the bit.
-fn contents(frame: &Frame) -> impl PartialEq {
+fn contents(frame: &Frame) -> impl PartialEq + use<> {
     let bits = |values: &[f64]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
     let normals: Vec<_> = frame.normal.values().iter().map(|n| n.to_array().map(f64::to_bits)).collect();
     let object = frame.object.values().to_vec();

@@ -173,14 +173,13 @@ fn member(solid: &Solid, inside: &mut impl Iterator<Item = bool>) -> bool {
 impl Piece {
     fn new(object: usize, primitive: &Primitive) -> Self {
         let map = &primitive.map;
-        let (surface, corners) = match (&primitive.shape, sides(&primitive.shape, map)) {
-            (Shape::Mesh(mesh), _) => (Surface::Parity(Triangle::of(mesh, map)), mesh.points.clone()),
-            (Shape::Facets(facets), Some(sides)) => {
-                (Surface::Convex(sides), facets.bounds.corners().to_vec())
-            }
-            (_, sides) => (Surface::Convex(sides.unwrap_or_default()), unit_corners()),
+        let surface = match &primitive.shape {
+            Shape::Mesh(mesh) => Surface::Parity(Triangle::of(mesh, map)),
+            convex => Surface::Convex(sides(convex, map)),
         };
-        let (center, radius) = ball(map, &corners);
+        let corners = primitive.shape.bounds().corners().map(|corner| map.transform_point3(corner));
+        let center = corners.iter().fold(DVec3::ZERO, |sum, &p| sum + p / 8.0);
+        let radius = corners.iter().map(|p| p.distance(center)).fold(0.0, f64::max);
         Self { object, surface, center, radius }
     }
 

@@ -69,7 +69,7 @@ fn lib_rs_lists_the_folders_of_src_and_nothing_else() {
     assert_eq!(rooms[0], "math", "math depends on nothing");
 }
 
-/// The number, name and room of each stage that docs/flow-chart.md describes: `## 7 SOLID: \`solid\``.
+/// The number, name and room of each stage that docs/flow-chart.md describes, in headings such as "7 SOLID: solid".
 fn stages_described(chart: &str) -> Vec<(usize, String, String)> {
     chart
         .lines()

@@ -114,23 +114,30 @@ fn scene(solids: &[Solid], by: &DAffine3) -> Scene {
     Scene { objects, materials: vec![Material::default()], ..Scene::default() }
 }
 
-/// Looks at the middle from a direction, from far enough to see all.
-fn camera(direction: DVec3, by: &DAffine3) -> Camera {
-    let eye = by.transform_point3(direction.normalize() * 9.0);
+/// Looks from a point, given before the map, at about the middle.
+fn camera(eye: DVec3, zoom: f64, by: &DAffine3) -> Camera {
+    let eye = by.transform_point3(eye);
     let target = by.transform_point3(DVec3::new(0.1, 0.05, -0.07));
-    Camera { name: None, eye, target, up: DVec3::new(0.1, 0.2, 1.0), field: [40.0, 40.0], zoom: 1.0 }
+    Camera { name: None, eye, target, up: DVec3::new(0.1, 0.2, 1.0), field: [40.0, 40.0], zoom }
 }
 
-fn assert_agrees(solids: &[Solid], by: &DAffine3, direction: DVec3) -> Result<(), TestCaseError> {
+/// Far enough away to see all that can be on the grid.
+const OUTSIDE: f64 = 9.0;
+
+fn assert_agrees(solids: &[Solid], by: &DAffine3, eye: DVec3, zoom: f64) -> Result<(), TestCaseError> {
     let studio = Studio::new(scene(solids, by)).unwrap();
     let brute = Brute::new(studio.scene());
-    let comparison = compare(&studio, &brute, &camera(direction, by), DOTS);
+    let comparison = compare(&studio, &brute, &camera(eye, zoom, by), DOTS);
     prop_assert!(comparison.faults.is_empty(), "{}", comparison.first_faults());
     Ok(())
 }
 
+fn any_solids() -> impl Strategy<Value = Vec<Solid>> {
+    prop::collection::vec(any_solid(), 1..=3)
+}
+
 fn any_direction() -> impl Strategy<Value = DVec3> {
-    (-1.0..1.0, -1.0..1.0, -1.0..1.0).prop_map(|(x, y, z)| DVec3::new(x, y, z + 1.5))
+    (-1.0..1.0, -1.0..1.0, -1.0..1.0).prop_map(|(x, y, z)| DVec3::new(x, y, z + 1.5).normalize())
 }
 
 proptest! {
@@ -138,18 +145,34 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 400, rng_seed: RngSeed::Fixed(13), failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn agree_as_they_stand(solids in prop::collection::vec(any_solid(), 1..=3), direction in any_direction()) {
-        assert_agrees(&solids, &DAffine3::IDENTITY, direction)?;
+    fn agree_as_they_stand(solids in any_solids(), direction in any_direction()) {
+        assert_agrees(&solids, &DAffine3::IDENTITY, direction * OUTSIDE, 1.0)?;
     }
 
     #[test]
     fn agree_when_turned_and_scaled(
-        solids in prop::collection::vec(any_solid(), 1..=3),
+        solids in any_solids(),
         turn in any_rotation(),
         exponent in -9_i32..=9,
         direction in any_direction(),
     ) {
         let by = DAffine3::from_mat3(turn * libm::pow(10.0, f64::from(exponent)));
-        assert_agrees(&solids, &by, direction)?;
+        assert_agrees(&solids, &by, direction * OUTSIDE, 1.0)?;
+    }
+
+    #[test]
+    fn agree_from_within(
+        solids in any_solids(),
+        x in -1.5..1.5,
+        y in -1.5..1.5,
+        z in -1.5..1.5,
+    ) {
+        assert_agrees(&solids, &DAffine3::IDENTITY, DVec3::new(x, y, z), 0.5)?;
+    }
+
+    #[test]
+    fn agree_from_afar(solids in any_solids(), direction in any_direction(), exponent in 1_i32..=6) {
+        let far = libm::pow(10.0, f64::from(exponent));
+        assert_agrees(&solids, &DAffine3::IDENTITY, direction * OUTSIDE * far, far)?;
     }
 }

@@ -1,6 +1,122 @@
-//! (to be written)
+//! The command line: arguments in, one call each.
 
-/// Runs the command line.
-pub fn run() -> std::process::ExitCode {
-    std::process::ExitCode::SUCCESS
+mod arguments;
+mod bench;
+mod error;
+mod input;
+mod picture;
+mod render;
+mod stats;
+mod values;
+
+use std::io::{self, IsTerminal, Write};
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use crate::app::{self, Settings};
+use crate::scene::embedded;
+
+use arguments::{Arguments, Command, SceneArguments, ViewerArguments};
+use error::CliError;
+
+/// The scene that the program shows when it is given none.
+const FIRST_SCENE: &str = "hanyang";
+
+/// Runs the command line: exit code 0 for done, 1 where writing or the terminal failed, 2 for bad input or
+/// arguments. Errors go to standard error.
+pub fn run() -> ExitCode {
+    match command(Arguments::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            error.report();
+            error.exit_code()
+        }
+    }
+}
+
+fn command(arguments: Arguments) -> Result<(), CliError> {
+    match arguments.command {
+        None => view(&arguments.viewer),
+        Some(Command::Render(render)) => render::run(&render),
+        Some(Command::Bench(bench)) => bench::run(&bench),
+        Some(Command::Check(scene)) => check(&scene),
+        Some(Command::Scenes { name }) => scenes(name.as_deref()),
+    }
+}
+
+/// The viewer; one still where standard output is no terminal.
+fn view(arguments: &ViewerArguments) -> Result<(), CliError> {
+    let file = arguments.file.as_deref().unwrap_or(FIRST_SCENE);
+    let picture = &arguments.picture;
+    if !io::stdout().is_terminal() {
+        return render::still(file, arguments.skip_unsupported, picture);
+    }
+    // The viewer shows what it can, and says on the screen what it left out.
+    let scene = input::read(file, true)?;
+    let notes = scene.notes.clone();
+    let studio = input::studio(scene)?;
+    let view = picture.camera.view_index(studio.scene())?;
+    let settings = Settings {
+        title: input::title(file),
+        view: view.unwrap_or(0),
+        camera: picture.camera.is_given().then(|| picture.camera.camera(&studio, 1.6)).transpose()?,
+        options: picture.options(),
+        glyphs: picture.glyphs.into(),
+        palette: picture.palette(),
+        tone: picture.tone.into(),
+    };
+    app::run(studio, settings)?;
+    for note in notes {
+        eprintln!("ray13: {note}");
+    }
+    Ok(())
+}
+
+/// Reads and validates only.
+fn check(arguments: &SceneArguments) -> Result<(), CliError> {
+    let scene = input::read(&arguments.file, arguments.skip_unsupported)?;
+    input::say(&scene.notes);
+    let studio = input::studio(scene)?;
+    let (scene, count) =
+        (studio.scene(), |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" }));
+    let mut primitives = 0;
+    for object in &scene.objects {
+        object.solid.visit(&mut |_| primitives += 1);
+    }
+    let line = format!(
+        "{}: {}, {}, {}, {}, {}\n",
+        arguments.file,
+        count(scene.objects.len(), "object"),
+        count(primitives, "primitive"),
+        count(scene.materials.len(), "material"),
+        count(scene.lights.len(), "light"),
+        count(scene.views.len(), "view"),
+    );
+    print(line.as_bytes())
+}
+
+/// Lists the embedded scenes, or prints one.
+fn scenes(name: Option<&str>) -> Result<(), CliError> {
+    let Some(name) = name else {
+        let widest = embedded().iter().map(|s| s.name.len()).max().unwrap_or(0);
+        let lines: String = embedded().iter().map(|s| format!("{:widest$}  {}\n", s.name, s.title)).collect();
+        return print(lines.as_bytes());
+    };
+    let found = embedded().iter().find(|s| s.name == name);
+    let scene = found.ok_or_else(|| {
+        let names: Vec<&str> = embedded().iter().map(|s| s.name).collect();
+        CliError::Input(format!("there is no embedded scene `{name}`; there are {}", names.join(", ")))
+    })?;
+    print(scene.text.as_bytes())
+}
+
+/// Writes to standard output. A reader that has seen enough is no error.
+fn print(bytes: &[u8]) -> Result<(), CliError> {
+    let mut out = io::stdout().lock();
+    match out.write_all(bytes).and_then(|()| out.flush()) {
+        Err(e) if e.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        Err(e) => Err(CliError::Output(format!("standard output could not be written: {e}"))),
+        Ok(()) => Ok(()),
+    }
 }

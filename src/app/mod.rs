@@ -1,1 +1,108 @@
-//! (to be written)
+//! The full-screen viewer: keys in, pictures out, the terminal as it was afterwards.
+//!
+//! Three kinds of threads share the work. The one that calls [`run`] owns the model and the screen, and waits
+//! for things that happen; others wait for keys, for signals and for the connection's end, and say so; one
+//! traces the picture that was asked for last. None of them wakes by a clock: at rest the program does nothing
+//! and sends nothing.
+
+mod events;
+mod help;
+mod keys;
+mod layout;
+mod model;
+mod motion;
+mod painter;
+mod screen;
+#[cfg(unix)]
+mod signals;
+mod terminal;
+mod theme;
+mod tracer;
+mod viewer;
+
+use std::io;
+use std::sync::{Arc, mpsc};
+
+use ratatui::crossterm::style::force_color_output;
+
+use crate::glyph::{GlyphMode, Palette};
+use crate::plan::Options;
+use crate::scene::Camera;
+use crate::tone::Tone;
+
+use model::Model;
+pub use painter::Painter;
+use terminal::Terminal;
+use tracer::Tracer;
+use viewer::{End, Viewer};
+
+/// With what the viewer starts.
+#[derive(Clone, Debug, Default)]
+pub struct Settings {
+    /// The name of the scene, as the frame shows it (in capitals).
+    pub title: String,
+    /// The index of the first view.
+    pub view: usize,
+    /// A camera of one's own, in place of the view; the first press of Tab leaves it for the view.
+    pub camera: Option<Camera>,
+    /// Shading model, shadows, structure, threads.
+    pub options: Options,
+    /// Characters.
+    pub glyphs: GlyphMode,
+    /// Colours, of the picture and of the panels.
+    pub palette: Palette,
+    /// Light to level.
+    pub tone: Tone,
+}
+
+/// Why the viewer ended other than by a key.
+#[derive(Debug, thiserror::Error)]
+pub enum AppError {
+    /// The terminal could not be set up, read or written.
+    #[error("the terminal failed: {0}")]
+    Terminal(#[from] io::Error),
+    /// The terminal went away.
+    #[error("the terminal hung up")]
+    HungUp,
+    /// Tracing panicked; the message is already on standard error.
+    #[error("the picture could not be traced")]
+    Panicked,
+}
+
+/// Shows the scene until the person quits. Standard output has to be a terminal; keys come from standard input,
+/// or from the controlling terminal where standard input is something else.
+///
+/// The terminal is given back on every way out: before this returns, before the message of a panic, and before
+/// the process ends by SIGHUP, SIGINT, SIGQUIT or SIGTERM, which is how it ends when it gets one of these.
+/// A thread keeps reading the terminal afterwards, so a program runs one viewer in its life.
+///
+/// # Errors
+/// See [`AppError`].
+pub fn run(painter: impl Painter + 'static, settings: Settings) -> Result<(), AppError> {
+    // The caller has decided about colours, NO_COLOR included; crossterm shall not decide again.
+    force_color_output(true);
+    let (sender, events) = mpsc::channel();
+    let mut terminal = Terminal::take()?;
+    #[cfg(unix)]
+    {
+        signals::listen(sender.clone(), terminal.hold())?;
+        signals::listen_for_hang_up(sender.clone())?;
+    }
+    events::listen_to_keys(sender.clone())?;
+    let painter = Arc::new(painter);
+    let tracer = Tracer::start(painter.clone(), sender)?;
+    let model = Model::new(&*painter, settings, terminal::window());
+    let mut viewer = Viewer { painter: &*painter, model, shown: None, tracer, terminal: &mut terminal };
+    let end = viewer.run(&events);
+    drop(viewer);
+    drop(terminal);
+    match end? {
+        End::Quit => Ok(()),
+        End::Signal(signal) => {
+            #[cfg(unix)]
+            signals::end_by(signal);
+            #[cfg(not(unix))]
+            std::process::exit(128 + signal);
+        }
+    }
+}

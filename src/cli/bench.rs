@@ -79,7 +79,7 @@ fn screen(frame: &Frame) -> Buffer {
     // ratatui counts columns in 16 bits; so does every terminal.
     let side = |n: u32| u16::try_from(n).unwrap_or(u16::MAX);
     let mut buffer = Buffer::empty(Rect::new(0, 0, side(size.width), side(size.height)));
-    Picture::new(&frame.cells).render(buffer.area, &mut buffer);
+    Picture(&frame.cells).render(buffer.area, &mut buffer);
     buffer
 }
 

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod bench;
+mod diagnostics;
 mod error;
 mod input;
 mod picture;

@@ -66,6 +66,28 @@ pub struct Frame {
 }
 
 impl Frame {
+    /// A frame of dots that saw nothing, with these cells: what a program shows, or a test fills in, before a
+    /// picture has been traced.
+    pub fn blank(dots: Size, cells: Grid<Cell>) -> Self {
+        Self {
+            light: Grid::filled(dots, 0.0),
+            depth: Grid::filled(dots, f64::INFINITY),
+            normal: Grid::filled(dots, DVec3::ZERO),
+            object: Grid::filled(dots, 0),
+            cells,
+            counts: Counts::default(),
+            times: StageTimes::default(),
+            objects: 0,
+            primitives: 0,
+            lattice: None,
+            without_lattice: None,
+            field: [0.0; 2],
+            threads: 1,
+            trace: Duration::ZERO,
+            total: Duration::ZERO,
+        }
+    }
+
     /// The level of each dot.
     pub fn levels(&self, tone: Tone) -> Grid<Level> {
         self.light.map(|&light| tone.level(light))

@@ -1,0 +1,31 @@
+//! Who makes the pictures: a [`Studio`], or something in its place.
+
+use crate::frame::{Frame, Request, Studio};
+use crate::scene::{Camera, Scene};
+
+/// What the viewer asks for scene, views and pictures. Pictures are drawn on a thread of their own.
+pub trait Painter: Send + Sync {
+    /// The scene that is shown.
+    fn scene(&self) -> &Scene;
+
+    /// The camera of a view; the framing from the bounds where `index` is past the last. `aspect` is the width
+    /// of the whole picture divided by its height, on the screen.
+    fn camera(&self, index: usize, aspect: f64) -> Camera;
+
+    /// Draws one picture.
+    fn draw(&self, request: &Request) -> Frame;
+}
+
+impl Painter for Studio {
+    fn scene(&self) -> &Scene {
+        self.scene()
+    }
+
+    fn camera(&self, index: usize, aspect: f64) -> Camera {
+        self.camera(index, aspect)
+    }
+
+    fn draw(&self, request: &Request) -> Frame {
+        self.draw(request)
+    }
+}

@@ -1,0 +1,44 @@
+//! The styles of the panels: DOS attributes, or the terminal's own ink and paper.
+
+use ratatui::style::{Color, Modifier, Style};
+
+use crate::glyph::Palette;
+
+/// How each part of the screen is drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Theme {
+    /// Borders and plain text.
+    pub text: Style,
+    /// Titles and numbers to notice.
+    pub bright: Style,
+    /// What did nothing.
+    pub dim: Style,
+    /// Labels of the function keys.
+    pub label: Style,
+}
+
+impl Theme {
+    /// The styles that go with a picture's palette.
+    pub const fn of(palette: Palette) -> Self {
+        match palette {
+            Palette::Dos => {
+                let text = Style::new().fg(Color::Gray).bg(Color::Black);
+                Self {
+                    text,
+                    bright: text.fg(Color::White),
+                    dim: text.fg(Color::DarkGray),
+                    label: Style::new().fg(Color::Black).bg(Color::Gray),
+                }
+            }
+            Palette::Mono => {
+                let text = Style::new();
+                Self {
+                    text,
+                    bright: text.add_modifier(Modifier::BOLD),
+                    dim: text.add_modifier(Modifier::DIM),
+                    label: text.add_modifier(Modifier::REVERSED),
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! The loop of the viewer: wait for something to happen, change the model, show it.
+
+use std::iter;
+use std::sync::mpsc::Receiver;
+use std::time::{Duration, Instant};
+
+use ratatui::buffer::Buffer;
+
+use super::events::Event;
+use super::model::{Effect, Model};
+use super::screen::{self, Shown};
+#[cfg(unix)]
+use super::signals;
+use super::terminal::{self, Terminal};
+use super::tracer::Tracer;
+use super::{AppError, Painter, keys};
+use crate::frame::Frame;
+
+/// Model, picture and terminal together.
+pub struct Viewer<'a> {
+    pub painter: &'a dyn Painter,
+    pub model: Model,
+    pub shown: Option<Shown>,
+    pub tracer: Tracer,
+    pub terminal: &'a mut Terminal,
+}
+
+/// How the viewer ends when nothing fails.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// By a key.
+    Quit,
+    /// By a signal.
+    Signal(i32),
+}
+
+impl Viewer<'_> {
+    /// Shows the scene until the end. Everything that has already happened is taken in before the screen is
+    /// drawn once, so keys never wait behind pictures.
+    pub fn run(&mut self, events: &Receiver<Event>) -> Result<End, AppError> {
+        self.show(None)?;
+        loop {
+            // The threads that listen keep their ends of the channel for as long as there is a terminal.
+            let first = events.recv().map_err(|_| AppError::HungUp)?;
+            let mut finished = None;
+            for event in iter::once(first).chain(events.try_iter()) {
+                match event {
+                    Event::Drawn(frame) => finished = Some(frame),
+                    event => {
+                        if let Some(end) = self.take_in(event)? {
+                            return Ok(end);
+                        }
+                    }
+                }
+            }
+            self.show(finished)?;
+        }
+    }
+
+    fn take_in(&mut self, event: Event) -> Result<Option<End>, AppError> {
+        match event {
+            Event::Key(key) => match self.model.update(self.painter, keys::action(key)) {
+                Effect::None => {}
+                Effect::Suspend => self.suspend()?,
+                Effect::Quit => return Ok(Some(End::Quit)),
+            },
+            Event::Resized => self.model.resize(self.painter, terminal::window()),
+            Event::Stopped => self.suspend()?,
+            Event::Continued => {
+                self.terminal.retake()?;
+                self.model.resize(self.painter, terminal::window());
+            }
+            Event::Terminated(signal) => return Ok(Some(End::Signal(signal))),
+            Event::HungUp => return Err(AppError::HungUp),
+            Event::Failed(error) => return Err(error.into()),
+            Event::Panicked => return Err(AppError::Panicked),
+            Event::Drawn(_) => {}
+        }
+        Ok(None)
+    }
+
+    /// Asks for the picture of the model, and draws the screen, with a new picture if there is one.
+    fn show(&mut self, finished: Option<Box<Frame>>) -> Result<(), AppError> {
+        if let Some(request) = self.model.request() {
+            self.tracer.ask(request);
+        }
+        if let Some(frame) = finished {
+            let begun = Instant::now();
+            // The picture first, with the figures of the one before; then, in the same write, its own.
+            let before =
+                self.shown.as_ref().map_or((0, Duration::ZERO), |shown| (shown.bytes, shown.display));
+            let mut shown = Shown { frame: *frame, bytes: before.0, display: before.1 };
+            shown.bytes = self.terminal.queue(self.screen(Some(&shown)))?;
+            shown.display = begun.elapsed();
+            self.shown = Some(shown);
+        }
+        self.terminal.queue(self.screen(self.shown.as_ref()))?;
+        self.terminal.send()?;
+        Ok(())
+    }
+
+    fn screen(&self, shown: Option<&Shown>) -> Buffer {
+        let mut buffer = Buffer::empty(self.model.layout.screen);
+        screen::draw(&self.model, shown, &mut buffer);
+        buffer
+    }
+
+    /// Gives the terminal back and stops; [`Event::Continued`] takes it again.
+    #[cfg(unix)]
+    fn suspend(&mut self) -> Result<(), AppError> {
+        if signals::can_stop() {
+            self.terminal.hold().release()?;
+            signals::stop()?;
+        }
+        Ok(())
+    }
+
+    #[cfg(not(unix))]
+    #[expect(clippy::unused_self, clippy::unnecessary_wraps, reason = "one signature for all systems")]
+    fn suspend(&mut self) -> Result<(), AppError> {
+        Ok(())
+    }
+}

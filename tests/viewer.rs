@@ -1,0 +1,237 @@
+//! The viewer in a real terminal: it draws, moves, follows the size, and gives the terminal back.
+#![cfg(all(unix, feature = "app"))]
+
+mod pty;
+
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use pty::{Pty, Size};
+use ray13::app::{self, Painter, Settings};
+use ray13::frame::{Frame, Request, Studio};
+use ray13::scene::{Camera, Scene};
+
+const SMALLEST: Size = Size { columns: 80, rows: 25 };
+
+const VIEWER: &str = env!("CARGO_BIN_EXE_ray13");
+
+/// The viewer on the embedded scene, its first picture drawn.
+fn viewer(size: Size) -> Pty {
+    let mut pty = Pty::start(&[VIEWER], size);
+    pty.wait_for("the first picture", |pty| pty.drawn());
+    pty
+}
+
+/// What the tests read from the screen.
+trait Reading {
+    fn drawn(&self) -> bool;
+    fn eye(&self) -> String;
+    fn picture(&self) -> String;
+}
+
+impl Reading for Pty {
+    /// The frame stands in the four corners and the picture is there.
+    fn drawn(&self) -> bool {
+        let Size { columns, rows } = self.size();
+        let corner = |column, row| self.symbol(column, row);
+        let corners =
+            [corner(0, 0), corner(columns - 1, 0), corner(0, rows - 2), corner(columns - 1, rows - 2)];
+        corners == ["╔", "╗", "╚", "╝"]
+            && self.row(0).contains(" RAY13 ")
+            && self.row(rows - 1).contains("1Help")
+            && self.row(rows - 3).contains(" fps ")
+            && self.picture().chars().filter(|c| !c.is_whitespace()).count() > 20
+    }
+
+    fn eye(&self) -> String {
+        let status = self.row(self.size().rows - 3);
+        status.split("EYE").nth(1).and_then(|rest| rest.split("DIR").next()).unwrap_or_default().to_owned()
+    }
+
+    /// What stands inside the panel of the picture, right of its left border.
+    fn picture(&self) -> String {
+        let left = self.row(1).chars().position(|c| c == '┐').unwrap_or_default() + 2;
+        let inside =
+            |row| self.row(row).chars().skip(left).take_while(|&c| c != '│').collect::<String>() + "\n";
+        (2..self.size().rows - 4).map(inside).collect()
+    }
+}
+
+#[test]
+fn an_arrow_moves_the_eye_and_changes_the_picture() {
+    let mut pty = viewer(SMALLEST);
+    let (eye, picture) = (pty.eye(), pty.picture());
+    pty.send("\x1b[C");
+    pty.wait_for("another picture", |pty| pty.drawn() && pty.eye() != eye && pty.picture() != picture);
+    pty.send("\x1b[H");
+    pty.wait_for("the first picture", |pty| pty.eye() == eye && pty.picture() == picture);
+}
+
+#[test]
+fn the_screen_follows_the_size_of_the_terminal() {
+    let mut pty = viewer(SMALLEST);
+    pty.resize(Size { columns: 120, rows: 40 });
+    pty.wait_for("the larger screen", |pty| pty.drawn());
+    pty.resize(Size { columns: 40, rows: 10 });
+    pty.wait_for("the picture alone", |pty| {
+        let text = pty.text();
+        !text.contains(['║', '═', '│']) && text.chars().any(|c| !c.is_whitespace())
+    });
+    pty.resize(SMALLEST);
+    pty.wait_for("the panels again", |pty| pty.drawn());
+}
+
+#[test]
+fn a_terminal_without_a_size_is_taken_as_80_by_25() {
+    let mut pty = Pty::start(&[VIEWER], Size { columns: 0, rows: 0 });
+    pty.wait_for("the first picture", |pty| pty.size() == SMALLEST && pty.drawn());
+}
+
+#[test]
+fn the_help_lists_the_keys_and_any_key_closes_it() {
+    let mut pty = viewer(SMALLEST);
+    for open in ["?", "\x1bOP"] {
+        pty.send(open);
+        pty.wait_for("the help", |pty| pty.text().contains(" KEYS ") && pty.text().contains("Ctrl-Z"));
+        pty.send("q");
+        pty.wait_for("no help", |pty| !pty.text().contains(" KEYS ") && pty.drawn());
+    }
+}
+
+#[test]
+fn a_key_without_a_meaning_sends_nothing() {
+    let mut pty = viewer(SMALLEST);
+    let before = pty.log().len();
+    pty.send("xq");
+    pty.wait_for("the end", |pty| pty.text().contains("code=0"));
+    // The first bytes after the picture already give the terminal back.
+    let after = String::from_utf8_lossy(&pty.log()[before..]).into_owned();
+    assert!(after.starts_with("\x1b[?2026l\x1b[0m\x1b[?25h\x1b[?1049l"), "{after:?}");
+}
+
+#[test]
+fn every_key_that_quits_leaves_the_terminal_as_it_was() {
+    for key in ["q", "\x1b", "\x1b[21~", "\x03"] {
+        let mut pty = viewer(SMALLEST);
+        pty.send(key);
+        pty.wait_for_end(0);
+    }
+}
+
+#[test]
+fn a_signal_leaves_the_terminal_as_it_was_and_ends_the_process_by_that_signal() {
+    for (name, number) in [("TERM", 15), ("INT", 2), ("HUP", 1)] {
+        let mut pty = viewer(SMALLEST);
+        pty.signal(name);
+        pty.wait_for_end(128 + number);
+    }
+}
+
+#[test]
+fn suspended_it_gives_the_terminal_back_and_continued_it_takes_it_again() {
+    let mut pty = Pty::start_job(&[VIEWER], SMALLEST);
+    pty.wait_for("the first picture", |pty| pty.drawn());
+    let picture = pty.picture();
+    pty.send("\x1a");
+    pty.wait_for("the shell", |pty| pty.text().contains("stopped modes=same") && pty.given_back());
+    pty.resize(Size { columns: 100, rows: 30 });
+    pty.send("\n");
+    pty.wait_for("the viewer again", |pty| pty.drawn() && pty.picture() != picture);
+    pty.signal("TSTP");
+    pty.wait_for("the shell again", |pty| pty.text().matches("stopped modes=same").count() == 2);
+    pty.send("\n");
+    pty.wait_for("the viewer once more", |pty| pty.drawn());
+    pty.send("q");
+    pty.wait_for_end(0);
+}
+
+#[test]
+fn what_stops_only_the_process_does_not_spoil_the_screen() {
+    let mut pty = Pty::start_job(&[VIEWER], SMALLEST);
+    pty.wait_for("the first picture", |pty| pty.drawn());
+    // Nothing can give the terminal back before a SIGSTOP; the shell writes over the picture.
+    pty.signal("STOP");
+    pty.wait_for("the shell", |pty| pty.text().contains("modes=changed"));
+    pty.send("\n");
+    pty.wait_for("the viewer again", |pty| pty.drawn() && !pty.text().contains("modes="));
+    pty.send("q");
+    pty.wait_for_end(0);
+}
+
+#[test]
+fn without_a_shell_to_continue_it_the_viewer_does_not_stop() {
+    let mut pty = viewer(SMALLEST);
+    let eye = pty.eye();
+    pty.send("\x1a\x1b[C");
+    pty.wait_for("another picture", |pty| pty.drawn() && pty.eye() != eye);
+}
+
+#[test]
+fn a_lost_connection_leaves_no_process() {
+    viewer(SMALLEST).hang_up();
+    // In a session of its own the process gets no SIGHUP and has to notice by itself.
+    let mut pty = Pty::start(&["setsid", "-w", VIEWER], SMALLEST);
+    pty.wait_for("the first picture", |pty| pty.drawn());
+    pty.hang_up();
+}
+
+#[test]
+fn a_panic_shows_its_message_on_the_terminal_as_it_was() {
+    for (part, message) in [("tracer", "the painter fell"), ("model", "the view fell")] {
+        let mut pty = start_broken(part);
+        pty.wait_for("the first picture", |pty| pty.row(0).contains(" BROKEN.SCENE ") && pty.eye() != "");
+        pty.send("\t");
+        pty.wait_for_end(101);
+        assert!(pty.text().contains(message), "{}", pty.text());
+    }
+}
+
+/// A painter that panics after the first picture: in the tracing thread, or in the thread of the screen.
+struct Broken {
+    studio: Studio,
+    in_tracer: bool,
+    cameras: AtomicU32,
+}
+
+impl Painter for Broken {
+    fn scene(&self) -> &Scene {
+        self.studio.scene()
+    }
+
+    fn camera(&self, index: usize, aspect: f64) -> Camera {
+        // Two cameras are asked for before the first picture.
+        let asked = self.cameras.fetch_add(1, Ordering::Relaxed);
+        let camera = self.studio.camera(index, aspect);
+        match asked {
+            0..2 => camera,
+            _ if self.in_tracer => Camera { zoom: 2.0, ..camera },
+            _ => panic!("the view fell"),
+        }
+    }
+
+    fn draw(&self, request: &Request) -> Frame {
+        assert!(request.camera.zoom < 2.0, "the painter fell");
+        self.studio.draw(request)
+    }
+}
+
+const BROKEN_PART: &str = "RAY13_TEST_BROKEN_PART";
+
+/// This test program itself, as a viewer that panics.
+fn start_broken(part: &str) -> Pty {
+    let program = std::env::current_exe().unwrap();
+    let variable = format!("{BROKEN_PART}={part}");
+    let arguments = ["--exact", "a_viewer_that_panics", "--ignored", "--nocapture"];
+    let mut command = vec!["env", &variable, program.to_str().unwrap()];
+    command.extend(arguments);
+    Pty::start(&command, SMALLEST)
+}
+
+#[test]
+#[ignore = "runs only inside the pseudo-terminal of a_panic_shows_its_message_on_the_terminal_as_it_was"]
+fn a_viewer_that_panics() {
+    let Ok(part) = std::env::var(BROKEN_PART) else { return };
+    let studio = Studio::new(Scene::default());
+    let broken = Broken { studio, in_tracer: part == "tracer", cameras: AtomicU32::new(0) };
+    let settings = Settings { title: "broken.scene".to_owned(), ..Settings::default() };
+    app::run(broken, settings).unwrap();
+}

@@ -31,9 +31,11 @@ fn frames_do_not_depend_on_threads() {
             request.options.threads = threads;
             studio.draw(&request)
         };
-        let one = contents(&draw(THREADS[0]));
+        let first = draw(THREADS[0]);
+        let one = contents(&first);
         for threads in THREADS {
-            assert!(contents(&draw(threads)) == one, "{name} on {threads} threads");
+            let frame = draw(threads);
+            assert!(contents(&frame) == one, "{name} on {threads} threads");
         }
     }
 }

@@ -58,10 +58,7 @@ impl Studio {
 
     /// A camera that sees the whole scene.
     pub fn framed(&self, aspect: f64) -> Camera {
-        let Assembly { limit, datum, .. } = &self.assembly;
-        let mut camera = framed(limit, aspect);
-        (camera.eye, camera.target) = (datum.outward(camera.eye), datum.outward(camera.target));
-        camera
+        framed(|v| self.assembly.support(v), aspect)
     }
 
     /// The lattice, built now if it was not before; else why there is none.

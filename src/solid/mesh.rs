@@ -90,6 +90,11 @@ impl Mesh {
         self.triangles[surface as usize].normal
     }
 
+    /// How far it reaches along `v`: the greatest `p · v` of its points.
+    pub fn support(&self, v: DVec3) -> f64 {
+        self.triangles.iter().flat_map(|t| t.corners).map(|p| p.dot(v)).fold(f64::NEG_INFINITY, f64::max)
+    }
+
     /// The box around it.
     pub fn bounds(&self) -> Bounds {
         self.nodes[0].bounds

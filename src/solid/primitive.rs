@@ -125,6 +125,19 @@ impl Form {
         exact.padded(DVec3::splat(ROUNDING * size))
     }
 
+    /// How far it reaches along `v`: the greatest `p · v` of its points, or of its box where that is dearer.
+    pub fn support(&self, v: DVec3) -> f64 {
+        match self {
+            Self::Ball(ball) => ball.support(v),
+            Self::Round(round) => round.support(v),
+            Self::SkewBox(slabs) => slabs.support(v),
+            Self::Mesh(mesh) => mesh.support(v),
+            Self::AxisBox(_) | Self::Facets(_) => {
+                self.bounds().corners().into_iter().map(|p| p.dot(v)).fold(f64::NEG_INFINITY, f64::max)
+            }
+        }
+    }
+
     /// How it lies to a box.
     pub fn cover(&self, b: &Bounds) -> Cover {
         let (misses, covers) = match self {

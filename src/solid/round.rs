@@ -135,6 +135,19 @@ impl Round {
         }
     }
 
+    /// How far it reaches along `v`: the greatest `p · v` of its points.
+    pub fn support(&self, v: DVec3) -> f64 {
+        let unit = self.place.linear.transpose() * v;
+        let reach = match self.profile {
+            Profile::Sphere => unit.length(),
+            Profile::Frustum { middle, slope } => {
+                let disc = |z: f64| (middle + slope * z) * libm::hypot(unit.x, unit.y) + z * unit.z;
+                disc(-1.0).max(disc(1.0))
+            }
+        };
+        self.place.center.dot(v) + reach
+    }
+
     /// How the box lies in the unit space: the box around it there.
     fn unit_bounds(&self, b: &Bounds) -> Bounds {
         let inverse = &self.place.inverse;

@@ -53,8 +53,10 @@ fn as_levels() {
     each_view(|name, studio, camera| {
         let request = request(camera(64.0 / 40.0), Size::new(64, 40));
         let frame = studio.draw(&request);
-        let grid = frame.light.map(|&light| request.tone.level(light));
-        insta::assert_snapshot!(format!("levels-{name}"), written(|out| levels(&grid, out)));
+        insta::assert_snapshot!(
+            format!("levels-{name}"),
+            written(|out| levels(&frame.levels(request.tone), out))
+        );
     });
 }
 

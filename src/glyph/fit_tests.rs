@@ -1,3 +1,5 @@
+//! The best fit against its definition.
+
 use super::*;
 use crate::glyph::shape::{BLOCKS, HALVES};
 use proptest::prelude::*;

@@ -1,8 +1,11 @@
 //! Measures how near each glyph mode comes to the picture it shows, and prints the table of `docs/13-grays.md`:
 //! `cargo run --release --example grays`.
 
+use std::io::{self, Write};
+
 use ray13::glyph::{Cell, GlyphMode, Palette, appearance, compose};
 use ray13::math::{Grid, Size};
+use ray13::output;
 use ray13::tone::{Tone, lightness};
 
 /// The screen that is measured, in cells: square, as cells are twice as high as wide.
@@ -40,7 +43,9 @@ fn blurred(light: &Grid<f64>, sigma: f64) -> Grid<f64> {
     let mut weights: Vec<f64> =
         (-reach..=reach).map(|n| libm::exp(-((n * n) as f64) / (2.0 * sigma * sigma))).collect();
     let sum: f64 = weights.iter().sum();
-    weights.iter_mut().for_each(|weight| *weight /= sum);
+    for weight in &mut weights {
+        *weight /= sum;
+    }
     let Size { width, height } = light.size();
     let near = |at: u32, n: i64, end: u32| (i64::from(at) + n).clamp(0, i64::from(end) - 1) as u32;
     let across = Grid::from_fn(light.size(), |x, y| {
@@ -55,60 +60,102 @@ fn times(cells: Size, per_cell: Size) -> Size {
     Size::new(cells.width * per_cell.width, cells.height * per_cell.height)
 }
 
-fn main() {
+impl Picture {
+    /// The light of each of `dots`, the mean of `rays` × `rays` rays.
+    fn dots(&self, dots: Size, rays: u32) -> Grid<f64> {
+        let fine = (self.light)(times(dots, Size::new(rays, rays)));
+        Grid::from_fn(dots, |x, y| {
+            let places = (0..rays * rays).map(|k| (x * rays + k % rays, y * rays + k / rays));
+            places.map(|place| fine[place]).sum::<f64>() / f64::from(rays * rays)
+        })
+    }
+}
+
+/// One row of the table: the characters, and along each axis of a dot how many rays.
+struct Row {
+    mode: GlyphMode,
+    palette: Palette,
+    rays: u32,
+}
+
+/// `shade` stands before the modes that are compared with it.
+const ROWS: [Row; 8] = {
+    use GlyphMode::{Blocks, Cp437, Shade};
+    use Palette::{Dos, Mono};
+    [
+        Row { mode: Shade, palette: Dos, rays: 1 },
+        Row { mode: Blocks, palette: Dos, rays: 1 },
+        Row { mode: Cp437, palette: Dos, rays: 1 },
+        Row { mode: Shade, palette: Dos, rays: 4 },
+        Row { mode: Blocks, palette: Dos, rays: 4 },
+        Row { mode: Shade, palette: Mono, rays: 1 },
+        Row { mode: Blocks, palette: Mono, rays: 1 },
+        Row { mode: Cp437, palette: Mono, rays: 1 },
+    ]
+};
+
+fn main() -> io::Result<()> {
+    let mut out = io::stdout().lock();
+    table(&mut out)?;
+    small_pictures(&mut out)
+}
+
+fn table(out: &mut impl Write) -> io::Result<()> {
     let pictures = pictures();
     let references: Vec<Grid<f64>> = pictures
         .iter()
         .map(|picture| (picture.light)(times(SCREEN, SAMPLES)).map(|light| light.clamp(0.0, 1.0)))
         .collect();
-    let shows = [
-        ("shade", GlyphMode::Shade, Palette::Dos),
-        ("blocks", GlyphMode::Blocks, Palette::Dos),
-        ("cp437", GlyphMode::Cp437, Palette::Dos),
-        ("shade", GlyphMode::Shade, Palette::Mono),
-        ("blocks", GlyphMode::Blocks, Palette::Mono),
-        ("cp437", GlyphMode::Cp437, Palette::Mono),
-    ];
-    print!("| glyphs | palette |");
-    for picture in &pictures {
-        print!(" {} |", picture.name);
-    }
-    println!(" mean |");
-    let mut base = vec![];
-    for (name, mode, palette) in shows {
-        let mut row = vec![];
-        for (picture, reference) in pictures.iter().zip(&references) {
-            let light = (picture.light)(times(SCREEN, mode.dots_per_cell()));
-            row.push(errors(reference, &compose(&light, mode, palette, Tone::Lightness)));
+    let names: Vec<&str> = pictures.iter().map(|picture| picture.name).collect();
+    writeln!(out, "| glyphs | palette | rays per dot | {} | mean | better than shade |", names.join(" | "))?;
+    writeln!(out, "|---|---|---|{}---|---|", "---|".repeat(names.len()))?;
+    let mut shade = Vec::new();
+    for Row { mode, palette, rays } in ROWS {
+        let found: Vec<[f64; 2]> = pictures
+            .iter()
+            .zip(&references)
+            .map(|(picture, reference)| {
+                let light = picture.dots(times(SCREEN, mode.dots_per_cell()), rays);
+                errors(reference, &compose(&light, mode, palette, Tone::default()))
+            })
+            .collect();
+        write!(out, "| `{}` | {} | {} |", mode.name(), palette.name(), rays * rays)?;
+        for [near, far] in &found {
+            write!(out, " {near:.2} / {far:.2} |")?;
         }
-        print!("| {name} | {} |", palette.name());
-        for e in &row {
-            print!(" {:.2} / {:.2} |", e[0], e[1]);
-        }
-        let mean = row.iter().flatten().sum::<f64>() / (2 * row.len()) as f64;
-        println!(" {mean:.2} |");
+        write!(out, " {:.2} |", mean(found.concat().into_iter()))?;
         if mode == GlyphMode::Shade {
-            base = row;
+            writeln!(out, " |")?;
+            shade = found;
         } else {
-            let gains: Vec<f64> =
-                row.iter().zip(&base).map(|(a, b)| 100.0 * (1.0 - (a[0] + a[1]) / (b[0] + b[1]))).collect();
-            let each: Vec<f64> =
-                row.iter().flatten().zip(base.iter().flatten()).map(|(a, b)| 100.0 * (1.0 - a / b)).collect();
-            let text: Vec<String> = gains.iter().map(|g| format!("{g:.0} %")).collect();
-            println!(
-                "| gain | | {} | {:.1} % (each {:.1}) |",
-                text.join(" | "),
-                gains.iter().sum::<f64>() / gains.len() as f64,
-                each.iter().sum::<f64>() / each.len() as f64
-            );
+            let gains: Vec<f64> = found
+                .iter()
+                .zip(&shade)
+                .map(|(found, shade)| {
+                    100.0 * mean(found.iter().zip(shade).map(|(found, shade)| 1.0 - found / shade))
+                })
+                .collect();
+            let least = gains.iter().copied().fold(f64::INFINITY, f64::min);
+            writeln!(out, " {:.0} %, at least {least:.0} % |", mean(gains.iter().copied()))?;
         }
     }
-    let light = (pictures[0].light)(Size::new(240, 160));
-    let t = std::time::Instant::now();
-    for _ in 0..20 {
-        std::hint::black_box(compose(&light, GlyphMode::Blocks, Palette::Dos, Tone::Lightness));
+    Ok(())
+}
+
+fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
+    let count = values.len();
+    values.sum::<f64>() / count as f64
+}
+
+/// The first picture, small, as plain text.
+fn small_pictures(out: &mut impl Write) -> io::Result<()> {
+    let small = Size::new(32, 16);
+    for mode in GlyphMode::ALL {
+        let light = pictures()[0].dots(times(small, mode.dots_per_cell()), 1);
+        writeln!(out, "\n{}:", mode.name())?;
+        output::text(&compose(&light, mode, Palette::Mono, Tone::default()), out)?;
     }
-    println!("{:.3} ms for 120 x 40", t.elapsed().as_secs_f64() * 50.0);
+    Ok(())
 }
 
 /// A picture from its light at (x, y), each from −1 to 1, x to the right and y up.
@@ -124,79 +171,93 @@ fn picture(name: &'static str, light: impl Fn(f64, f64) -> f64 + 'static) -> Pic
     }
 }
 
-fn lit(n: [f64; 3], ambient: f64, kd: f64, ks: f64, shine: f64) -> f64 {
-    let l = [-0.5, 0.6, 0.62];
-    let m = (l[0] * l[0] + l[1] * l[1] + l[2] * l[2] as f64).sqrt();
-    let d = (n[0] * l[0] + n[1] * l[1] + n[2] * l[2]) / m;
-    let r = 2.0 * d * n[2] - l[2] / m;
-    ambient + kd * d.max(0.0) + if d > 0.0 { ks * libm::pow(r.max(0.0), shine) } else { 0.0 }
+/// Eq. (3) for a surface of normal `n` seen along z, lit from the upper left: ambient, diffuse and highlight light.
+fn lit(n: [f64; 3], ambient: f64, kd: f64, ks: f64) -> f64 {
+    const TO_LIGHT: [f64; 3] = [-0.5, 0.6, 0.62];
+    const SHINE: f64 = 24.0;
+    let dot = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let facing = dot(n, TO_LIGHT);
+    if facing <= 0.0 {
+        return ambient;
+    }
+    let mirrored = 2.0 * facing * n[2] - TO_LIGHT[2];
+    ambient + kd * facing + ks * libm::pow(mirrored.max(0.0), SHINE)
 }
 
-fn sphere(x: f64, y: f64, cx: f64, cy: f64, r: f64) -> Option<[f64; 3]> {
-    let (u, v) = ((x - cx) / r, (y - cy) / r);
-    let w = 1.0 - u * u - v * v;
-    (w >= 0.0).then(|| [u, v, w.sqrt()])
-}
-
+/// Pictures that need no scene: round and flat shading, shadow edges, soft light, thin and curved parts.
 fn pictures() -> Vec<Picture> {
     vec![
-        picture("spheres", |x, y| {
-            for (cx, cy, r) in [(-0.45, -0.1, 0.42), (0.35, -0.25, 0.3), (0.3, 0.5, 0.35), (0.8, -0.5, 0.12)]
-            {
-                if let Some(n) = sphere(x, y, cx, cy, r) {
-                    return lit(n, 0.05, 0.7, 0.3, 24.0);
-                }
-            }
-            if y < -0.3 {
-                let shadow = [(-0.15, -0.62, 0.45, 0.13), (0.6, -0.6, 0.33, 0.1)]
-                    .iter()
-                    .any(|(a, b, c, d)| ((x - a) / c) * ((x - a) / c) + ((y - b) / d) * ((y - b) / d) < 1.0);
-                return if shadow { 0.06 } else { 0.35 - 0.25 * (y + 1.0) };
-            }
-            0.0
-        }),
-        picture("boxes", |x, y| {
-            for (cx, cy, s) in [(0.5, -0.4, 0.35), (-0.4, 0.1, 0.5), (0.45, 0.55, 0.2)] {
-                let (u, v) = ((x - cx) / s, (y - cy) / s);
-                // Three faces of a cube seen along a slanted axis.
-                let (a, b) = (u / 0.92 + v / 1.6, -u / 0.92 + v / 1.6);
-                if a > 0.0 && b > 0.0 && a < 1.0 && b < 1.0 {
-                    return 0.82;
-                }
-                let h = v + u.abs() * 1.7;
-                if u.abs() < 0.92 && h < 0.0 && h > -1.1 {
-                    return if u < 0.0 { 0.33 } else { 0.07 };
-                }
-            }
-            0.02
-        }),
-        picture("gradient", |x, y| {
-            let d = ((x - 0.3) * (x - 0.3) + (y + 0.2) * (y + 0.2)).sqrt();
-            0.9 * libm::exp(-d * d * 2.0) + 0.05 * (x + 1.0) / 2.0
-        }),
-        picture("columns", |x, y| {
-            for k in 0..9 {
-                let (c, r) = (-0.85 + 0.21 * f64::from(k), 0.07 - 0.0065 * f64::from(k));
-                let u = (x - c) / r;
-                if u.abs() < 1.0 && y.abs() < 0.75 {
-                    return lit([u, 0.0, (1.0 - u * u).sqrt()], 0.06, 0.75, 0.2, 30.0);
-                }
-                if (x - c).abs() < r * 1.3 && y.abs() < 0.82 {
-                    return 0.55;
-                }
-            }
-            if y < -0.75 { 0.25 } else { 0.10 + 0.08 * y }
-        }),
-        picture("rings", |x, y| {
-            let d = (x * x + y * y).sqrt();
-            let a = libm::atan2(y, x);
-            if d > 0.95 {
-                0.0
-            } else if (libm::sin(d * 24.0) + 0.4 * libm::sin(3.0 * a)) > 0.0 {
-                0.5 + 0.4 * libm::cos(a)
-            } else {
-                0.12
-            }
-        }),
+        picture("spheres", spheres),
+        picture("boxes", boxes),
+        picture("glow", glow),
+        picture("columns", columns),
+        picture("rings", rings),
     ]
+}
+
+fn spheres(x: f64, y: f64) -> f64 {
+    for (cx, cy, r) in [(-0.45, -0.1, 0.42), (0.35, -0.25, 0.3), (0.3, 0.5, 0.35), (0.8, -0.5, 0.12)] {
+        let (u, v) = ((x - cx) / r, (y - cy) / r);
+        let depth = 1.0 - u * u - v * v;
+        if depth >= 0.0 {
+            return lit([u, v, depth.sqrt()], 0.05, 0.7, 0.3);
+        }
+    }
+    if y >= -0.3 {
+        return 0.0;
+    }
+    let shadows = [(-0.15, -0.62, 0.45, 0.13), (0.6, -0.6, 0.33, 0.1)];
+    let in_shadow = shadows.iter().any(|(cx, cy, a, b)| {
+        let (u, v) = ((x - cx) / a, (y - cy) / b);
+        u * u + v * v < 1.0
+    });
+    if in_shadow { 0.06 } else { 0.1 - 0.25 * y }
+}
+
+/// Cubes seen along a slanted axis: a top, and two sides of different light.
+fn boxes(x: f64, y: f64) -> f64 {
+    for (cx, cy, size) in [(0.5, -0.4, 0.35), (-0.4, 0.1, 0.5), (0.45, 0.55, 0.2)] {
+        let (u, v) = ((x - cx) / size, (y - cy) / size);
+        let (a, b) = (v / 1.6 + u / 0.92, v / 1.6 - u / 0.92);
+        if (0.0..1.0).contains(&a) && (0.0..1.0).contains(&b) {
+            return 0.82;
+        }
+        if u.abs() < 0.92 && (-1.1..0.0).contains(&(v + 1.7 * u.abs())) {
+            return if u < 0.0 { 0.33 } else { 0.07 };
+        }
+    }
+    0.02
+}
+
+/// No edge anywhere: all error is the 13 levels' own.
+fn glow(x: f64, y: f64) -> f64 {
+    let (u, v) = (x - 0.3, y + 0.2);
+    0.9 * libm::exp(-2.0 * (u * u + v * v)) + 0.025 * (x + 1.0)
+}
+
+/// Upright columns on square plinths, from five dots wide to less than one.
+fn columns(x: f64, y: f64) -> f64 {
+    for k in 0..9 {
+        let (centre, radius) = (-0.85 + 0.21 * f64::from(k), 0.07 - 0.0065 * f64::from(k));
+        let u = (x - centre) / radius;
+        if u.abs() < 1.0 && y.abs() < 0.75 {
+            return lit([u, 0.0, (1.0 - u * u).sqrt()], 0.06, 0.75, 0.2);
+        }
+        if u.abs() < 1.3 && y.abs() < 0.82 {
+            return 0.55;
+        }
+    }
+    if y < -0.75 { 0.25 } else { 0.1 + 0.08 * y }
+}
+
+/// Edges in every direction.
+fn rings(x: f64, y: f64) -> f64 {
+    let (radius, angle) = ((x * x + y * y).sqrt(), libm::atan2(y, x));
+    if radius > 0.95 {
+        0.0
+    } else if libm::sin(24.0 * radius) + 0.4 * libm::sin(3.0 * angle) > 0.0 {
+        0.5 + 0.4 * libm::cos(angle)
+    } else {
+        0.12
+    }
 }

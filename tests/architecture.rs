@@ -69,7 +69,7 @@ fn lib_rs_lists_the_folders_of_src_and_nothing_else() {
     assert_eq!(rooms[0], "math", "math depends on nothing");
 }
 
-/// The number, name and room of each stage that docs/flow-chart.md describes: `## 7 SOLID: \`solid\``.
+/// The number, name and room of each stage that docs/flow-chart.md describes, in headings such as "7 SOLID: solid".
 fn stages_described(chart: &str) -> Vec<(usize, String, String)> {
     chart
         .lines()
@@ -149,6 +149,24 @@ fn a_module_begins_with_its_sentence() {
     assert!(silent.is_empty(), "no `//!` sentence on the first line of:\n{}", silent.join("\n"));
 }
 
+/// The names in the third column of the errata of docs/paper.md.
+fn tests_of_errata(paper: &str) -> Vec<&str> {
+    let errata = paper.split("## Errata").nth(1).unwrap_or_default();
+    let rows = errata.lines().filter_map(|line| line.strip_prefix('|')?.strip_suffix('|'));
+    let tests = rows.filter_map(|row| row.rsplit('|').next()?.trim().strip_prefix('`')?.strip_suffix('`'));
+    tests.collect()
+}
+
+#[test]
+fn each_erratum_names_a_test_that_exists() {
+    let (paper, code) = (read("docs/paper.md"), read("tests/errata.rs"));
+    let named = tests_of_errata(&paper);
+    assert!(named.len() >= 7, "{named:?}");
+    for test in named {
+        assert!(code.contains(&format!("#[test]\nfn {test}() {{")), "tests/errata.rs has no test `{test}`");
+    }
+}
+
 /// The checks above must be able to fail.
 mod the_checks_themselves {
     use super::*;
@@ -171,6 +189,13 @@ mod the_checks_themselves {
         );
         assert_eq!(first_sentence("//! Alone.\n//!\n//! More."), "Alone.");
         assert_eq!(first_sentence("use x;"), "");
+    }
+
+    #[test]
+    fn errata_are_read_by_their_last_column() {
+        let paper = "| a | b | `before` |\n## Errata\n| `printed` | meant | test |\n|---|---|---|\n\
+                     | `x` | y | `the_test` |\n| z | z | not yet |\n";
+        assert_eq!(tests_of_errata(paper), ["the_test"]);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! The tracer against the brute-force calculation: OpenSCAD's examples, and the scenes inside the program. No dot may
 //! be hit by one and missed by the other, and their depths agree to nine digits.
 
+mod agreement;
 mod brute;
 mod rays;
 mod request;
@@ -8,12 +9,11 @@ mod scenery;
 
 use std::path::{Path, PathBuf};
 
+use agreement::compare;
 use brute::Brute;
 use ray13::frame::Studio;
 use ray13::math::{DVec3, Size};
 use ray13::scene::{Camera, ReadOptions, Scene, read_file};
-use rays::directions;
-use request::request;
 use scenery::embedded_scenes;
 
 const DOTS: Size = Size::new(96, 64);
@@ -47,33 +47,14 @@ fn views(studio: &Studio) -> Vec<(&'static str, Camera)> {
 
 /// Panics with the first dots where the tracer and the brute force disagree.
 fn assert_agrees(name: &str, scene: Scene) {
-    let studio = Studio::new(scene);
+    let studio = Studio::new(scene).unwrap();
     let brute = Brute::new(studio.scene());
     let own = studio.scene().views.iter().map(|camera| ("own view", camera.clone()));
     let mut hits = 0;
     for (view, camera) in views(&studio).into_iter().chain(own) {
-        let frame = studio.draw(&request(camera.clone(), DOTS));
-        let mut faults = Vec::new();
-        for (place, toward) in directions(&camera, DOTS).into_iter().enumerate() {
-            let traced = frame.depth.values()[place];
-            let (object, normal) = (frame.object.values()[place], frame.normal.values()[place]);
-            let agrees = match brute.hit(camera.eye, toward) {
-                None => traced == f64::INFINITY && object == 0 && normal == DVec3::ZERO,
-                Some(hit) => {
-                    hits += 1;
-                    // Directions and maps are rounded to 53 bits, which moves a normal by some 1e-14 of the curvature.
-                    let normals = hit.normal == DVec3::ZERO || hit.normal.abs_diff_eq(normal, 1e-6);
-                    (traced - hit.t).abs() <= 1e-9 * hit.t && object == hit.object && normals
-                }
-            };
-            if !agrees {
-                let dot = (place as u32 % DOTS.width, place as u32 / DOTS.width);
-                let expected = brute.hit(camera.eye, toward);
-                faults.push(format!("dot {dot:?}: traced {traced} {object} {normal}, expected {expected:?}"));
-            }
-        }
-        let first = &faults[..faults.len().min(5)];
-        assert!(faults.is_empty(), "{name}, {view}: {} dots disagree:\n{}", faults.len(), first.join("\n"));
+        let comparison = compare(&studio, &brute, &camera, DOTS);
+        assert!(comparison.faults.is_empty(), "{name}, {view}: {}", comparison.first_faults());
+        hits += comparison.hits;
     }
     assert!(hits > 0, "{name}: no ray meets it");
 }

@@ -26,7 +26,7 @@ fn visible(ansi: &str) -> String {
 /// Draws every view of every scene and hands over its name, `scene-view`.
 fn each_view(mut look: impl FnMut(&str, &Studio, &dyn Fn(f64) -> Camera)) {
     for (scene, contents) in embedded_scenes() {
-        let studio = Studio::new(contents);
+        let studio = Studio::new(contents).unwrap();
         for index in 0..studio.scene().views.len().max(1) {
             let camera = |aspect| studio.camera(index, aspect);
             let name = camera(1.0).name.unwrap_or_else(|| "framed".to_owned());
@@ -53,8 +53,10 @@ fn as_levels() {
     each_view(|name, studio, camera| {
         let request = request(camera(64.0 / 40.0), Size::new(64, 40));
         let frame = studio.draw(&request);
-        let grid = frame.light.map(|&light| request.tone.level(light));
-        insta::assert_snapshot!(format!("levels-{name}"), written(|out| levels(&grid, out)));
+        insta::assert_snapshot!(
+            format!("levels-{name}"),
+            written(|out| levels(&frame.levels(request.tone), out))
+        );
     });
 }
 

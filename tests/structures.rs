@@ -6,7 +6,8 @@ mod scenery;
 use ray13::frame::{Frame, Studio};
 use ray13::math::{Bounds, DVec3, Size};
 use ray13::plan::StructureChoice;
-use ray13::scene::{Camera, Scene, Shape, Solid};
+use ray13::scene::{Camera, Scene, Solid};
+use ray13::tone::{Level, Tone};
 use request::request;
 use scenery::embedded_scenes;
 
@@ -15,16 +16,7 @@ const DOTS: Size = Size::new(80, 60);
 /// A box around a solid, whose faces are planes of the lattice wherever the solid stands along the axes.
 fn bounds(solid: &Solid) -> Bounds {
     match solid {
-        Solid::Primitive(primitive) => {
-            let unit = match &primitive.shape {
-                Shape::Facets(facets) => facets.bounds,
-                Shape::Mesh(mesh) => Bounds::around(mesh.points.iter().copied()),
-                Shape::Sphere | Shape::Frustum { .. } | Shape::Cube => {
-                    Bounds::new(DVec3::NEG_ONE, DVec3::ONE)
-                }
-            };
-            unit.mapped(&primitive.map)
-        }
+        Solid::Primitive(primitive) => primitive.shape.bounds().mapped(&primitive.map),
         Solid::Union(parts) => parts.iter().map(bounds).fold(Bounds::EMPTY, |all, b| all.join(&b)),
         Solid::Intersection(parts) => {
             parts.iter().map(bounds).reduce(|all, b| all.meet(&b)).unwrap_or(Bounds::EMPTY)
@@ -70,11 +62,6 @@ fn cameras(scene: &Scene) -> Vec<(&'static str, Camera)> {
     ]
 }
 
-fn levels(frame: &Frame) -> Vec<u8> {
-    let tone = ray13::tone::Tone::default();
-    frame.light.values().iter().map(|&light| tone.level(light).get()).collect()
-}
-
 #[track_caller]
 fn assert_same(what: &str, a: &Frame, b: &Frame) {
     let differs = |place: usize| {
@@ -84,15 +71,15 @@ fn assert_same(what: &str, a: &Frame, b: &Frame) {
             || a.normal.values()[place].to_array().map(f64::to_bits)
                 != b.normal.values()[place].to_array().map(f64::to_bits)
     };
-    let (levels_a, levels_b) = (levels(a), levels(b));
+    let [levels_a, levels_b] = [a, b].map(|frame| frame.levels(Tone::default()).values().to_vec());
     let faults: Vec<usize> = (0..DOTS.area()).filter(|&p| differs(p) || levels_a[p] != levels_b[p]).collect();
     let first: Vec<String> = faults
         .iter()
         .take(5)
         .map(|&p| {
             let dot = (p as u32 % DOTS.width, p as u32 / DOTS.width);
-            let say = |f: &Frame, levels: &[u8]| {
-                format!("{} {} {} level {}", f.depth[dot], f.object[dot], f.normal[dot], levels[p])
+            let say = |f: &Frame, levels: &[Level]| {
+                format!("{} {} {} level {}", f.depth[dot], f.object[dot], f.normal[dot], levels[p].get())
             };
             format!("dot {dot:?}: {} against {}", say(a, &levels_a), say(b, &levels_b))
         })
@@ -105,7 +92,7 @@ fn the_lattice_changes_no_dot() {
     for (name, scene) in embedded_scenes() {
         let own = scene.views.clone().into_iter().map(|camera| ("own view", camera));
         let all: Vec<(&str, Camera)> = cameras(&scene).into_iter().chain(own).collect();
-        let studio = Studio::new(scene);
+        let studio = Studio::new(scene).unwrap();
         let mut walked = 0;
         for (view, camera) in all {
             let draw = |structure| {

@@ -32,7 +32,7 @@ pub struct Shown {
 impl Shown {
     /// From the request to the bytes, in milliseconds.
     fn total_ms(&self) -> f64 {
-        self.frame.total_ms + self.display.as_secs_f64() * 1e3
+        self.frame.total.as_secs_f64() * 1e3 + self.display.as_secs_f64() * 1e3
     }
 }
 

@@ -1,44 +1,123 @@
-//! (to be written)
+//! The command line: arguments in, one call each.
 
+mod arguments;
+mod bench;
+mod diagnostics;
+mod error;
+mod input;
+mod picture;
+mod render;
+mod stats;
+mod values;
+
+use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
 
-use crate::app::{self, Painter, Settings};
-use crate::frame::{Frame, Request, Studio};
-use crate::glyph::{Cell, Paint};
-use crate::math::{Grid, Size};
-use crate::scene::{Camera, Scene};
-use crate::view::{Lens, Picture};
+use clap::Parser;
 
-/// Runs the command line.
+use crate::app::{self, Settings};
+use crate::scene::embedded;
+
+use arguments::{Arguments, Command, SceneArguments, ViewerArguments};
+use error::CliError;
+
+/// The scene that the program shows when it is given none.
+const FIRST_SCENE: &str = "hanyang";
+
+/// Runs the command line: exit code 0 for done, 1 where writing or the terminal failed, 2 for bad input or
+/// arguments. Errors go to standard error.
 pub fn run() -> ExitCode {
-    let settings = Settings { title: "empty.scene".to_owned(), ..Settings::default() };
-    match app::run(Fake(Studio::new(Scene::default())), settings) {
+    match command(Arguments::parse()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("ray13: {error}");
-            ExitCode::FAILURE
+            error.report();
+            error.exit_code()
         }
     }
 }
 
-struct Fake(Studio);
+fn command(arguments: Arguments) -> Result<(), CliError> {
+    match arguments.command {
+        None => view(&arguments.viewer),
+        Some(Command::Render(render)) => render::run(&render),
+        Some(Command::Bench(bench)) => bench::run(&bench),
+        Some(Command::Check(scene)) => check(&scene),
+        Some(Command::Scenes { name }) => scenes(name.as_deref()),
+    }
+}
 
-impl Painter for Fake {
-    fn scene(&self) -> &Scene {
-        self.0.scene()
+/// The viewer; one still where standard output is no terminal.
+fn view(arguments: &ViewerArguments) -> Result<(), CliError> {
+    let file = arguments.file.as_deref().unwrap_or(FIRST_SCENE);
+    let picture = &arguments.picture;
+    if !io::stdout().is_terminal() {
+        return render::still(file, arguments.skip_unsupported, picture);
     }
-    fn camera(&self, index: usize, aspect: f64) -> Camera {
-        self.0.camera(index, aspect)
+    // The viewer shows what it can, and says on the screen what it left out.
+    let scene = input::read(file, true)?;
+    let notes = scene.notes.clone();
+    let studio = input::studio(scene)?;
+    let view = picture.camera.view_index(studio.scene())?;
+    let settings = Settings {
+        title: input::title(file),
+        view: view.unwrap_or(0),
+        camera: picture.camera.is_given().then(|| picture.camera.camera(&studio, 1.6)).transpose()?,
+        options: picture.options(),
+        glyphs: picture.glyphs.into(),
+        palette: picture.palette(),
+        tone: picture.tone.into(),
+    };
+    app::run(studio, settings)?;
+    for note in notes {
+        eprintln!("ray13: {note}");
     }
-    fn draw(&self, request: &Request) -> Frame {
-        let lens = Lens::new(&request.camera, &Picture { dots: request.dots, dot_aspect: request.dot_aspect });
-        let per = request.glyphs.dots_per_cell();
-        let cells = Size::new(request.dots.width / per.width, request.dots.height / per.height);
-        let cells = Grid::from_fn(cells, |i, j| {
-            let ray = lens.ray(f64::from(i * per.width), f64::from(j * per.height));
-            let level = ((ray.d.x + 2.0 * ray.d.z + 3.0 * ray.d.y) * 6.0).rem_euclid(5.0) as usize;
-            Cell { glyph: [' ', '░', '▒', '▓', '█'][level], ink: Paint::LightGray, paper: Paint::Black }
-        });
-        Frame { cells, ..self.0.draw(request) }
+    Ok(())
+}
+
+/// Reads and validates only.
+fn check(arguments: &SceneArguments) -> Result<(), CliError> {
+    let scene = input::read(&arguments.file, arguments.skip_unsupported)?;
+    input::say(&scene.notes);
+    let studio = input::studio(scene)?;
+    let (scene, count) =
+        (studio.scene(), |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" }));
+    let mut primitives = 0;
+    for object in &scene.objects {
+        object.solid.visit(&mut |_| primitives += 1);
+    }
+    let line = format!(
+        "{}: {}, {}, {}, {}, {}\n",
+        arguments.file,
+        count(scene.objects.len(), "object"),
+        count(primitives, "primitive"),
+        count(scene.materials.len(), "material"),
+        count(scene.lights.len(), "light"),
+        count(scene.views.len(), "view"),
+    );
+    print(line.as_bytes())
+}
+
+/// Lists the embedded scenes, or prints one.
+fn scenes(name: Option<&str>) -> Result<(), CliError> {
+    let Some(name) = name else {
+        let widest = embedded().iter().map(|s| s.name.len()).max().unwrap_or(0);
+        let lines: String = embedded().iter().map(|s| format!("{:widest$}  {}\n", s.name, s.title)).collect();
+        return print(lines.as_bytes());
+    };
+    let found = embedded().iter().find(|s| s.name == name);
+    let scene = found.ok_or_else(|| {
+        let names: Vec<&str> = embedded().iter().map(|s| s.name).collect();
+        CliError::Input(format!("there is no embedded scene `{name}`; there are {}", names.join(", ")))
+    })?;
+    print(scene.text.as_bytes())
+}
+
+/// Writes to standard output. A reader that has seen enough is no error.
+fn print(bytes: &[u8]) -> Result<(), CliError> {
+    let mut out = io::stdout().lock();
+    match out.write_all(bytes).and_then(|()| out.flush()) {
+        Err(e) if e.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        Err(e) => Err(CliError::Output(format!("standard output could not be written: {e}"))),
+        Ok(()) => Ok(()),
     }
 }

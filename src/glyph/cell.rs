@@ -102,6 +102,27 @@ pub enum Palette {
 }
 
 impl Palette {
+    /// The inks.
+    pub const fn inks(self) -> &'static [Paint] {
+        match self {
+            Self::Dos => &[Paint::Black, Paint::LightGray, Paint::DarkGray, Paint::White],
+            Self::Mono => &[Paint::Terminal],
+        }
+    }
+
+    /// The papers, those first that every terminal has: a Linux console has no bright ones.
+    pub const fn papers(self) -> &'static [Paint] {
+        self.inks()
+    }
+
+    /// The papers that every terminal has.
+    pub const fn dim_papers(self) -> &'static [Paint] {
+        match self {
+            Self::Dos => &[Paint::Black, Paint::LightGray],
+            Self::Mono => &[Paint::Terminal],
+        }
+    }
+
     /// The name on the command line.
     pub const fn name(self) -> &'static str {
         match self {

@@ -12,13 +12,139 @@ use crate::tone::Tone;
 ///
 /// A cell depends on its own dots and on its place on the screen, on nothing else, so a still part of a moving
 /// picture stays still. A cell whose dots are all of one light shows that light's level.
+///
+/// ```
+/// use ray13::glyph::{GlyphMode, Palette, compose};
+/// use ray13::math::{Grid, Size};
+/// use ray13::tone::Tone;
+///
+/// // One cell of 2 × 4 dots, white on the left.
+/// let light = Grid::from_fn(Size::new(2, 4), |column, _| if column == 0 { 1.0 } else { 0.0 });
+/// let cells = compose(&light, GlyphMode::Blocks, Palette::Mono, Tone::default());
+/// assert_eq!(cells[(0, 0)].glyph, '▌');
+/// ```
 pub fn compose(light: &Grid<f64>, mode: GlyphMode, palette: Palette, tone: Tone) -> Grid<Cell> {
     match mode {
         GlyphMode::Shade => Grid::from_fn(light.size(), |column, row| {
             shade(tone.level(light[(column, row)]), palette, column, row)
         }),
         GlyphMode::Ascii => light.map(|&light| ascii(tone.level(light))),
-        GlyphMode::Blocks => BestFit::new(BLOCKS, palette, false).compose(light, tone),
-        GlyphMode::Cp437 => BestFit::new(HALVES, palette, true).compose(light, tone),
+        GlyphMode::Blocks => BestFit::new(BLOCKS, palette.papers(), palette).compose(light, tone),
+        GlyphMode::Cp437 => BestFit::new(HALVES, palette.dim_papers(), palette).compose(light, tone),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::cell::Paint;
+    use super::super::shape::coverage;
+    use super::*;
+    use crate::math::Size;
+    use crate::tone::Level;
+    use proptest::prelude::*;
+
+    const PALETTES: [Palette; 2] = [Palette::Dos, Palette::Mono];
+    const TONES: [Tone; 2] = [Tone::Lightness, Tone::Even];
+
+    /// A screen of 5 × 3 cells of one light.
+    fn flat(mode: GlyphMode, light: f64) -> Grid<f64> {
+        let dots = mode.dots_per_cell();
+        Grid::filled(Size::new(5 * dots.width, 3 * dots.height), light)
+    }
+
+    #[test]
+    fn flat_light_is_its_level_in_every_mode() {
+        for k in 0..=240 {
+            let light = f64::from(k) / 240.0;
+            for (palette, tone) in PALETTES.into_iter().flat_map(|p| TONES.map(|t| (p, t))) {
+                let cells = |mode| compose(&flat(mode, light), mode, palette, tone);
+                let shades = cells(GlyphMode::Shade);
+                assert_eq!(shades[(3, 2)], shade(tone.level(light), palette, 3, 2));
+                assert_eq!(cells(GlyphMode::Blocks), shades);
+                assert_eq!(cells(GlyphMode::Cp437), shades);
+                assert_eq!(cells(GlyphMode::Ascii)[(3, 2)], ascii(tone.level(light)));
+            }
+        }
+    }
+
+    #[test]
+    fn light_beyond_the_range_and_nan_are_shown() {
+        for mode in GlyphMode::ALL {
+            for palette in PALETTES {
+                let cells = |light| compose(&flat(mode, light), mode, palette, Tone::Lightness);
+                assert_eq!(cells(3.0), cells(1.0));
+                assert_eq!(cells(f64::INFINITY), cells(1.0));
+                assert_eq!(cells(-1.0), cells(0.0));
+                assert_eq!(cells(f64::NAN), cells(0.0));
+            }
+        }
+    }
+
+    #[test]
+    fn dots_beyond_the_last_whole_cell_are_ignored() {
+        let light = Grid::filled(Size::new(7, 6), 0.5);
+        let cells = compose(&light, GlyphMode::Blocks, Palette::Dos, Tone::Lightness);
+        assert_eq!(cells.size(), Size::new(3, 1));
+        let none = compose(&Grid::filled(Size::new(0, 0), 0.0), GlyphMode::Cp437, Palette::Mono, Tone::Even);
+        assert_eq!(none.size(), Size::new(0, 0));
+    }
+
+    #[test]
+    fn edges_take_the_shape_that_lies_along_them() {
+        let edge = |inside: fn(u32, u32) -> bool, mode, palette| {
+            let light = Grid::from_fn(Size::new(2, 4), |x, y| if inside(x, y) { 1.0 } else { 0.0 });
+            compose(&light, mode, palette, Tone::Lightness)[(0, 0)]
+        };
+        let white = |glyph| Cell { glyph, ink: Paint::White, paper: Paint::Black };
+        assert_eq!(edge(|_, y| y < 2, GlyphMode::Blocks, Palette::Dos), white('▀'));
+        assert_eq!(edge(|_, y| y == 3, GlyphMode::Blocks, Palette::Dos), white('▂'));
+        assert_eq!(edge(|x, y| x == 1 && y > 1, GlyphMode::Blocks, Palette::Dos), white('▗'));
+        assert_eq!(edge(|x, _| x == 1, GlyphMode::Cp437, Palette::Dos), white('▐'));
+        assert_eq!(edge(|x, y| x == 0 || y > 1, GlyphMode::Blocks, Palette::Mono).glyph, '▙');
+    }
+
+    /// Light of 3 × 2 cells: anything, the grays themselves among it, and beyond the range.
+    fn any_light() -> impl Strategy<Value = Grid<f64>> {
+        let dot = prop_oneof![
+            Just(0.0),
+            Just(1.0),
+            (0_u8..13).prop_map(|k| Level::new(k).unwrap_or_default().light()),
+            -0.5..2.0,
+        ];
+        let size = Size::new(6, 8);
+        prop::collection::vec(dot, size.area()).prop_map(move |light| Grid::from_values(size, light))
+    }
+
+    proptest! {
+        #[test]
+        fn each_mode_keeps_to_its_glyphs_and_paints(light in any_light(), even in any::<bool>()) {
+            let tone = TONES[usize::from(even)];
+            for cell in compose(&light, GlyphMode::Cp437, Palette::Dos, tone).values() {
+                prop_assert!(" ░▒▓█▀▄▌▐".contains(cell.glyph));
+                prop_assert!(matches!(cell.paper, Paint::Black | Paint::LightGray));
+            }
+            for mode in GlyphMode::ALL {
+                for cell in compose(&light, mode, Palette::Mono, tone).values() {
+                    prop_assert_eq!((cell.ink, cell.paper), (Paint::Terminal, Paint::Terminal));
+                    prop_assert!(coverage(cell.glyph).is_some());
+                }
+            }
+        }
+
+        #[test]
+        fn a_cell_depends_on_its_own_dots_only(light in any_light(), other in any_light()) {
+            for mode in [GlyphMode::Blocks, GlyphMode::Cp437] {
+                for palette in PALETTES {
+                    // The middle cell of the upper row is kept, all around it is changed.
+                    let mixed = Grid::from_fn(light.size(), |x, y| {
+                        let kept = (2..4).contains(&x) && y < 4;
+                        if kept { light[(x, y)] } else { other[(x, y)] }
+                    });
+                    let [before, after] =
+                        [&light, &mixed].map(|light| compose(light, mode, palette, Tone::Lightness));
+                    prop_assert_eq!(before[(1, 0)], after[(1, 0)]);
+                }
+            }
+        }
     }
 }

@@ -1,4 +1,12 @@
-//! Best fit.
+//! Best fit: of all a cell can show, what the eye can tell least from the light of its dots.
+//!
+//! The eye is a Gaussian filter, so an error e over the dots of a cell, in L*, is seen with the squared strength
+//! `eᵀ K e`, where K is the overlap of the filters of each two dots. That one form weighs everything: K's largest
+//! eigenvector is the cell's mean, the next are its slopes, and fine detail, which the filter hides, counts least.
+//! No other weight is needed; `docs/13-grays.md` has what was tried.
+//!
+//! What a cell can show is a fixed table of candidates c, so `eᵀ K e = lᵀ K l − 2 (K c)ᵀ l + cᵀ K c` costs one
+//! product of eight dots for each: `lᵀ K l` is the same for all, and the rest is known beforehand.
 
 use super::cell::{Cell, Paint, Palette};
 use super::shade::shade;
@@ -6,109 +14,153 @@ use super::shape::{DOT_COUNT, DOTS, Shape};
 use crate::math::{Grid, Size};
 use crate::tone::{Level, Tone, lightness};
 
+/// Candidates whose costs are computed side by side. Sums go along the dots, so that they are the same at any
+/// width of the machine's vectors.
+const LANES: usize = 8;
+
+/// The eye's filters that a fit is good for, from near and from far: standard deviations of a quarter and of half
+/// a cell's width, in dots.
+const EYES: [f64; 2] = [0.5, 1.0];
+
+/// A value for each dot of a cell, in scan order.
+type Dots = [f64; DOT_COUNT];
+
+/// What a candidate puts into the cell.
+#[derive(Clone, Copy, Debug, PartialEq)]
 enum Show {
     Level(Level),
     Edge(Cell),
 }
 
+/// Costs of [`LANES`] candidates, less the part that all share: `own − Σ pull · l`.
+struct Lanes {
+    own: [f32; LANES],
+    pull: [[f32; LANES]; DOT_COUNT],
+}
+
+/// The candidates of one set of shapes and colours.
 pub struct BestFit {
     palette: Palette,
-    shown: Vec<Show>,
-    dots: Vec<[f64; DOT_COUNT]>,
-    pull: Vec<[f64; DOT_COUNT]>,
-    own: Vec<f64>,
-}
-
-fn var(name: &str, default: f64) -> f64 {
-    std::env::var(name).ok().and_then(|v| v.parse().ok()).unwrap_or(default)
-}
-
-/// k(n)
-fn overlap(n: f64, sigma: f64) -> f64 {
-    let s = sigma * std::f64::consts::SQRT_2;
-    let psi = |x: f64| {
-        let phi = libm::exp(-x * x / 2.0) / (2.0 * std::f64::consts::PI).sqrt();
-        x * 0.5 * (1.0 + libm::erf(x / std::f64::consts::SQRT_2)) + phi
-    };
-    s * (psi((n + 1.0) / s) - 2.0 * psi(n / s) + psi((n - 1.0) / s))
+    shows: Vec<Show>,
+    lanes: Vec<Lanes>,
 }
 
 impl BestFit {
-    pub fn new(shapes: &[Shape], palette: Palette, dark: bool) -> Self {
-        let (w1, w2, w0) = (var("W1", 0.5), var("W2", 0.5), var("W0", 0.0));
-        let mut k = [[0.0; DOT_COUNT]; DOT_COUNT];
-        for i in 0..DOT_COUNT {
-            for j in 0..DOT_COUNT {
-                let dx = (i % 2).abs_diff(j % 2) as f64;
-                let dy = (i / 2).abs_diff(j / 2) as f64;
-                k[i][j] = w1 * overlap(dx, 0.5) * overlap(dy, 0.5)
-                    + w2 * overlap(dx, 1.0) * overlap(dy, 1.0)
-                    + if i == j { w0 } else { 0.0 };
-            }
-        }
-        let mut fit = Self { palette, shown: vec![], dots: vec![], pull: vec![], own: vec![] };
-        for level in Level::all() {
-            fit.add(Show::Level(level), [level.light(); DOT_COUNT]);
-        }
-        let pairs: Vec<(Paint, Paint)> = match palette {
-            Palette::Mono => vec![(Paint::Terminal, Paint::Terminal)],
-            Palette::Dos => {
-                let all = [Paint::Black, Paint::LightGray, Paint::DarkGray, Paint::White];
-                let papers = if dark { &all[..2] } else { &all[..] };
-                papers
-                    .iter()
-                    .flat_map(|&p| all.iter().filter(move |&&i| i != p).map(move |&i| (i, p)))
-                    .collect()
-            }
-        };
-        for (ink, paper) in pairs {
-            for shape in shapes {
-                let cell = Cell { glyph: shape.glyph, ink, paper };
-                let dots = std::array::from_fn(|d| {
-                    if shape.mask >> d & 1 == 1 { cell.ink_light() } else { cell.paper_light() }
-                });
-                if !fit.dots.contains(&dots) {
-                    fit.add(Show::Edge(cell), dots);
+    /// The 13 levels, and each of `shapes` in each ink of the palette on each of `papers`. Of candidates that look
+    /// the same the first stays: a level, then the first paper, ink and shape.
+    pub fn new(shapes: &[Shape], papers: &[Paint], palette: Palette) -> Self {
+        let mut table: Vec<(Show, Dots)> =
+            Level::all().map(|level| (Show::Level(level), [level.light(); DOT_COUNT])).collect();
+        for &paper in papers {
+            for &ink in palette.inks() {
+                for shape in shapes {
+                    let cell = Cell { glyph: shape.glyph, ink, paper };
+                    let dots = shape.dots(cell.ink_light(), cell.paper_light());
+                    if table.iter().all(|(_, other)| *other != dots) {
+                        table.push((Show::Edge(cell), dots));
+                    }
                 }
             }
         }
-        for dots in &fit.dots {
-            let l = dots.map(lightness);
-            let pull: [f64; DOT_COUNT] =
-                std::array::from_fn(|i| (0..DOT_COUNT).map(|j| k[i][j] * l[j]).sum());
-            fit.own.push((0..DOT_COUNT).map(|i| pull[i] * l[i]).sum());
-            fit.pull.push(pull);
-        }
-        fit
+        let overlaps = overlaps();
+        let lanes = table.chunks(LANES).map(|some| Lanes::new(some, &overlaps)).collect();
+        Self { palette, shows: table.into_iter().map(|(show, _)| show).collect(), lanes }
     }
 
-    fn add(&mut self, show: Show, dots: [f64; DOT_COUNT]) {
-        self.shown.push(show);
-        self.dots.push(dots);
-    }
-
+    /// The cells nearest to `light`, of [`DOTS`] to a cell.
     pub fn compose(&self, light: &Grid<f64>, tone: Tone) -> Grid<Cell> {
         let cells = Size::new(light.size().width / DOTS.width, light.size().height / DOTS.height);
         Grid::from_fn(cells, |column, row| {
-            let dots: [f64; DOT_COUNT] = std::array::from_fn(|d| {
-                let (x, y) = (d as u32 % DOTS.width, d as u32 / DOTS.width);
+            let dots: Dots = std::array::from_fn(|dot| {
+                let (x, y) = (dot as u32 % DOTS.width, dot as u32 / DOTS.width);
                 tone.shown(light[(column * DOTS.width + x, row * DOTS.height + y)])
             });
-            if dots.iter().all(|&d| d == dots[0]) {
-                return shade(Level::nearest(dots[0]), self.palette, column, row);
-            }
-            let l = dots.map(lightness);
-            let mut best = (f64::INFINITY, 0);
-            for c in 0..self.own.len() {
-                let cost = self.own[c] - 2.0 * (0..DOT_COUNT).map(|d| self.pull[c][d] * l[d]).sum::<f64>();
-                if cost < best.0 {
-                    best = (cost, c);
-                }
-            }
-            match self.shown[best.1] {
+            match self.nearest(&dots) {
                 Show::Level(level) => shade(level, self.palette, column, row),
                 Show::Edge(cell) => cell,
             }
         })
     }
+
+    fn nearest(&self, dots: &Dots) -> Show {
+        // Even light is its level by definition, not by the least of rounded costs.
+        if dots.iter().all(|dot| *dot == dots[0]) {
+            return Show::Level(Level::nearest(dots[0]));
+        }
+        let dots = dots.map(|light| lightness(light) as f32);
+        let mut least = [f32::INFINITY; LANES];
+        let mut at = [0; LANES];
+        for (block, lanes) in self.lanes.iter().enumerate() {
+            let costs = lanes.costs(&dots);
+            for lane in 0..LANES {
+                let better = costs[lane] < least[lane];
+                least[lane] = if better { costs[lane] } else { least[lane] };
+                at[lane] = if better { block as u32 } else { at[lane] };
+            }
+        }
+        let mut best = (f32::INFINITY, 0);
+        for lane in 0..LANES {
+            let index = at[lane] as usize * LANES + lane;
+            if least[lane] < best.0 || (least[lane] == best.0 && index < best.1) {
+                best = (least[lane], index);
+            }
+        }
+        self.shows[best.1]
+    }
 }
+
+impl Lanes {
+    fn new(candidates: &[(Show, Dots)], overlaps: &[Dots; DOT_COUNT]) -> Self {
+        // Lanes beyond the last candidate are never the least.
+        let mut lanes = Self { own: [f32::INFINITY; LANES], pull: [[0.0; LANES]; DOT_COUNT] };
+        for (lane, (_, dots)) in candidates.iter().enumerate() {
+            let dots = dots.map(lightness);
+            let seen = overlaps.map(|row| row.iter().zip(dots).map(|(k, l)| k * l).sum::<f64>());
+            lanes.own[lane] = seen.iter().zip(dots).map(|(s, l)| s * l).sum::<f64>() as f32;
+            for (pull, seen) in lanes.pull.iter_mut().zip(seen) {
+                pull[lane] = 2.0 * seen as f32;
+            }
+        }
+        lanes
+    }
+
+    fn costs(&self, lightness: &[f32; DOT_COUNT]) -> [f32; LANES] {
+        let mut costs = self.own;
+        for (pull, lightness) in self.pull.iter().zip(lightness) {
+            for (cost, pull) in costs.iter_mut().zip(pull) {
+                *cost -= pull * lightness;
+            }
+        }
+        costs
+    }
+}
+
+/// K: for each two dots, the product of their light after the eye's filter, over the whole screen; the mean of the
+/// [`EYES`]. Dots are square, as a cell of 2 × 4 is twice as high as wide.
+fn overlaps() -> [Dots; DOT_COUNT] {
+    let apart = |a: usize, b: usize| (a % 2).abs_diff(b % 2) as f64;
+    let below = |a: usize, b: usize| (a / 2).abs_diff(b / 2) as f64;
+    std::array::from_fn(|a| {
+        std::array::from_fn(|b| {
+            let seen = EYES.map(|eye| overlap(apart(a, b), eye) * overlap(below(a, b), eye));
+            seen.iter().sum::<f64>() / EYES.len() as f64
+        })
+    })
+}
+
+/// Along one axis, the overlap of two dots of width 1 that stand `apart`, each seen through a Gaussian of
+/// standard deviation `eye`: the second difference of ∬ of the Gaussian of variance 2 eye².
+fn overlap(apart: f64, eye: f64) -> f64 {
+    let sigma = eye * std::f64::consts::SQRT_2;
+    let twice_integrated = |x: f64| {
+        let z = x / sigma;
+        let density = libm::exp(-z * z / 2.0) / std::f64::consts::TAU.sqrt();
+        let below = f64::midpoint(1.0, libm::erf(z / std::f64::consts::SQRT_2));
+        sigma * (z * below + density)
+    };
+    twice_integrated(apart + 1.0) - 2.0 * twice_integrated(apart) + twice_integrated(apart - 1.0)
+}
+
+#[cfg(test)]
+#[path = "fit_tests.rs"]
+mod tests;

@@ -29,6 +29,11 @@ impl Shape {
         }
         Self { glyph, mask }
     }
+
+    /// Each dot's own of two values.
+    pub fn dots<T: Copy>(self, ink: T, paper: T) -> [T; DOT_COUNT] {
+        std::array::from_fn(|dot| if self.mask >> dot & 1 == 1 { ink } else { paper })
+    }
 }
 
 /// The shapes of code page 437: upright and level halves.
@@ -62,7 +67,7 @@ pub const BLOCKS: &[Shape] = &[
 /// Blank, the three shades and the full block, by quarters of ink.
 pub const SHADES: [char; 5] = [' ', '░', '▒', '▓', '█'];
 
-/// One ASCII character per level with the share of its cell that is ink, measured on the outlines of DejaVu Sans
+/// One ASCII character per level with the share of its cell that is ink, measured on the outlines of `DejaVu` Sans
 /// Mono 2.37 (advance × line height). The lightest strokes any font has are far above level 1's light, so the
 /// ramp keeps the order of the levels, at even steps of lightness, not their light.
 pub const RAMP: [(char, f64); 13] = [
@@ -86,7 +91,7 @@ pub const RAMP: [(char, f64); 13] = [
 pub enum Coverage {
     /// Evenly over the cell: the share of it, 0 to 1.
     Even(f64),
-    /// In whole dots, as a [`Shape`]'s mask.
+    /// In whole dots of 2 × 4: a bit for each in scan order, the top left one lowest.
     Dots(u8),
 }
 

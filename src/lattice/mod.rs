@@ -30,7 +30,9 @@ pub struct Lattice {
 
 /// A lattice would need more than [`BUDGET`].
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("the lattice would have {cells:.2e} cells and {pointers:.2e} object pointers, more than its budget of {BUDGET:.0e} in all")]
+#[error(
+    "the lattice would have {cells:.2e} cells and {pointers:.2e} object pointers, more than its budget of {BUDGET:.0e} in all"
+)]
 pub struct OverBudget {
     /// Cells that it would have.
     pub cells: f64,

@@ -54,7 +54,9 @@ impl Planes {
     /// Leaves out planes evenly until at most `most` cells are left.
     pub fn thin(&mut self, most: f64) {
         while self.cells() > most {
-            let Some(list) = self.lists.iter_mut().max_by_key(|list| list.len()).filter(|list| list.len() > 2) else {
+            let Some(list) =
+                self.lists.iter_mut().max_by_key(|list| list.len()).filter(|list| list.len() > 2)
+            else {
                 return;
             };
             let last = list.len() - 1;
@@ -183,7 +185,8 @@ mod tests {
     use super::*;
 
     fn unit_boxes(n: u32) -> impl Iterator<Item = Bounds> {
-        (0..n).map(|i| Bounds::new(DVec3::new(f64::from(i), 0.0, 0.0), DVec3::new(f64::from(i + 1), 1.0, 1.0)))
+        (0..n)
+            .map(|i| Bounds::new(DVec3::new(f64::from(i), 0.0, 0.0), DVec3::new(f64::from(i + 1), 1.0, 1.0)))
     }
 
     fn planes() -> Planes {

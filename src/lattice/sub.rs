@@ -39,7 +39,8 @@ impl SubLattice {
             return None;
         }
         let cells = vec![NOTHING; planes.cells() as usize];
-        let mut building = Building { primitives, planes: &planes, cells, parts: Vec::new(), known: HashMap::new() };
+        let mut building =
+            Building { primitives, planes: &planes, cells, parts: Vec::new(), known: HashMap::new() };
         let [nx, ny, nz] = planes.dimensions();
         building.fill(tree, [(0, nx - 1), (0, ny - 1), (0, nz - 1)]);
         let Building { cells, parts, .. } = building;

@@ -31,7 +31,8 @@ impl Placement {
         if determinant.is_nan() || determinant.abs() <= 144.0 * f64::EPSILON {
             return None;
         }
-        let inverse = DMat3::from_diagonal(columns.recip()) * even.inverse() * DMat3::from_diagonal(rows.recip());
+        let inverse =
+            DMat3::from_diagonal(columns.recip()) * even.inverse() * DMat3::from_diagonal(rows.recip());
         (inverse.is_finite() && map.translation.is_finite()).then_some(Self {
             linear,
             inverse,
@@ -78,7 +79,8 @@ mod tests {
     #[test]
     fn refuses_dependent_columns_at_every_scale() {
         for s in [1e-150, 1.0, 1e150] {
-            let flat = DMat3::from_cols(DVec3::X * s, DVec3::new(0.3, 0.7, 0.0) * s, DVec3::new(0.1, 0.9, 0.0) * s);
+            let flat =
+                DMat3::from_cols(DVec3::X * s, DVec3::new(0.3, 0.7, 0.0) * s, DVec3::new(0.1, 0.9, 0.0) * s);
             assert!(Placement::new(&DAffine3::from_mat3(flat)).is_none());
             let twice = DMat3::from_cols(DVec3::splat(0.1 * s), DVec3::splat(0.3 * s), DVec3::Z * s);
             assert!(Placement::new(&DAffine3::from_mat3(twice)).is_none());

@@ -42,7 +42,7 @@ pub fn pfm_gray(values: &Grid<f64>, out: &mut impl Write) -> io::Result<()> {
 
 /// A portable float map of three channels (`PF`), x, y and z: normals.
 pub fn pfm_vectors(values: &Grid<DVec3>, out: &mut impl Write) -> io::Result<()> {
-    pfm("PF", values, |value| value.to_array(), out)
+    pfm("PF", values, DVec3::to_array, out)
 }
 
 /// The format has its rows from the bottom up; a negative scale says that the bytes are little-endian.

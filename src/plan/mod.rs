@@ -58,7 +58,8 @@ impl Plan {
         } else {
             scene.lights.iter().filter(|l| l.intensity > 0.0).map(|light| lamp(light, lens)).collect()
         };
-        let grays = [scene.world.ambient, scene.world.background].into_iter().chain(lamps.iter().map(|l| l.light));
+        let grays =
+            [scene.world.ambient, scene.world.background].into_iter().chain(lamps.iter().map(|l| l.light));
         let gray = |c: DVec3| c.x == c.y && c.y == c.z;
         let channels = if grays.into_iter().all(gray) { Channels::Gray } else { Channels::Three };
         Self {

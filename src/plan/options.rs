@@ -17,7 +17,13 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { shading: Shading::Phong, shadows: true, structure: StructureChoice::Auto, samples: 1, threads: 0 }
+        Self {
+            shading: Shading::Phong,
+            shadows: true,
+            structure: StructureChoice::Auto,
+            samples: 1,
+            threads: 0,
+        }
     }
 }
 

@@ -1,8 +1,16 @@
 //! Stage 1, OBJECTS: text in, [`Scene`] out. Kind, place, size and surface of every solid.
 
+mod diagnostic;
+mod embedded;
+mod language;
 mod model;
+mod read;
 
+pub use diagnostic::{Diagnostic, Diagnostics, Severity};
+pub use embedded::{EmbeddedScene, embedded};
+pub use language::reference;
 pub use model::{
-    Anchor, Camera, Facets, HalfSpace, Light, Material, MaterialId, Mesh, Object, Primitive, Scene, Shape,
-    Solid, World,
+    Anchor, Camera, CameraError, Facets, HalfSpace, Light, Material, MaterialId, Mesh, Object, Primitive,
+    Scene, Shape, Solid, World,
 };
+pub use read::{Format, MAX_FILE_BYTES, ReadError, ReadOptions, read, read_file};

@@ -222,3 +222,36 @@ impl Default for World {
         Self { ambient: DVec3::splat(0.1), background: DVec3::ZERO, k: None }
     }
 }
+
+/// Why a camera sees nothing meaningful.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum CameraError {
+    /// The eye is at its target.
+    #[error("eye and target are the same point: there is no direction to look in")]
+    NoSight,
+    /// The sight line runs along `up`.
+    #[error("the line of sight runs along `up`: turn `up` another way")]
+    UpAlongSight,
+    /// An angle, the zoom or a coordinate is out of its range.
+    #[error("field, zoom or a coordinate of the camera is out of its range")]
+    OutOfRange,
+}
+
+impl Camera {
+    /// Whether the camera can look.
+    pub fn check(&self) -> Result<(), CameraError> {
+        let finite = self.eye.is_finite() && self.target.is_finite() && self.up.is_finite();
+        let angles = self.field.iter().all(|&a| a > 0.0 && a < 180.0);
+        if !finite || !angles || !(self.zoom > 0.0 && self.zoom.is_finite()) {
+            return Err(CameraError::OutOfRange);
+        }
+        let sight = self.target - self.eye;
+        let (long, high) = (sight.abs().max_element(), self.up.abs().max_element());
+        if long == 0.0 {
+            return Err(CameraError::NoSight);
+        }
+        let across = if high == 0.0 { 0.0 } else { (sight / long).cross(self.up / high).length() };
+        // Three products of numbers up to 1, each rounded: below this the cross product is rounding only.
+        if across <= 8.0 * f64::EPSILON { Err(CameraError::UpAlongSight) } else { Ok(()) }
+    }
+}

@@ -13,7 +13,9 @@ pub fn luminance(rgb: DVec3) -> f64 {
 }
 
 /// An amount of linear light: its luminance as `f64`, or its three primaries as [`DVec3`].
-pub trait Channel: Copy + Send + Sync + Add<Output = Self> + Mul<f64, Output = Self> + Mul<Output = Self> {
+pub trait Channel:
+    Copy + Send + Sync + Add<Output = Self> + Mul<f64, Output = Self> + Mul<Output = Self>
+{
     /// No light.
     const DARK: Self;
 

@@ -143,6 +143,15 @@ impl Assembly {
         Ok(Self { primitives, objects, limit, datum })
     }
 
+    /// How far the scene reaches along `v` at most, in its own coordinates: the greatest `p · v` of its points.
+    pub fn support(&self, v: DVec3) -> f64 {
+        let own = self.objects.iter().map(|object| match &object.body {
+            Body::Single(index) => self.primitives[*index as usize].form.support(v),
+            Body::Composite { tree, .. } => tree.support(&self.primitives, v),
+        });
+        own.fold(f64::NEG_INFINITY, f64::max) * self.datum.unit + self.datum.origin.dot(v)
+    }
+
     /// The material of a primitive.
     pub fn material(&self, primitive: u32) -> MaterialId {
         self.primitives[primitive as usize].material

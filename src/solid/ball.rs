@@ -63,6 +63,11 @@ impl Ball {
         Bounds::new(self.center - self.radius, self.center + self.radius)
     }
 
+    /// How far it reaches along `v`: the greatest `p · v` of its points.
+    pub fn support(&self, v: DVec3) -> f64 {
+        self.center.dot(v) + self.radius * v.length()
+    }
+
     /// The least and the greatest distance of a box's points from the centre, in radii.
     pub fn distances(&self, b: &Bounds) -> (f64, f64) {
         let from_center = (b.center() - self.center).abs();

@@ -82,13 +82,16 @@ pub fn first_of_span(
         return None;
     }
     let span = primitive.form.span(ray)?;
-    let (end, entering) = if here.is_some() || at_start(&span.enter) {
-        (span.leave, false)
-    } else {
-        (span.enter, true)
-    };
+    let (end, entering) =
+        if here.is_some() || at_start(&span.enter) { (span.leave, false) } else { (span.enter, true) };
     let behind = if here.is_some() { end.t <= 0.0 } else { at_start(&end) };
-    (!behind).then_some(Crossing { t: end.t, error: end.error, primitive: index, surface: end.surface, entering })
+    (!behind).then_some(Crossing {
+        t: end.t,
+        error: end.error,
+        primitive: index,
+        surface: end.surface,
+        entering,
+    })
 }
 
 /// The first crossing of an expression within `reach`.

@@ -3,7 +3,7 @@
 //! Union, intersection and difference become two operators, *any* and *all*, over children that may be negated.
 //! A box in which a primitive is certainly inside or outside replaces it by a constant, and the constants fold.
 
-use crate::math::Bounds;
+use crate::math::{Bounds, DVec3};
 use crate::scene::Solid;
 
 use super::primitive::{Cover, Primitive};
@@ -60,7 +60,8 @@ impl Tree {
                 fold(Self::All(children?), false)
             }
             Solid::Difference(children) => {
-                let mut children = children.iter().map(|c| Self::new(c, next)).collect::<Vec<_>>().into_iter();
+                let mut children =
+                    children.iter().map(|c| Self::new(c, next)).collect::<Vec<_>>().into_iter();
                 let first = children.next().flatten().map(plain);
                 let cuts = children.flatten().map(|tree| Child { tree, negated: true });
                 fold(Self::All(std::iter::once(first?).chain(cuts).collect()), false)
@@ -92,6 +93,21 @@ impl Tree {
         match self {
             Self::Leaf(leaf) => f(*leaf),
             Self::Any(children) | Self::All(children) => children.iter().for_each(|c| c.tree.visit(f)),
+        }
+    }
+
+    /// How far the solid reaches along `v` at most. A difference reaches no further than what it cuts from.
+    pub fn support(&self, primitives: &[Primitive], v: DVec3) -> f64 {
+        match self {
+            Self::Leaf(index) => primitives[*index as usize].form.support(v),
+            Self::Any(children) => {
+                let own = children.iter().map(|c| c.tree.support(primitives, v));
+                own.fold(f64::NEG_INFINITY, f64::max)
+            }
+            Self::All(children) => {
+                let own = children.iter().filter(|c| !c.negated).map(|c| c.tree.support(primitives, v));
+                own.fold(f64::INFINITY, f64::min)
+            }
         }
     }
 

@@ -90,6 +90,11 @@ impl Mesh {
         self.triangles[surface as usize].normal
     }
 
+    /// How far it reaches along `v`: the greatest `p · v` of its points.
+    pub fn support(&self, v: DVec3) -> f64 {
+        self.triangles.iter().flat_map(|t| t.corners).map(|p| p.dot(v)).fold(f64::NEG_INFINITY, f64::max)
+    }
+
     /// The box around it.
     pub fn bounds(&self) -> Bounds {
         self.nodes[0].bounds
@@ -112,7 +117,8 @@ fn build(nodes: &mut Vec<Node>, triangles: &mut [Triangle], from: usize, to: usi
     }
     let middle = |t: &Triangle| t.corners[0] / 3.0 + t.corners[1] / 3.0 + t.corners[2] / 3.0;
     let half = Bounds::around(part.iter().map(middle)).half();
-    let axis = half.to_array().iter().enumerate().fold(0, |best, (i, &h)| if h > half[best] { i } else { best });
+    let axis =
+        half.to_array().iter().enumerate().fold(0, |best, (i, &h)| if h > half[best] { i } else { best });
     let split = part.len() / 2;
     part.select_nth_unstable_by(split, |a, b| middle(a)[axis].total_cmp(&middle(b)[axis]));
     build(nodes, triangles, from, from + split);
@@ -166,10 +172,7 @@ impl Across {
     fn place(&self, ray: &Ray, p: DVec3) -> Coord<f64> {
         let q = p - ray.o;
         let along = q[self.axes[0]];
-        Coord {
-            x: q[self.axes[1]] - self.shear[0] * along,
-            y: q[self.axes[2]] - self.shear[1] * along,
-        }
+        Coord { x: q[self.axes[1]] - self.shear[0] * along, y: q[self.axes[2]] - self.shear[1] * along }
     }
 
     fn crossing(&self, ray: &Ray, triangle: &Triangle, off: f64, surface: u32) -> Option<End> {
@@ -181,9 +184,9 @@ impl Across {
         let towards = triangle.normal.dot(ray.d);
         // The nearest corner's plane equation has the smallest rounding.
         let from = triangle.corners.map(|p| p - ray.o);
-        let near = from.into_iter().fold(from[0], |best, p| {
-            if p.length_squared() < best.length_squared() { p } else { best }
-        });
+        let near = from
+            .into_iter()
+            .fold(from[0], |best, p| if p.length_squared() < best.length_squared() { p } else { best });
         let t = triangle.normal.dot(near) / towards;
         let (t, error) = if t.is_finite() {
             (t, off / towards.abs())

@@ -11,6 +11,8 @@ mod primitive;
 mod round;
 mod slabs;
 mod span;
+#[cfg(test)]
+mod tests;
 
 pub use assembly::{Assembly, AssemblyError, Body, Datum, Object};
 pub use crossing::{Crossing, Reach, Scratch, first_of_expression, first_of_span};

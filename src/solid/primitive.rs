@@ -58,7 +58,9 @@ impl Form {
             },
             Shape::Frustum { bottom, top } => Self::Round(Round::frustum(place, *bottom, *top)),
             Shape::Cube => match axis_half(&place.linear) {
-                Some(half) => Self::AxisBox(AxisBox::new(Bounds::new(place.center - half, place.center + half))),
+                Some(half) => {
+                    Self::AxisBox(AxisBox::new(Bounds::new(place.center - half, place.center + half)))
+                }
                 None => Self::SkewBox(SkewBox::new(place)),
             },
             Shape::Facets(unit) => Self::Facets(Facets::new(unit, &place)),
@@ -121,6 +123,19 @@ impl Form {
         };
         let size = exact.lo.abs().max(exact.hi.abs()).max_element();
         exact.padded(DVec3::splat(ROUNDING * size))
+    }
+
+    /// How far it reaches along `v`: the greatest `p · v` of its points, or of its box where that is dearer.
+    pub fn support(&self, v: DVec3) -> f64 {
+        match self {
+            Self::Ball(ball) => ball.support(v),
+            Self::Round(round) => round.support(v),
+            Self::SkewBox(slabs) => slabs.support(v),
+            Self::Mesh(mesh) => mesh.support(v),
+            Self::AxisBox(_) | Self::Facets(_) => {
+                self.bounds().corners().into_iter().map(|p| p.dot(v)).fold(f64::NEG_INFINITY, f64::max)
+            }
+        }
     }
 
     /// How it lies to a box.

@@ -24,7 +24,10 @@ pub struct Round {
 enum Profile {
     Sphere,
     /// `r(z) = middle + slope · z` for `|z| ≤ 1`.
-    Frustum { middle: f64, slope: f64 },
+    Frustum {
+        middle: f64,
+        slope: f64,
+    },
 }
 
 /// A ray in the unit space, re-centred: `o` is its point closest to the unit origin.
@@ -46,13 +49,17 @@ impl Round {
 
     /// The unit frustum at `place`, of radius `bottom` at z = −1 and `top` at z = 1.
     pub fn frustum(place: Placement, bottom: f64, top: f64) -> Self {
-        Self::new(place, Profile::Frustum { middle: 0.5 * bottom + 0.5 * top, slope: 0.5 * top - 0.5 * bottom })
+        Self::new(
+            place,
+            Profile::Frustum { middle: 0.5 * bottom + 0.5 * top, slope: 0.5 * top - 0.5 * bottom },
+        )
     }
 
     fn new(place: Placement, profile: Profile) -> Self {
         let rows = place.inverse.transpose();
-        let stretch = (rows.x_axis.length_squared() + rows.y_axis.length_squared() + rows.z_axis.length_squared())
-            .sqrt();
+        let stretch =
+            (rows.x_axis.length_squared() + rows.y_axis.length_squared() + rows.z_axis.length_squared())
+                .sqrt();
         let linear = place.linear;
         let size = linear.x_axis.length() + linear.y_axis.length() + linear.z_axis.length();
         Self { place, profile, stretch, reach: place.center.length() + size }
@@ -126,6 +133,19 @@ impl Round {
                 disc(-1.0).join(&disc(1.0))
             }
         }
+    }
+
+    /// How far it reaches along `v`: the greatest `p · v` of its points.
+    pub fn support(&self, v: DVec3) -> f64 {
+        let unit = self.place.linear.transpose() * v;
+        let reach = match self.profile {
+            Profile::Sphere => unit.length(),
+            Profile::Frustum { middle, slope } => {
+                let disc = |z: f64| (middle + slope * z) * libm::hypot(unit.x, unit.y) + z * unit.z;
+                disc(-1.0).max(disc(1.0))
+            }
+        };
+        self.place.center.dot(v) + reach
     }
 
     /// How the box lies in the unit space: the box around it there.

@@ -90,6 +90,12 @@ impl SkewBox {
         Bounds::new(self.place.center - half, self.place.center + half)
     }
 
+    /// How far it reaches along `v`: the greatest `p · v` of its points.
+    pub fn support(&self, v: DVec3) -> f64 {
+        let unit = self.place.linear.transpose() * v;
+        self.place.center.dot(v) + unit.abs().element_sum()
+    }
+
     /// The interval of each face normal over a box.
     fn extents(&self, b: &Bounds) -> [(f64, f64); 3] {
         self.rows.map(|row| {

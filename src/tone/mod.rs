@@ -49,7 +49,7 @@ impl Tone {
 /// What is shown at `half_steps` / 24 under [`Tone::Even`]: a level's light, then the border above it, in turn.
 fn even_knot(half_steps: usize) -> f64 {
     let level = half_steps / 2;
-    if half_steps % 2 == 0 { LIGHTS.get(level) } else { BORDERS.get(level) }.copied().unwrap_or(1.0)
+    if half_steps.is_multiple_of(2) { LIGHTS.get(level) } else { BORDERS.get(level) }.copied().unwrap_or(1.0)
 }
 
 #[cfg(test)]

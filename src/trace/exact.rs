@@ -66,7 +66,8 @@ impl Memory {
     fn chosen(&self) -> Option<Hit> {
         let best = self.nearest.iter().min_by(|a, b| a.1.t.total_cmp(&b.1.t))?.1;
         let coincides = |c: &Crossing| c.t - c.error <= best.t + best.error;
-        let (object, c) = *self.nearest.iter().filter(|(_, c)| coincides(c)).min_by_key(|(object, _)| *object)?;
+        let (object, c) =
+            *self.nearest.iter().filter(|(_, c)| coincides(c)).min_by_key(|(object, _)| *object)?;
         Some(Hit { t: c.t, object, primitive: c.primitive, surface: c.surface, entering: c.entering })
     }
 }

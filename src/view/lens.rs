@@ -89,7 +89,14 @@ mod tests {
     use super::*;
 
     fn camera(field: [f64; 2]) -> Camera {
-        Camera { name: None, eye: DVec3::new(0.0, -5.0, 0.0), target: DVec3::ZERO, up: DVec3::Z, field, zoom: 1.0 }
+        Camera {
+            name: None,
+            eye: DVec3::new(0.0, -5.0, 0.0),
+            target: DVec3::ZERO,
+            up: DVec3::Z,
+            field,
+            zoom: 1.0,
+        }
     }
 
     #[test]

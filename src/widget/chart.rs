@@ -187,8 +187,6 @@ mod tests {
         times[Stage::Solid] = Duration::from_millis(1);
         times[Stage::Shade] = Duration::from_micros(1);
         Frame {
-            light: Grid::filled(Size::new(0, 0), 0.0),
-            cells: Grid::from_values(Size::new(0, 0), Vec::new()),
             counts: Counts {
                 primary_rays: 30_832,
                 primary_hits: 8_000,
@@ -202,7 +200,7 @@ mod tests {
             objects: 9,
             primitives: 14,
             lattice: Some([4, 3, 5]),
-            total_ms: 5.2,
+            ..Frame::blank(Size::new(0, 0), Grid::from_values(Size::new(0, 0), Vec::new()))
         }
     }
 

@@ -7,7 +7,7 @@ mod side;
 mod wide;
 mod worked;
 
-use ray13::math::{DAffine3, DVec3};
+use ray13::math::DVec3;
 use ray13::scene::{Primitive, Scene, Shape, Solid};
 
 use side::{Row, Side, Triangle, along, direction, point, sides};
@@ -72,13 +72,14 @@ impl<'a> Brute<'a> {
     pub fn new(scene: &'a Scene) -> Self {
         let mut pieces = Vec::new();
         for (object, part) in scene.objects.iter().enumerate() {
-            each_primitive(&part.solid, &mut |primitive| pieces.push(Piece::new(object, primitive)));
+            part.solid.visit(&mut |primitive| pieces.push(Piece::new(object, primitive)));
         }
         let size = pieces.iter().map(|p| p.center.length() + p.radius).fold(0.0, f64::max);
         Self { scene, pieces, smallest: size * COINCIDENT }
     }
 
-    /// The first point in front of the origin where the ray enters, or leaves, the union of all objects.
+    /// The first point in front of the origin where the ray enters or leaves an object. From outside all of them that
+    /// is where it enters their union; from inside one it may be an object that lies within it.
     pub fn hit(&self, origin: DVec3, toward: DVec3) -> Option<Hit> {
         let (o, d) = (point(origin), direction(toward));
         let mut crossings = Vec::new();
@@ -103,7 +104,7 @@ impl<'a> Brute<'a> {
             let here = crossings[end - 1].t;
             let next = crossings.get(end).map_or(here + Wide::from(1.0), |next| next.t);
             let after = self.inside(&crossings, &along(&o, &d, (here + next) * half));
-            if self.in_any(&before) != self.in_any(&after) {
+            if self.in_objects(&before) != self.in_objects(&after) {
                 return Some(self.surface(&crossings[at..end], &before, &after, toward));
             }
             before = after;
@@ -131,11 +132,7 @@ impl<'a> Brute<'a> {
         self.scene.objects.iter().map(|object| member(&object.solid, &mut rest)).collect()
     }
 
-    fn in_any(&self, inside: &[bool]) -> bool {
-        self.in_objects(inside).contains(&true)
-    }
-
-    /// The object and the surface that show at a place where the union changes: the first object that changes there,
+    /// The object and the surface that show at a place where objects change: the first object that changes there,
     /// and the first of its pieces whose crossing makes a difference.
     fn surface(&self, here: &[Crossing], before: &[bool], after: &[bool], toward: DVec3) -> Hit {
         let changes =
@@ -154,18 +151,6 @@ impl<'a> Brute<'a> {
         let normal = shown.outward.normalize_or_zero();
         let normal = if normal.dot(toward) > 0.0 { -normal } else { normal };
         Hit { t: here[0].t.value(), object: object as u32 + 1, normal }
-    }
-}
-
-/// Primitives in file order.
-fn each_primitive(solid: &Solid, found: &mut impl FnMut(&Primitive)) {
-    match solid {
-        Solid::Primitive(primitive) => found(primitive),
-        Solid::Union(parts) | Solid::Intersection(parts) | Solid::Difference(parts) => {
-            for part in parts {
-                each_primitive(part, found);
-            }
-        }
     }
 }
 
@@ -188,14 +173,13 @@ fn member(solid: &Solid, inside: &mut impl Iterator<Item = bool>) -> bool {
 impl Piece {
     fn new(object: usize, primitive: &Primitive) -> Self {
         let map = &primitive.map;
-        let (surface, corners) = match (&primitive.shape, sides(&primitive.shape, map)) {
-            (Shape::Mesh(mesh), _) => (Surface::Parity(Triangle::of(mesh, map)), mesh.points.clone()),
-            (Shape::Facets(facets), Some(sides)) => {
-                (Surface::Convex(sides), facets.bounds.corners().to_vec())
-            }
-            (_, sides) => (Surface::Convex(sides.unwrap_or_default()), unit_corners()),
+        let surface = match &primitive.shape {
+            Shape::Mesh(mesh) => Surface::Parity(Triangle::of(mesh, map)),
+            convex => Surface::Convex(sides(convex, map)),
         };
-        let (center, radius) = ball(map, &corners);
+        let corners = primitive.shape.bounds().corners().map(|corner| map.transform_point3(corner));
+        let center = corners.iter().fold(DVec3::ZERO, |sum, &p| sum + p / 8.0);
+        let radius = corners.iter().map(|p| p.distance(center)).fold(0.0, f64::max);
         Self { object, surface, center, radius }
     }
 
@@ -247,16 +231,4 @@ impl Piece {
             }
         }
     }
-}
-
-fn unit_corners() -> Vec<DVec3> {
-    let ends = [-1.0, 1.0];
-    ends.iter().flat_map(|&x| ends.iter().flat_map(move |&y| ends.map(|z| DVec3::new(x, y, z)))).collect()
-}
-
-/// A ball around mapped points.
-fn ball(map: &DAffine3, corners: &[DVec3]) -> (DVec3, f64) {
-    let points: Vec<DVec3> = corners.iter().map(|&p| map.transform_point3(p)).collect();
-    let center = points.iter().fold(DVec3::ZERO, |sum, &p| sum + p / points.len() as f64);
-    (center, points.iter().map(|p| p.distance(center)).fold(0.0, f64::max))
 }

@@ -111,8 +111,8 @@ fn quadratic(a: Wide, b: Wide, c: Wide) -> Vec<Wide> {
     roots
 }
 
-/// The sides of a convex shape in the world; absent for a mesh, which has none.
-pub fn sides(shape: &Shape, map: &DAffine3) -> Option<Vec<Side>> {
+/// The sides of a convex shape in the world. A mesh has none.
+pub fn sides(shape: &Shape, map: &DAffine3) -> Vec<Side> {
     let back = inverse(map);
     let last: Row = [Wide::ZERO, Wide::ZERO, Wide::ZERO, 1.0.into()];
     let combine = |x: f64, y: f64, z: f64, w: f64| -> Row {
@@ -132,7 +132,7 @@ pub fn sides(shape: &Shape, map: &DAffine3) -> Option<Vec<Side>> {
         [1.0, -1.0].map(|s| Side::Plane(combine(s * axis[0], s * axis[1], s * axis[2], -1.0)))
     };
     let (x, y, z) = (combine(1.0, 0.0, 0.0, 0.0), combine(0.0, 1.0, 0.0, 0.0), combine(0.0, 0.0, 1.0, 0.0));
-    Some(match shape {
+    match shape {
         Shape::Sphere => vec![squares(&[(1.0, x), (1.0, y), (1.0, z), (-1.0, last)])],
         Shape::Frustum { bottom, top } => {
             let radius = combine(0.0, 0.0, (top - bottom) / 2.0, f64::midpoint(*top, *bottom));
@@ -147,8 +147,8 @@ pub fn sides(shape: &Shape, map: &DAffine3) -> Option<Vec<Side>> {
             let plane = |h: &HalfSpace| Side::Plane(combine(h.normal.x, h.normal.y, h.normal.z, -h.offset));
             facets.faces.iter().map(plane).collect()
         }
-        Shape::Mesh(_) => return None,
-    })
+        Shape::Mesh(_) => vec![],
+    }
 }
 
 /// A triangle in the world.

@@ -91,7 +91,7 @@ impl<'a> Source<'a> {
                 "crate" if self.text(i + 1) == "::" => self.names(i + 2, &mut found),
                 "super" if i == 0 || self.text(i - 1) != "::" => {
                     let depth = self.depth() + inline_modules.len();
-                    let supers = (0..).take_while(|n| self.text(i + 2 * n) == "super").count();
+                    let supers = (0..=depth).take_while(|n| self.text(i + 2 * n) == "super").count();
                     if supers == depth && self.text(i + 2 * supers - 1) == "::" {
                         self.names(i + 2 * supers, &mut found);
                     }

@@ -44,7 +44,7 @@ fn see(scene: Scene, eye: DVec3, dots: Size, shading: Shading) -> Seen {
     let camera = Camera { name: None, eye, target: DVec3::ZERO, up, field: [40.0, 40.0], zoom: 1.0 };
     let mut request = request(camera.clone(), dots);
     request.options.shading = shading;
-    Seen { frame: Studio::new(scene).draw(&request), camera }
+    Seen { frame: Studio::new(scene).unwrap().draw(&request), camera }
 }
 
 impl Seen {

@@ -1,0 +1,184 @@
+//! The arguments, as clap reads them.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use crate::math::{DVec3, Size};
+
+use super::picture::{Glyphs, PaletteName, StructureName, ToneName};
+use super::values;
+
+/// Shows solid models in a terminal: ray traced, in 13 gray levels of block characters.
+#[derive(Debug, Parser)]
+#[command(version, args_conflicts_with_subcommands = true, max_term_width = 100)]
+pub struct Arguments {
+    #[command(subcommand)]
+    pub command: Option<Command>,
+    #[command(flatten)]
+    pub viewer: ViewerArguments,
+}
+
+#[derive(Debug, Args)]
+pub struct ViewerArguments {
+    /// The scene: a file of the scene language or OpenSCAD's .csg, - for standard input, or the name of an
+    /// embedded scene
+    pub file: Option<String>,
+    /// Leave out what OpenSCAD can show and ray13 can not (the viewer always does)
+    #[arg(long)]
+    pub skip_unsupported: bool,
+    #[command(flatten)]
+    pub picture: PictureArguments,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Draw a still
+    Render(RenderArguments),
+    /// Measure how long pictures take
+    Bench(BenchArguments),
+    /// Read and validate a scene only
+    Check(SceneArguments),
+    /// List the embedded scenes, or print one
+    Scenes {
+        /// The scene to print
+        name: Option<String>,
+    },
+}
+
+#[derive(Debug, Args)]
+pub struct SceneArguments {
+    /// The scene: a file, - for standard input, or the name of an embedded scene
+    pub file: String,
+    /// Leave out what OpenSCAD can show and ray13 can not
+    #[arg(long)]
+    pub skip_unsupported: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct RenderArguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    #[command(flatten)]
+    pub picture: PictureArguments,
+    /// How the picture is written [default: by the ending of -o; else ans on a terminal, txt elsewhere]
+    #[arg(long, value_enum)]
+    pub format: Option<Format>,
+    /// What the values of a pfm are
+    #[arg(long, value_enum, default_value = "light")]
+    pub channel: Channel,
+    /// Write to this file [default: standard output]
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Say on standard error what was counted and how long it took
+    #[arg(long, value_enum)]
+    pub stats: Option<StatsFormat>,
+}
+
+#[derive(Debug, Args)]
+pub struct BenchArguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    #[command(flatten)]
+    pub picture: PictureArguments,
+    /// One line of JSON in place of the table
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What decides the picture.
+#[derive(Debug, Args)]
+pub struct PictureArguments {
+    /// Size in character cells [default: the terminal's, else 80x25]
+    #[arg(long, value_name = "WxH", value_parser = values::size)]
+    pub cells: Option<Size>,
+    /// Size in traced dots, which are then square
+    #[arg(long, value_name = "WxH", value_parser = values::size, conflicts_with = "cells")]
+    pub dots: Option<Size>,
+    #[command(flatten)]
+    pub camera: CameraArguments,
+    /// The paper's illumination model: 1 diffuse, 2 with depth, 3 with highlights
+    #[arg(long, value_name = "1..3", default_value = "3", value_parser = clap::value_parser!(u8).range(1..=3))]
+    pub shading: u8,
+    /// Lights shine through everything
+    #[arg(long)]
+    pub no_shadows: bool,
+    /// Rays per dot along each axis
+    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub samples: u32,
+    /// How space is cut into cells
+    #[arg(long, value_enum, default_value = "auto")]
+    pub structure: StructureName,
+    /// Characters of the picture
+    #[arg(long, value_enum, default_value = "blocks")]
+    pub glyphs: Glyphs,
+    /// Colours of the picture [default: dos; mono where NO_COLOR is set and in txt]
+    #[arg(long, value_enum)]
+    pub palette: Option<PaletteName>,
+    /// How light becomes a level
+    #[arg(long, value_enum, default_value = "lightness")]
+    pub tone: ToneName,
+    /// Worker threads [default: one per processor]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+}
+
+/// Where the picture is seen from. What is not given is the view's.
+#[derive(Debug, Args)]
+pub struct CameraArguments {
+    /// A view of the scene, by its name [default: the first; the whole scene where it has none]
+    #[arg(long, value_name = "NAME")]
+    pub view: Option<String>,
+    /// The viewpoint
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
+    pub eye: Option<DVec3>,
+    /// The point looked at
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
+    pub target: Option<DVec3>,
+    /// Upwards in the picture
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
+    pub up: Option<DVec3>,
+    /// Full angles across and down, in degrees; the picture contains them
+    #[arg(long, value_name = "AxB", value_parser = values::field)]
+    pub field: Option<[f64; 2]>,
+    /// Divides the tangents of both angles
+    #[arg(long, value_name = "F", value_parser = values::positive)]
+    pub zoom: Option<f64>,
+}
+
+/// Forms of a still.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// Characters only
+    Txt,
+    /// Characters with ANSI colours
+    Ans,
+    /// One character per dot, 0 to 9 and A to C: the form to keep in a test
+    Levels,
+    /// One pixel per dot, at its level's gray
+    Png,
+    /// Raw values of --channel, as floats
+    Pfm,
+}
+
+/// Raw values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Channel {
+    /// Linear light
+    Light,
+    /// Distance from the eye, infinite where nothing is hit
+    Depth,
+    /// The surface's normal, turned to the eye
+    Normal,
+    /// The object's number from 1, 0 where nothing is hit
+    Object,
+}
+
+/// Forms of the figures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum StatsFormat {
+    /// A line per figure
+    Text,
+    /// One line of JSON
+    Json,
+}

@@ -1,0 +1,99 @@
+//! How long pictures take.
+
+use std::time::{Duration, Instant};
+
+use ratatui::backend::{Backend, CrosstermBackend};
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::widgets::Widget;
+use serde_json::{Value, json};
+
+use crate::frame::{Frame, Request};
+use crate::math::DVec3;
+use crate::widget::Picture;
+
+use super::arguments::BenchArguments;
+use super::error::CliError;
+use super::{input, print, stats};
+
+/// Frames are drawn until both are reached: enough for a median, long enough for a clock.
+const FRAMES: usize = 5;
+const LONG_ENOUGH: Duration = Duration::from_millis(600);
+
+/// The turn between two frames whose difference is sent, in degrees: a press of an arrow key.
+const TURN: f64 = 5.0;
+
+/// Measures a scene and prints the figures.
+pub fn run(arguments: &BenchArguments) -> Result<(), CliError> {
+    let reading = Instant::now();
+    let scene = input::read(&arguments.scene.file, arguments.scene.skip_unsupported)?;
+    input::say(&scene.notes);
+    let read = reading.elapsed();
+    let studio = input::studio(scene)?;
+    let request = arguments.picture.request(&studio, arguments.picture.palette())?;
+
+    let mut frame = studio.draw(&request);
+    let mut times = Vec::new();
+    let start = Instant::now();
+    while times.len() < FRAMES || start.elapsed() < LONG_ENOUGH {
+        frame = studio.draw(&request);
+        times.push(frame.total);
+    }
+    times.sort_unstable();
+    let (least, median) = (times[0], times[times.len() / 2]);
+    let turned = studio.draw(&turned(&request));
+    let blank = Buffer::empty(screen(&frame).area);
+
+    let mut figures = stats::figures(&frame, &studio.built());
+    let counts = &frame.counts;
+    let rays = counts.primary_rays + counts.shadow_rays + counts.secondary_rays;
+    let mut put = |key: &str, value: Value| figures.insert(key.to_owned(), value);
+    put("frames", json!(times.len()));
+    put("frame_ms_min", json!(stats::ms(least)));
+    put("frame_ms_median", json!(stats::ms(median)));
+    put("read_ms", json!(stats::ms(read)));
+    put("rays_per_second", json!((rays as f64 / median.as_secs_f64()).round()));
+    put("bytes_first_frame", json!(bytes_between(&blank, &screen(&frame))));
+    put("bytes_per_frame", json!(bytes_between(&screen(&frame), &screen(&turned))));
+    put("peak_rss_bytes", json!(peak_memory()));
+    let text = if arguments.json { format!("{}\n", Value::Object(figures)) } else { stats::lines(&figures) };
+    print(text.as_bytes())
+}
+
+/// The same picture from a little farther round.
+fn turned(request: &Request) -> Request {
+    let mut request = request.clone();
+    let camera = &mut request.camera;
+    let (sin, cos) = libm::sincos(TURN.to_radians());
+    let axis = camera.up.normalize_or(DVec3::Z);
+    let sight = camera.eye - camera.target;
+    // Rodrigues' rotation about the axis.
+    let turned = sight * cos + axis.cross(sight) * sin + axis * axis.dot(sight) * (1.0 - cos);
+    camera.eye = camera.target + turned;
+    request
+}
+
+/// The picture as the screen holds it.
+fn screen(frame: &Frame) -> Buffer {
+    let size = frame.cells.size();
+    // ratatui counts columns in 16 bits; so does every terminal.
+    let side = |n: u32| u16::try_from(n).unwrap_or(u16::MAX);
+    let mut buffer = Buffer::empty(Rect::new(0, 0, side(size.width), side(size.height)));
+    Picture(&frame.cells).render(buffer.area, &mut buffer);
+    buffer
+}
+
+/// What a terminal is sent to turn one screen into the other.
+fn bytes_between(before: &Buffer, after: &Buffer) -> usize {
+    let mut sent = Vec::new();
+    let drawn = CrosstermBackend::new(&mut sent).draw(before.diff(after).into_iter());
+    drawn.map_or(0, |()| sent.len())
+}
+
+/// The most memory that the process has held, where the system tells.
+fn peak_memory() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
+    let kilobytes: u64 = line.split_whitespace().nth(1)?.parse().ok()?;
+    Some(kilobytes * 1024)
+}

@@ -1,0 +1,38 @@
+//! What can go wrong, and the exit code that says so.
+
+use std::process::ExitCode;
+
+use crate::app::AppError;
+
+/// An error of the command line.
+#[derive(Debug, thiserror::Error)]
+pub enum CliError {
+    /// Bad input or arguments: exit code 2.
+    #[error("error: {0}")]
+    Input(String),
+    /// A scene that is no scene, already rendered with its places: exit code 2.
+    #[error("{0}")]
+    Scene(String),
+    /// Something could not be written: exit code 1.
+    #[error("error: {0}")]
+    Output(String),
+    /// The viewer ended other than by a key: exit code 1.
+    #[error("error: {0}")]
+    Viewer(#[from] AppError),
+}
+
+impl CliError {
+    /// The exit code.
+    pub fn exit_code(&self) -> ExitCode {
+        match self {
+            Self::Input(_) | Self::Scene(_) => ExitCode::from(2),
+            Self::Output(_) | Self::Viewer(_) => ExitCode::from(1),
+        }
+    }
+
+    /// Says it on standard error. Where even that fails there is nobody to tell.
+    pub fn report(&self) {
+        use std::io::Write;
+        let _ = writeln!(std::io::stderr(), "{self}");
+    }
+}

@@ -1,0 +1,187 @@
+//! From arguments to a request.
+
+use clap::ValueEnum;
+
+use crate::frame::{Request, Studio};
+use crate::glyph::{GlyphMode, Palette};
+use crate::math::Size;
+use crate::plan::{Options, Shading, StructureChoice};
+use crate::scene::{Camera, Scene};
+use crate::tone::Tone;
+
+use super::arguments::{CameraArguments, PictureArguments};
+use super::error::CliError;
+
+/// The screen that is assumed where there is none.
+const SCREEN: Size = Size::new(80, 25);
+
+/// Width of a character cell divided by its height, where nothing better is known.
+const CELL_ASPECT: f64 = 0.5;
+
+/// The glyph modes by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Glyphs {
+    /// Shades, half blocks and quadrants, whichever fits the cell best
+    Blocks,
+    /// The same with the DOS set only
+    Cp437,
+    /// One shade per cell
+    Shade,
+    /// ASCII only
+    Ascii,
+}
+
+impl From<Glyphs> for GlyphMode {
+    fn from(name: Glyphs) -> Self {
+        match name {
+            Glyphs::Blocks => Self::Blocks,
+            Glyphs::Cp437 => Self::Cp437,
+            Glyphs::Shade => Self::Shade,
+            Glyphs::Ascii => Self::Ascii,
+        }
+    }
+}
+
+/// The palettes by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum PaletteName {
+    /// The four grays of 16-colour attributes
+    Dos,
+    /// The terminal's own ink and paper
+    Mono,
+}
+
+/// The tones by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ToneName {
+    /// The level nearest in lightness
+    Lightness,
+    /// Even steps of 1/12, as in 1986
+    Even,
+}
+
+impl From<ToneName> for Tone {
+    fn from(name: ToneName) -> Self {
+        match name {
+            ToneName::Lightness => Self::Lightness,
+            ToneName::Even => Self::Even,
+        }
+    }
+}
+
+/// The structures by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum StructureName {
+    /// Whatever suits the scene
+    Auto,
+    /// Every ray against every object
+    None,
+    /// The paper's lattice
+    Lattice,
+}
+
+impl PictureArguments {
+    /// What the plan is made from.
+    pub fn options(&self) -> Options {
+        let shading = Shading::ALL.into_iter().find(|s| s.number() == self.shading);
+        Options {
+            shading: shading.unwrap_or(Shading::Phong),
+            shadows: !self.no_shadows,
+            structure: match self.structure {
+                StructureName::Auto => StructureChoice::Auto,
+                StructureName::None => StructureChoice::None,
+                StructureName::Lattice => StructureChoice::Lattice,
+            },
+            samples: self.samples,
+            threads: self.threads.map_or(0, usize::from),
+        }
+    }
+
+    /// The palette asked for; else what `NO_COLOR` (<https://no-color.org>) leaves.
+    pub fn palette(&self) -> Palette {
+        match self.palette {
+            Some(PaletteName::Dos) => Palette::Dos,
+            Some(PaletteName::Mono) => Palette::Mono,
+            None if std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty()) => Palette::Mono,
+            None => Palette::Dos,
+        }
+    }
+
+    /// The request for one picture.
+    pub fn request(&self, studio: &Studio, palette: Palette) -> Result<Request, CliError> {
+        let glyphs = GlyphMode::from(self.glyphs);
+        let per_cell = glyphs.dots_per_cell();
+        let (dots, dot_aspect) = match self.dots {
+            Some(dots) => (dots, 1.0),
+            None => {
+                let cells = self.cells.unwrap_or_else(screen);
+                let dots = Size::new(cells.width * per_cell.width, cells.height * per_cell.height);
+                (dots, CELL_ASPECT * f64::from(per_cell.height) / f64::from(per_cell.width))
+            }
+        };
+        let aspect = f64::from(dots.width) / f64::from(dots.height) * dot_aspect;
+        let camera = self.camera.camera(studio, aspect)?;
+        Ok(Request {
+            camera,
+            dots,
+            dot_aspect,
+            options: self.options(),
+            glyphs,
+            palette,
+            tone: self.tone.into(),
+        })
+    }
+}
+
+/// The terminal's cells, less the line that the shell's prompt comes to stand on.
+fn screen() -> Size {
+    use std::io::IsTerminal;
+    if !std::io::stdout().is_terminal() {
+        return SCREEN;
+    }
+    match crossterm::terminal::size() {
+        Ok((width, height)) if width > 0 && height > 1 => Size::new(width.into(), u32::from(height) - 1),
+        _ => SCREEN,
+    }
+}
+
+impl CameraArguments {
+    /// Whether anything but a view's name is given.
+    pub fn is_given(&self) -> bool {
+        self.eye.is_some()
+            || self.target.is_some()
+            || self.up.is_some()
+            || self.field.is_some()
+            || self.zoom.is_some()
+    }
+
+    /// The index of the view that is named.
+    pub fn view_index(&self, scene: &Scene) -> Result<Option<usize>, CliError> {
+        let Some(name) = self.view.as_deref() else { return Ok(None) };
+        let found = scene.views.iter().position(|v| v.name.as_deref() == Some(name));
+        found.map(Some).ok_or_else(|| {
+            let names: Vec<&str> = scene.views.iter().filter_map(|v| v.name.as_deref()).collect();
+            let known = if names.is_empty() {
+                "it names none".to_owned()
+            } else {
+                format!("it has {}", names.join(", "))
+            };
+            CliError::Input(format!("the scene has no view `{name}`: {known}"))
+        })
+    }
+
+    /// The view's camera with what is given in its place.
+    pub fn camera(&self, studio: &Studio, aspect: f64) -> Result<Camera, CliError> {
+        let base = studio.camera(self.view_index(studio.scene())?.unwrap_or(0), aspect);
+        let camera = Camera {
+            eye: self.eye.unwrap_or(base.eye),
+            target: self.target.unwrap_or(base.target),
+            up: self.up.unwrap_or(base.up),
+            field: self.field.unwrap_or(base.field),
+            zoom: self.zoom.unwrap_or(base.zoom),
+            ..base
+        };
+        camera.check().map_err(|e| CliError::Input(e.to_string()))?;
+        Ok(camera)
+    }
+}

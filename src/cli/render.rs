@@ -1,0 +1,118 @@
+//! Stills.
+
+use std::fs;
+use std::io::{self, IsTerminal, Write};
+use std::path::Path;
+use std::time::Instant;
+
+use crate::frame::{Frame, Request};
+use crate::glyph::Palette;
+use crate::output;
+
+use super::arguments::{Channel, Format, PictureArguments, RenderArguments};
+use super::error::CliError;
+use super::{input, print, stats};
+
+/// Draws one still and writes it.
+pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
+    let format = arguments.format.unwrap_or_else(|| format_of(arguments.output.as_deref()));
+    if arguments.channel != Channel::Light && format != Format::Pfm {
+        return Err(CliError::Input(
+            "--channel needs --format pfm: the other formats hold the picture itself".into(),
+        ));
+    }
+    let reading = Instant::now();
+    let scene = input::read(&arguments.scene.file, arguments.scene.skip_unsupported)?;
+    input::say(&scene.notes);
+    let studio = input::studio(scene)?;
+    let read = reading.elapsed();
+    let request = arguments.picture.request(&studio, palette(&arguments.picture, format))?;
+    let mut frame = studio.draw(&request);
+    frame.times[crate::stage::Stage::Objects] = read;
+    if let Some(reason) = &frame.without_lattice {
+        eprintln!("note: drawn without a lattice: {reason}");
+    }
+    let writing = Instant::now();
+    let bytes = encoded(&frame, &request, format, arguments.channel)?;
+    frame.times[crate::stage::Stage::Display] = writing.elapsed();
+    match &arguments.output {
+        Some(path) => write_file(path, &bytes)?,
+        None => print(&bytes)?,
+    }
+    if let Some(form) = arguments.stats {
+        stats::say(&frame, &studio.built(), form);
+    }
+    Ok(())
+}
+
+/// One still on standard output, which is no terminal: characters only.
+pub fn still(file: &str, skip_unsupported: bool, picture: &PictureArguments) -> Result<(), CliError> {
+    let scene = input::read(file, skip_unsupported)?;
+    input::say(&scene.notes);
+    let studio = input::studio(scene)?;
+    let request = picture.request(&studio, palette(picture, Format::Txt))?;
+    let frame = studio.draw(&request);
+    print(&encoded(&frame, &request, Format::Txt, Channel::Light)?)
+}
+
+/// Text has no colours to lose: its shades are ink.
+fn palette(picture: &PictureArguments, format: Format) -> Palette {
+    if format == Format::Txt { Palette::Mono } else { picture.palette() }
+}
+
+fn format_of(path: Option<&Path>) -> Format {
+    let Some(path) = path else {
+        return if io::stdout().is_terminal() { Format::Ans } else { Format::Txt };
+    };
+    match path.extension().and_then(|e| e.to_str()) {
+        Some("ans") => Format::Ans,
+        Some("levels") => Format::Levels,
+        Some("png") => Format::Png,
+        Some("pfm") => Format::Pfm,
+        _ => Format::Txt,
+    }
+}
+
+/// The whole still in memory, so that an error leaves nothing half-written.
+fn encoded(frame: &Frame, request: &Request, format: Format, channel: Channel) -> Result<Vec<u8>, CliError> {
+    let mut out = Vec::new();
+    let done = match format {
+        Format::Txt => output::text(&frame.cells, &mut out),
+        Format::Ans => output::ansi(&frame.cells, &mut out),
+        Format::Levels => output::levels(&frame.levels(request.tone), &mut out),
+        Format::Png => {
+            let drawn = output::png(&frame.levels(request.tone), &mut out);
+            drawn.map_err(|e| io::Error::other(e.to_string()))
+        }
+        Format::Pfm => match channel {
+            Channel::Light => output::pfm_gray(&frame.light, &mut out),
+            Channel::Depth => output::pfm_gray(&frame.depth, &mut out),
+            Channel::Normal => output::pfm_vectors(&frame.normal, &mut out),
+            Channel::Object => output::pfm_gray(&frame.object.map(|&n| f64::from(n)), &mut out),
+        },
+    };
+    done.map_err(|e| CliError::Output(format!("the picture could not be encoded: {e}")))?;
+    Ok(out)
+}
+
+/// Writes beside the place and moves there at the end, so that the file is whole or as it was. What is no plain
+/// file, a pipe or a device, is written straight.
+fn write_file(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
+    let failed = |e: io::Error| CliError::Output(format!("{} could not be written: {e}", path.display()));
+    match fs::metadata(path) {
+        Ok(found) if found.is_dir() => return Err(failed(io::ErrorKind::IsADirectory.into())),
+        Ok(found) if !found.is_file() => {
+            let mut out = fs::File::options().write(true).open(path).map_err(failed)?;
+            return out.write_all(bytes).and_then(|()| out.flush()).map_err(failed);
+        }
+        _ => {}
+    }
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(format!(".{}.part", std::process::id()));
+    let part = path.with_file_name(name);
+    let written = fs::write(&part, bytes).and_then(|()| fs::rename(&part, path));
+    written.map_err(|e| {
+        let _ = fs::remove_file(&part);
+        failed(e)
+    })
+}

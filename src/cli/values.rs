@@ -1,0 +1,79 @@
+//! Values of arguments: sizes, points, fields, each with the message for what it can not be.
+
+use std::str::FromStr;
+
+use crate::math::{DVec3, Size};
+
+/// The most dots or cells along one side of a picture, and the most dots in all: 8 GB of frame, past any use.
+const MOST_ACROSS: u32 = 32_768;
+const MOST_DOTS: usize = 1 << 27;
+
+/// A width and a height, as in `80x25`.
+pub fn size(text: &str) -> Result<Size, String> {
+    let [width, height] = pair::<u32>(text).ok_or("expected WIDTHxHEIGHT, as in 80x25")?;
+    if width == 0 || height == 0 {
+        return Err("width and height must be at least 1".into());
+    }
+    let size = Size::new(width, height);
+    if width > MOST_ACROSS || height > MOST_ACROSS || size.area() > MOST_DOTS {
+        return Err(format!("larger than {MOST_ACROSS} on a side, or {MOST_DOTS} in all"));
+    }
+    Ok(size)
+}
+
+/// A point or a direction, as in `1,2.5,-3`.
+pub fn point(text: &str) -> Result<DVec3, String> {
+    let numbers: Vec<f64> =
+        text.split(',').map(|n| n.trim().parse()).collect::<Result<_, _>>().map_err(|_| "")?;
+    let [x, y, z] = numbers[..] else { return Err("expected X,Y,Z, as in 0,-9,3".into()) };
+    let point = DVec3::new(x, y, z);
+    if point.is_finite() { Ok(point) } else { Err("coordinates must be finite".into()) }
+}
+
+/// Full angles across and down in degrees, as in `40x25`.
+pub fn field(text: &str) -> Result<[f64; 2], String> {
+    let angles = pair::<f64>(text).ok_or("expected ACROSSxDOWN in degrees, as in 40x25")?;
+    if angles.iter().all(|&a| a > 0.0 && a < 180.0) {
+        Ok(angles)
+    } else {
+        Err("each angle must be above 0 and below 180 degrees".into())
+    }
+}
+
+/// A number above 0.
+pub fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x > 0.0 && x.is_finite() => Ok(x),
+        _ => Err("expected a finite number above 0".into()),
+    }
+}
+
+fn pair<T: FromStr>(text: &str) -> Option<[T; 2]> {
+    let (a, b) = text.split_once(['x', '×'])?;
+    Some([a.trim().parse().ok()?, b.trim().parse().ok()?])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reads_what_people_write() {
+        assert_eq!(size("80x25"), Ok(Size::new(80, 25)));
+        assert_eq!(point("0, -9,3e1"), Ok(DVec3::new(0.0, -9.0, 30.0)));
+        assert_eq!(field("40x25"), Ok([40.0, 25.0]));
+    }
+
+    #[test]
+    fn refuses_the_rest() {
+        for text in ["", "80", "80x", "x25", "0x25", "-3x5", "99999x99999", "32768x32768"] {
+            assert!(size(text).is_err(), "{text}");
+        }
+        for text in ["", "1,2", "1,2,3,4", "1,2,nan", "1,2,inf", "a,b,c"] {
+            assert!(point(text).is_err(), "{text}");
+        }
+        for text in ["180x40", "0x40", "40", "nanx40"] {
+            assert!(field(text).is_err(), "{text}");
+        }
+    }
+}

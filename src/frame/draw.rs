@@ -1,0 +1,215 @@
+//! One picture, through all stages.
+
+use std::time::Instant;
+
+use rayon::prelude::*;
+
+use crate::glyph;
+use crate::math::{DVec3, Grid};
+use crate::plan::{Channels, Plan};
+use crate::shade::{Channel, Shader, View};
+use crate::stage::{Counts, Meter, Probe, Silent, Stage, StageTimes, Stopwatch};
+use crate::trace::{Engine, Exact};
+use crate::view::{Lens, Picture, TILE, Tile, tiles};
+
+use super::{Frame, Request, Studio};
+
+/// One tile in this many is timed stage by stage: reading the clock at every change of stage costs about as much
+/// as the stage. A prime, so that the timed tiles do not stand in columns.
+const TIMED: u32 = 13;
+
+impl Studio {
+    /// Draws one picture. The same request gives the same dots and cells, on any number of threads.
+    pub fn draw(&self, request: &Request) -> Frame {
+        let start = Instant::now();
+        let picture = Picture { dots: request.dots, dot_aspect: request.dot_aspect };
+        let lens = Lens::new(&request.camera, &picture);
+        let plan = Plan::new(self.scene(), &self.assembly, &lens, &request.options);
+        let lattice = if plan.lattice { Some(self.lattice()) } else { None };
+        let without_lattice = lattice.and_then(Result::err).map(|e| e.to_string());
+        let lattice = lattice.and_then(Result::ok);
+        let engine = Exact::new(&self.assembly, lattice);
+        let viewed = Instant::now();
+
+        let workers = self.workers(request.options.threads);
+        let work = || match plan.channels {
+            Channels::Gray => self.trace::<f64>(&engine, &plan, &lens, request),
+            Channels::Three => self.trace::<DVec3>(&engine, &plan, &lens, request),
+        };
+        let traced = workers.as_ref().map_or_else(work, |pool| pool.install(work));
+        let trace = viewed.elapsed();
+
+        let Traced { light, depth, normal, object, counts, times } = traced;
+        let dithering = Instant::now();
+        let cells = glyph::compose(&light, request.glyphs, request.palette, request.tone);
+        let mut times = shared_out(&times, trace);
+        times[Stage::Objects] = self.built().assembling;
+        times[Stage::Lattice] = self.built().lattice.unwrap_or_default();
+        times[Stage::View] = viewed - start;
+        times[Stage::Dither] = dithering.elapsed();
+        Frame {
+            light,
+            depth,
+            normal,
+            object,
+            cells,
+            counts,
+            times,
+            objects: self.assembly.objects.len(),
+            primitives: self.assembly.primitives.len(),
+            lattice: lattice.map(|l| l.planes().dimensions()),
+            without_lattice,
+            field: lens.field(),
+            threads: workers.map_or(1, |pool| pool.current_num_threads()),
+            trace,
+            total: start.elapsed(),
+        }
+    }
+
+    fn trace<C: Channel>(&self, engine: &Exact, plan: &Plan, lens: &Lens, request: &Request) -> Traced {
+        let shader = Shader::<_, C>::new(self.scene(), &self.assembly, plan, engine);
+        let sampler = Sampler { studio: self, shader: &shader, lens, samples: plan.samples };
+        let tiles = tiles(request.dots);
+        let drawn: Vec<Drawn> = tiles
+            .par_iter()
+            .map_init(
+                || engine.memory(),
+                |memory, tile| {
+                    if tile.number % TIMED == 0 {
+                        let mut meter = Meter::new(Stopwatch::start(Stage::Ray));
+                        let dots = sampler.tile(tile, memory, &mut meter);
+                        Drawn { dots, counts: meter.counts, times: Some(meter.probe.stop()) }
+                    } else {
+                        let mut meter = Meter::new(Silent);
+                        let dots = sampler.tile(tile, memory, &mut meter);
+                        Drawn { dots, counts: meter.counts, times: None }
+                    }
+                },
+            )
+            .collect();
+        Traced::gathered(request.dots, &tiles, &drawn)
+    }
+}
+
+/// Shares the time of tracing out among the stages as the timed tiles spent theirs.
+fn shared_out(sampled: &StageTimes, trace: std::time::Duration) -> StageTimes {
+    let mut times = StageTimes::default();
+    let all = sampled.total().as_secs_f64();
+    if all > 0.0 {
+        for stage in Stage::ALL {
+            times[stage] = trace.mul_f64(sampled[stage].as_secs_f64() / all);
+        }
+    }
+    times
+}
+
+/// What one dot saw.
+#[derive(Clone, Copy, Debug)]
+struct Dot {
+    light: f64,
+    depth: f64,
+    normal: DVec3,
+    object: u32,
+}
+
+/// A finished tile.
+struct Drawn {
+    dots: Vec<Dot>,
+    counts: Counts,
+    times: Option<StageTimes>,
+}
+
+struct Sampler<'a, 'b, C> {
+    studio: &'a Studio,
+    shader: &'a Shader<'b, Exact<'b>, C>,
+    lens: &'a Lens,
+    samples: u32,
+}
+
+impl<'b, C: Channel> Sampler<'_, 'b, C> {
+    fn tile(
+        &self,
+        tile: &Tile,
+        memory: &mut <Exact<'b> as Engine>::Memory,
+        meter: &mut Meter<impl Probe>,
+    ) -> Vec<Dot> {
+        let mut dots = Vec::with_capacity((TILE * TILE) as usize);
+        for (i, j) in tile.dots() {
+            let (x, y) = (f64::from(i) + 0.5, f64::from(j) + 0.5);
+            let middle = self.sample(x, y, memory, meter);
+            let light = if self.samples == 1 {
+                middle.light
+            } else {
+                let step = 1.0 / f64::from(self.samples);
+                let mut sum = C::DARK;
+                for (a, b) in (0..self.samples).flat_map(|b| (0..self.samples).map(move |a| (a, b))) {
+                    let inside = |k: u32| (f64::from(k) + 0.5) * step - 0.5;
+                    sum = sum + self.sample(x + inside(a), y + inside(b), memory, meter).light;
+                }
+                sum * (step * step)
+            };
+            let assembly = &self.studio.assembly;
+            dots.push(middle.seen.map_or(
+                Dot { light: light.gray(), depth: f64::INFINITY, normal: DVec3::ZERO, object: 0 },
+                |seen| Dot {
+                    light: light.gray(),
+                    depth: seen.t * assembly.datum.unit,
+                    normal: seen.normal,
+                    object: assembly.objects[seen.object as usize].number + 1,
+                },
+            ));
+        }
+        dots
+    }
+
+    fn sample(
+        &self,
+        x: f64,
+        y: f64,
+        memory: &mut <Exact<'b> as Engine>::Memory,
+        meter: &mut Meter<impl Probe>,
+    ) -> View<C> {
+        meter.at(Stage::Ray);
+        let ray = self.studio.assembly.ray(&self.lens.ray(x, y));
+        let view = self.shader.view(&ray, memory, meter);
+        meter.at(Stage::Ray);
+        view
+    }
+}
+
+/// The dots of all tiles.
+struct Traced {
+    light: Grid<f64>,
+    depth: Grid<f64>,
+    normal: Grid<DVec3>,
+    object: Grid<u32>,
+    counts: Counts,
+    /// Of the timed tiles.
+    times: StageTimes,
+}
+
+impl Traced {
+    fn gathered(size: crate::math::Size, tiles: &[Tile], drawn: &[Drawn]) -> Self {
+        let mut all = Self {
+            light: Grid::filled(size, 0.0),
+            depth: Grid::filled(size, f64::INFINITY),
+            normal: Grid::filled(size, DVec3::ZERO),
+            object: Grid::filled(size, 0),
+            counts: Counts::default(),
+            times: StageTimes::default(),
+        };
+        for (tile, done) in tiles.iter().zip(drawn) {
+            all.counts += done.counts;
+            if let Some(times) = done.times {
+                all.times += times;
+            }
+            for (place, dot) in tile.dots().zip(&done.dots) {
+                all.light[place] = dot.light;
+                all.depth[place] = dot.depth;
+                all.normal[place] = dot.normal;
+                all.object[place] = dot.object;
+            }
+        }
+        all
+    }
+}

@@ -1,0 +1,95 @@
+//! A picture that is asked for, and the finished picture.
+
+use std::time::Duration;
+
+use crate::glyph::{Cell, GlyphMode, Palette};
+use crate::math::{DVec3, Grid, Size};
+use crate::plan::Options;
+use crate::scene::Camera;
+use crate::stage::{Counts, StageTimes};
+use crate::tone::{Level, Tone};
+
+/// One picture that is asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Request {
+    /// From where.
+    pub camera: Camera,
+    /// Traced dots.
+    pub dots: Size,
+    /// Width of a dot on the screen divided by its height, above 0.
+    pub dot_aspect: f64,
+    /// Shading model, shadows, structure, threads.
+    pub options: Options,
+    /// Characters.
+    pub glyphs: GlyphMode,
+    /// Colours.
+    pub palette: Palette,
+    /// Light to level.
+    pub tone: Tone,
+}
+
+/// A finished picture. Grids of dots have the size that was asked for.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    /// The light of each dot, a gray in linear light, 0 or more, not clamped.
+    pub light: Grid<f64>,
+    /// The distance from the eye to what the middle of each dot sees, in the scene's unit; infinite where it
+    /// sees nothing.
+    pub depth: Grid<f64>,
+    /// The normal there, turned to the eye's side, of length 1 in world axes; 0 where nothing is seen.
+    pub normal: Grid<DVec3>,
+    /// The number of the object there, from 1 in file order; 0 where nothing is seen.
+    pub object: Grid<u32>,
+    /// The characters.
+    pub cells: Grid<Cell>,
+    /// What was counted.
+    pub counts: Counts,
+    /// Where the time went. The stages from RAY to SHADE share the time of tracing as a sample of the tiles
+    /// spent it.
+    pub times: StageTimes,
+    /// Objects in the lattice.
+    pub objects: usize,
+    /// Primitives of all objects.
+    pub primitives: usize,
+    /// Cells of the lattice along x, y and z; absent where the picture was made without one.
+    pub lattice: Option<[usize; 3]>,
+    /// Why the picture was made without a lattice although one was wanted.
+    pub without_lattice: Option<String>,
+    /// The full angles of the field across and down, in degrees.
+    pub field: [f64; 2],
+    /// Worker threads that traced.
+    pub threads: usize,
+    /// Tracing alone.
+    pub trace: Duration,
+    /// From the request to the finished frame.
+    pub total: Duration,
+}
+
+impl Frame {
+    /// A frame of dots that saw nothing, with these cells: what a program shows, or a test fills in, before a
+    /// picture has been traced.
+    pub fn blank(dots: Size, cells: Grid<Cell>) -> Self {
+        Self {
+            light: Grid::filled(dots, 0.0),
+            depth: Grid::filled(dots, f64::INFINITY),
+            normal: Grid::filled(dots, DVec3::ZERO),
+            object: Grid::filled(dots, 0),
+            cells,
+            counts: Counts::default(),
+            times: StageTimes::default(),
+            objects: 0,
+            primitives: 0,
+            lattice: None,
+            without_lattice: None,
+            field: [0.0; 2],
+            threads: 1,
+            trace: Duration::ZERO,
+            total: Duration::ZERO,
+        }
+    }
+
+    /// The level of each dot.
+    pub fn levels(&self, tone: Tone) -> Grid<Level> {
+        self.light.map(|&light| tone.level(light))
+    }
+}

@@ -1,0 +1,84 @@
+//! A scene made ready for pictures.
+
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::time::{Duration, Instant};
+
+use crate::lattice::{Lattice, OverBudget};
+use crate::scene::{Camera, Scene};
+use crate::solid::{Assembly, AssemblyError};
+use crate::view::framed;
+
+/// A scene made ready: its solids are put together once, its lattice is built when a picture first wants it, and
+/// all pictures share both.
+#[derive(Debug)]
+pub struct Studio {
+    scene: Scene,
+    pub(super) assembly: Assembly,
+    assembling: Duration,
+    lattice: OnceLock<(Result<Lattice, OverBudget>, Duration)>,
+    /// The workers of the last picture, kept while the number of threads stays the same.
+    workers: Mutex<Option<Workers>>,
+}
+
+type Workers = (usize, Arc<rayon::ThreadPool>);
+
+/// What was built, and how long it took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Built {
+    /// Putting the solids together.
+    pub assembling: Duration,
+    /// Building the lattice; absent as long as none was wanted.
+    pub lattice: Option<Duration>,
+}
+
+impl Studio {
+    /// Makes a scene ready. Fails for solids that no reader gives.
+    pub fn new(scene: Scene) -> Result<Self, AssemblyError> {
+        let start = Instant::now();
+        let assembly = Assembly::new(&scene)?;
+        let assembling = start.elapsed();
+        Ok(Self { scene, assembly, assembling, lattice: OnceLock::new(), workers: Mutex::new(None) })
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// What was built so far.
+    pub fn built(&self) -> Built {
+        Built { assembling: self.assembling, lattice: self.lattice.get().map(|(_, time)| *time) }
+    }
+
+    /// The camera of a view of the scene, by its index; the framing from the scene's bounds where it has none or
+    /// `index` is past the last. `aspect` is the width of the picture divided by its height, on the screen.
+    pub fn camera(&self, index: usize, aspect: f64) -> Camera {
+        self.scene.views.get(index).cloned().unwrap_or_else(|| self.framed(aspect))
+    }
+
+    /// A camera that sees the whole scene.
+    pub fn framed(&self, aspect: f64) -> Camera {
+        framed(|v| self.assembly.support(v), aspect)
+    }
+
+    /// The lattice, built now if it was not before; else why there is none.
+    pub fn lattice(&self) -> Result<&Lattice, OverBudget> {
+        let (lattice, _) = self.lattice.get_or_init(|| {
+            let start = Instant::now();
+            let lattice = Lattice::new(&self.assembly);
+            (lattice, start.elapsed())
+        });
+        lattice.as_ref().map_err(|&e| e)
+    }
+
+    /// Workers for a number of threads, 0 for one per processor. Where threads can not be had, the caller's alone.
+    pub(super) fn workers(&self, threads: usize) -> Option<Arc<rayon::ThreadPool>> {
+        let mut kept = self.workers.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, pool)) = kept.as_ref().filter(|(number, _)| *number == threads) {
+            return Some(Arc::clone(pool));
+        }
+        let pool = Arc::new(rayon::ThreadPoolBuilder::new().num_threads(threads).build().ok()?);
+        *kept = Some((threads, Arc::clone(&pool)));
+        Some(pool)
+    }
+}

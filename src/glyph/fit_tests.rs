@@ -1,0 +1,98 @@
+//! The best fit against its definition.
+
+use super::*;
+use crate::glyph::shape::{BLOCKS, HALVES};
+use proptest::prelude::*;
+
+/// The light of dots seen through Gaussians, without the closed form: K is compared with sums over fine squares.
+#[test]
+fn the_overlap_is_the_integral_of_two_seen_dots() {
+    const FINE: i32 = 200;
+    for eye in EYES {
+        for apart in 0..4 {
+            let sigma = eye * std::f64::consts::SQRT_2;
+            let mut sum = 0.0;
+            for i in 0..FINE {
+                for j in 0..FINE {
+                    let away = f64::from(apart) + f64::from(i - j) / f64::from(FINE);
+                    let z = away / sigma;
+                    sum += libm::exp(-z * z / 2.0) / (sigma * std::f64::consts::TAU.sqrt());
+                }
+            }
+            let integral = sum / f64::from(FINE * FINE);
+            assert!((overlap(f64::from(apart), eye) - integral).abs() < 1e-5);
+        }
+    }
+}
+
+#[test]
+fn even_light_is_its_level() {
+    let fit = BestFit::new(BLOCKS, Palette::Dos.papers(), Palette::Dos);
+    for level in Level::all() {
+        assert_eq!(fit.nearest(&[level.light(); DOT_COUNT]), Show::Level(level));
+    }
+}
+
+#[test]
+fn every_candidate_is_nearest_to_itself() {
+    for (shapes, papers, palette) in [
+        (BLOCKS, Palette::Dos.papers(), Palette::Dos),
+        (HALVES, Palette::Dos.dim_papers(), Palette::Dos),
+        (BLOCKS, Palette::Mono.papers(), Palette::Mono),
+    ] {
+        let fit = BestFit::new(shapes, papers, palette);
+        let edges = fit.shows.iter().filter_map(|show| match show {
+            Show::Edge(cell) => Some(*cell),
+            Show::Level(_) => None,
+        });
+        for cell in edges {
+            let shape = shapes.iter().find(|shape| shape.glyph == cell.glyph).expect("of the table");
+            let dots = shape.dots(cell.ink_light(), cell.paper_light());
+            assert_eq!(fit.nearest(&dots), Show::Edge(cell));
+        }
+    }
+}
+
+#[test]
+fn what_looks_the_same_is_there_once() {
+    // Six pairs of the four grays; seven ways to part the quadrants, and two quarters that each look two ways.
+    let fit = BestFit::new(BLOCKS, Palette::Dos.papers(), Palette::Dos);
+    assert_eq!(fit.shows.len(), 13 + 6 * (2 * 7 + 4));
+}
+
+#[test]
+fn paper_is_a_dim_gray_where_it_can_be() {
+    // Every choice of quadrants has its complement, so ink and paper may change places; a quarter has none.
+    let fit = BestFit::new(BLOCKS, Palette::Dos.papers(), Palette::Dos);
+    let bright = |paint: Paint| matches!(paint, Paint::DarkGray | Paint::White);
+    for show in &fit.shows {
+        if let Show::Edge(cell) = show {
+            let quarter = matches!(cell.glyph, '▂' | '▆');
+            assert!(!bright(cell.paper) || bright(cell.ink) || quarter, "{cell:?}");
+        }
+    }
+}
+
+proptest! {
+    /// The table's rounded sums against the definition `eᵀ K e`, in f64.
+    #[test]
+    fn the_choice_is_the_least_error(dots in prop::array::uniform8(0.0..=1.0)) {
+        let fit = BestFit::new(BLOCKS, Palette::Dos.papers(), Palette::Dos);
+        let overlaps = overlaps();
+        let cost = |show: Show| {
+            let shown = match show {
+                Show::Level(level) => [level.light(); DOT_COUNT],
+                Show::Edge(cell) => {
+                    let shape = BLOCKS.iter().find(|shape| shape.glyph == cell.glyph).expect("of the table");
+                    shape.dots(cell.ink_light(), cell.paper_light())
+                }
+            };
+            let error: Dots = std::array::from_fn(|d| lightness(dots[d]) - lightness(shown[d]));
+            let pairs = (0..DOT_COUNT).flat_map(|a| (0..DOT_COUNT).map(move |b| (a, b)));
+            pairs.map(|(a, b)| error[a] * overlaps[a][b] * error[b]).sum::<f64>()
+        };
+        let least = fit.shows.iter().map(|&show| cost(show)).fold(f64::INFINITY, f64::min);
+        // f32 carries the products of lightnesses, up to 10⁵, to a few parts in 10⁷.
+        prop_assert!(cost(fit.nearest(&dots)) <= least + 0.1);
+    }
+}

@@ -1,0 +1,272 @@
+//! The arguments of a call, matched with the parameters of its word and checked against what they take.
+
+use super::colors;
+use crate::math::DVec3;
+use crate::scene::Diagnostic;
+use crate::scene::diagnostic::{Reported, Sink};
+use crate::scene::language::nearest::{nearest, quoted};
+use crate::scene::language::syntax::{Argument, Call, Span, Spanned, Value};
+use crate::scene::language::vocabulary::{FRAGMENT_SETTINGS, Parameter, Takes, Word};
+
+/// The arguments of one call, each at its parameter.
+pub struct Arguments<'c, 'a> {
+    word: &'static Word,
+    call: &'c Call<'a>,
+    /// One place for each parameter; `undef` counts as not given.
+    values: Vec<Option<&'c Spanned<'a>>>,
+    /// `$fn`, where it is given.
+    pub fragments: Option<f64>,
+}
+
+impl<'c, 'a> Arguments<'c, 'a> {
+    /// Matches names and positions. All mismatches are reported, not the first only.
+    pub fn bind(call: &'c Call<'a>, word: &'static Word, sink: &mut Sink) -> Result<Self, Reported> {
+        let mut bound = Self { word, call, values: vec![None; word.arguments.len()], fragments: None };
+        let mut given = vec![false; word.arguments.len()];
+        let mut result = Ok(());
+        let mut keep = |outcome: Result<(), Reported>| {
+            if outcome.is_err() {
+                result = outcome;
+            }
+        };
+        // As OpenSCAD does: values without names fill the parameters in order, past those already named.
+        for argument in &call.arguments {
+            match argument.name {
+                Some(name) if name.text.starts_with('$') => keep(bound.setting(name.text, argument, sink)),
+                _ => keep(bound.place(argument, &mut given, sink)),
+            }
+            if sink.is_full() {
+                break;
+            }
+        }
+        result.map(|()| bound)
+    }
+
+    fn setting(&mut self, name: &str, argument: &Argument<'a>, sink: &mut Sink) -> Result<(), Reported> {
+        let number = setting(
+            name,
+            argument.name.map_or(argument.value.span, |name| name.span),
+            &argument.value,
+            sink,
+        )?;
+        if name == FRAGMENT_SETTINGS[0] {
+            self.fragments = number.or(self.fragments);
+        }
+        Ok(())
+    }
+
+    fn place(
+        &mut self,
+        argument: &'c Argument<'a>,
+        given: &mut [bool],
+        sink: &mut Sink,
+    ) -> Result<(), Reported> {
+        let index = match argument.name {
+            Some(name) => self.word.arguments.iter().position(|parameter| parameter.name == name.text),
+            None => (0..given.len()).find(|&i| self.word.arguments[i].by_position && !given[i]),
+        };
+        let Some(index) = index else { return Err(sink.report(self.unplaced(argument))) };
+        if given[index] {
+            let parameter = self.word.arguments[index].name;
+            let place = argument.name.map_or(argument.value.span, |name| name.span);
+            let message = format!("`{parameter}` of `{}` is given twice", self.word.name);
+            return Err(sink.report(Diagnostic::error(place, message).label("the second time")));
+        }
+        given[index] = true;
+        if !matches!(argument.value.value, Value::Undef) {
+            self.values[index] = Some(&argument.value);
+        }
+        Ok(())
+    }
+
+    fn unplaced(&self, argument: &Argument<'_>) -> Diagnostic {
+        let names: Vec<_> = self.word.arguments.iter().map(|parameter| parameter.name).collect();
+        let takes = match names.as_slice() {
+            [] => format!("`{}` takes none", self.word.name),
+            _ => format!("`{}` takes {}", self.word.name, names.join(", ")),
+        };
+        let Some(name) = argument.name else {
+            let message = format!("one argument too many for `{}`", self.word.name);
+            return Diagnostic::error(argument.value.span, message).help(takes);
+        };
+        let message = format!("`{}` has no argument `{}`", self.word.name, quoted(name.text));
+        match nearest(name.text, names) {
+            Some(right) => Diagnostic::error(name.span, message).help(format!("did you mean `{right}`?")),
+            None => Diagnostic::error(name.span, message).help(takes),
+        }
+    }
+
+    fn get(&self, name: &str) -> Option<(&'static Parameter, &'c Spanned<'a>)> {
+        let index = self.word.arguments.iter().position(|parameter| parameter.name == name)?;
+        Some((&self.word.arguments[index], self.values[index]?))
+    }
+
+    /// The first argument given that is none of `names`.
+    pub fn other_than(&self, names: &[&str]) -> Option<(&'static str, Span)> {
+        let mut given = self.word.arguments.iter().zip(&self.values);
+        given.find_map(|(parameter, value)| match value {
+            Some(value) if !names.contains(&parameter.name) => Some((parameter.name, value.span)),
+            _ => None,
+        })
+    }
+
+    /// The value of an argument as it is written.
+    pub fn value(&self, name: &str) -> Option<&'c Spanned<'a>> {
+        self.get(name).map(|(_, value)| value)
+    }
+
+    /// The place of an argument, or of the word where it is not given.
+    pub fn place_of(&self, name: &str) -> Span {
+        self.value(name).map_or(self.call.name.span, |value| value.span)
+    }
+
+    /// The error of an argument that must be given.
+    pub fn missing(&self, name: &str, sink: &mut Sink) -> Reported {
+        let parameter = self.word.arguments.iter().find(|parameter| parameter.name == name);
+        let takes = parameter.map_or("", |parameter| parameter.takes.describe());
+        let message = format!("`{}` needs `{name}`", self.word.name);
+        let error = Diagnostic::error(self.call.name.span.to(self.call.parentheses), message);
+        sink.report(error.help(format!("give it: {name} = {takes}")))
+    }
+
+    fn wrong(&self, parameter: &Parameter, value: &Spanned<'_>, sink: &mut Sink) -> Reported {
+        let (name, takes) = (parameter.name, parameter.takes.describe());
+        let message = format!("`{name}` of `{}` takes {takes}", self.word.name);
+        sink.report(
+            Diagnostic::error(value.span, message).label(format!("this is {}", value.value.describe())),
+        )
+    }
+
+    /// A number, in the range that the parameter takes.
+    pub fn number(&self, name: &str, sink: &mut Sink) -> Result<Option<f64>, Reported> {
+        let Some((parameter, value)) = self.get(name) else { return Ok(None) };
+        match value.value {
+            Value::Number(number) if in_range(number, parameter.takes) => Ok(Some(number)),
+            _ => Err(self.wrong(parameter, value, sink)),
+        }
+    }
+
+    /// `true` or `false`; false where not given.
+    pub fn flag(&self, name: &str, sink: &mut Sink) -> Result<bool, Reported> {
+        match self.get(name) {
+            None => Ok(false),
+            Some((_, Spanned { value: Value::Flag(flag), .. })) => Ok(*flag),
+            Some((parameter, value)) => Err(self.wrong(parameter, value, sink)),
+        }
+    }
+
+    /// A text that is not empty.
+    pub fn text(&self, name: &str, sink: &mut Sink) -> Result<Option<&'c str>, Reported> {
+        match self.get(name) {
+            None => Ok(None),
+            Some((_, Spanned { value: Value::Text(text), .. })) if !text.is_empty() => Ok(Some(text)),
+            Some((parameter, value)) => Err(self.wrong(parameter, value, sink)),
+        }
+    }
+
+    /// A point, or what the parameter takes in place of one: a number stands for three equal ones, two
+    /// numbers for three whose last is `rest`.
+    pub fn triple(&self, name: &str, rest: f64, sink: &mut Sink) -> Result<Option<DVec3>, Reported> {
+        let Some((parameter, value)) = self.get(name) else { return Ok(None) };
+        let takes = parameter.takes;
+        let triple = match &value.value {
+            Value::Number(number) if matches!(takes, Takes::Size | Takes::Factor | Takes::Glow) => {
+                Some(DVec3::splat(*number))
+            }
+            other => match numbers(other).as_deref() {
+                Some(&[x, y, z]) => Some(DVec3::new(x, y, z)),
+                Some(&[x, y]) if matches!(takes, Takes::Offset | Takes::Angles) => {
+                    Some(DVec3::new(x, y, rest))
+                }
+                _ => None,
+            },
+        };
+        match triple {
+            Some(triple) if triple.to_array().iter().all(|&number| in_range(number, takes)) => {
+                Ok(Some(triple))
+            }
+            _ => Err(self.wrong(parameter, value, sink)),
+        }
+    }
+
+    /// Two angles inside `0 < angle < 180`.
+    pub fn field(&self, name: &str, sink: &mut Sink) -> Result<Option<[f64; 2]>, Reported> {
+        let Some((parameter, value)) = self.get(name) else { return Ok(None) };
+        match numbers(&value.value).as_deref() {
+            Some(&[across, down]) if [across, down].iter().all(|&angle| 0.0 < angle && angle < 180.0) => {
+                Ok(Some([across, down]))
+            }
+            _ => Err(self.wrong(parameter, value, sink)),
+        }
+    }
+
+    /// A colour in linear light, and its alpha where it names one.
+    pub fn color(&self, name: &str, sink: &mut Sink) -> Result<Option<(DVec3, Option<f64>)>, Reported> {
+        let Some((parameter, value)) = self.get(name) else { return Ok(None) };
+        match &value.value {
+            Value::Text(text) => match colors::by_name(text) {
+                Some(color) => Ok(Some(color)),
+                None => {
+                    let message = format!("there is no colour \"{}\"", quoted(text));
+                    let error = Diagnostic::error(value.span, message);
+                    Err(sink.report(error.help(match colors::nearest_name(text) {
+                        Some(right) => format!("did you mean \"{right}\"?"),
+                        None => "write a CSS colour's name, \"#rrggbb\", or [r, g, b] from 0 to 1".into(),
+                    })))
+                }
+            },
+            other => match numbers(other).as_deref() {
+                Some(rgb @ ([_, _, _] | [_, _, _, _]))
+                    if rgb.iter().all(|share| (0.0..=1.0).contains(share)) =>
+                {
+                    Ok(Some((DVec3::new(rgb[0], rgb[1], rgb[2]), rgb.get(3).copied())))
+                }
+                _ => Err(self.wrong(parameter, value, sink)),
+            },
+        }
+    }
+}
+
+/// `$fn`, `$fa` or `$fs`: a number, or `undef` for none.
+pub fn setting(
+    name: &str,
+    place: Span,
+    value: &Spanned<'_>,
+    sink: &mut Sink,
+) -> Result<Option<f64>, Reported> {
+    if !FRAGMENT_SETTINGS.contains(&name) {
+        let error = Diagnostic::error(place, format!("there is no setting `{}`", quoted(name)));
+        return Err(sink.report(match nearest(name, FRAGMENT_SETTINGS) {
+            Some(right) => error.help(format!("did you mean `{right}`?")),
+            None => error.help("the settings are $fn, $fa and $fs"),
+        }));
+    }
+    match value.value {
+        Value::Number(number) => Ok(Some(number)),
+        Value::Undef => Ok(None),
+        _ => {
+            let error = Diagnostic::error(value.span, format!("`{name}` takes a number"));
+            Err(sink.report(error.label(format!("this is {}", value.value.describe()))))
+        }
+    }
+}
+
+/// The numbers of a list of numbers.
+pub fn numbers(value: &Value<'_>) -> Option<Vec<f64>> {
+    let Value::List(items) = value else { return None };
+    let number = |item: &Spanned<'_>| match item.value {
+        Value::Number(number) => Some(number),
+        _ => None,
+    };
+    items.iter().map(number).collect()
+}
+
+fn in_range(number: f64, takes: Takes) -> bool {
+    match takes {
+        Takes::Positive | Takes::Size => number > 0.0,
+        Takes::NotNegative | Takes::Glow => number >= 0.0,
+        Takes::Share => (0.0..=1.0).contains(&number),
+        Takes::Factor => number != 0.0,
+        _ => true,
+    }
+}

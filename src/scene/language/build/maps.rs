@@ -1,0 +1,173 @@
+//! The words that move their children, as affine maps; and whether a map can be undone.
+
+use robust::{Coord3D, orient3d};
+
+use super::arguments::{Arguments, numbers};
+use super::degrees;
+use crate::math::{DAffine3, DMat3, DVec3};
+use crate::scene::Diagnostic;
+use crate::scene::diagnostic::{Reported, Sink};
+use crate::scene::language::syntax::{Span, Spanned, Value};
+use crate::scene::language::vocabulary::MapWord;
+
+/// The map of a call alone.
+pub fn map_of(word: MapWord, arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<DAffine3, Reported> {
+    match word {
+        MapWord::Multmatrix => multmatrix(arguments, sink),
+        MapWord::Translate => {
+            let way = arguments.triple("v", 0.0, sink)?.ok_or_else(|| arguments.missing("v", sink))?;
+            Ok(DAffine3::from_translation(way))
+        }
+        MapWord::Rotate => rotate(arguments, sink),
+        MapWord::Scale => {
+            let factors = arguments.triple("v", 1.0, sink)?.ok_or_else(|| arguments.missing("v", sink))?;
+            Ok(DAffine3::from_scale(factors))
+        }
+        MapWord::Mirror => {
+            let normal = arguments.triple("v", 0.0, sink)?.ok_or_else(|| arguments.missing("v", sink))?;
+            Ok(DAffine3::from_mat3(mirror(normal)))
+        }
+    }
+}
+
+/// `outer` after `inner`, where that is finite and can be undone; `place` is the word of `inner`.
+pub fn compose(
+    outer: &DAffine3,
+    inner: &DAffine3,
+    place: Span,
+    sink: &mut Sink,
+) -> Result<DAffine3, Reported> {
+    let map = *outer * *inner;
+    if !map.is_finite() {
+        let error =
+            Diagnostic::error(place, "the numbers up to here multiply to more than a 64-bit float holds");
+        return Err(sink.report(error.label("too large with what stands above it")));
+    }
+    if is_singular(&map.matrix3) {
+        let error = Diagnostic::error(place, "the map up to here is singular: it makes solids flat");
+        return Err(sink.report(error.help("a map must keep three directions apart; a scale must not be 0")));
+    }
+    Ok(map)
+}
+
+/// Whether the determinant is 0, decided exactly.
+///
+/// Columns and then rows are scaled by powers of two until their largest entries are in `1..2`: that neither
+/// rounds nor changes the sign, and keeps every product far from overflow. Shewchuk's adaptive predicate then
+/// gives the sign of the determinant without rounding.
+fn is_singular(matrix: &DMat3) -> bool {
+    let mut matrix = *matrix;
+    for _ in 0..2 {
+        for axis in 0..3 {
+            let largest = matrix.col(axis).abs().max_element();
+            if largest == 0.0 {
+                return true;
+            }
+            let exponent = libm::ilogb(largest);
+            let scaled = matrix.col(axis).to_array().map(|entry| libm::scalbn(entry, -exponent));
+            *matrix.col_mut(axis) = DVec3::from_array(scaled);
+        }
+        matrix = matrix.transpose();
+    }
+    let [a, b, c] = [0, 1, 2].map(|axis| {
+        let DVec3 { x, y, z } = matrix.col(axis);
+        Coord3D { x, y, z }
+    });
+    orient3d(a, b, c, Coord3D { x: 0.0, y: 0.0, z: 0.0 }) == 0.0
+}
+
+fn multmatrix(arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<DAffine3, Reported> {
+    let Some(value) = arguments.value("m") else { return Err(arguments.missing("m", sink)) };
+    let Some(rows) = rows(value) else {
+        let error = Diagnostic::error(value.span, "`m` of `multmatrix` takes 4 or 3 rows of 4 numbers");
+        let label = format!("this is {}", value.value.describe());
+        return Err(
+            sink.report(error.label(label).help("[[1, 0, 0, x], [0, 1, 0, y], [0, 0, 1, z], [0, 0, 0, 1]]"))
+        );
+    };
+    if rows.get(3).is_some_and(|last| *last != [0.0, 0.0, 0.0, 1.0]) {
+        let error = Diagnostic::error(value.span, "the last row of `multmatrix` must be [0, 0, 0, 1]");
+        return Err(sink
+            .report(error.label("this is a perspective map").help("solids are moved by affine maps only")));
+    }
+    let column = |axis: usize| DVec3::new(rows[0][axis], rows[1][axis], rows[2][axis]);
+    Ok(DAffine3 { matrix3: DMat3::from_cols(column(0), column(1), column(2)), translation: column(3) })
+}
+
+/// Three or four rows of four numbers.
+fn rows(value: &Spanned<'_>) -> Option<Vec<[f64; 4]>> {
+    let Value::List(items) = &value.value else { return None };
+    if !(3..=4).contains(&items.len()) {
+        return None;
+    }
+    items.iter().map(|item| numbers(&item.value)?.try_into().ok()).collect()
+}
+
+fn rotate(arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<DAffine3, Reported> {
+    let Some(value) = arguments.value("a") else { return Err(arguments.missing("a", sink)) };
+    let Value::Number(angle) = value.value else {
+        // `a` is there, so that the triple is, too, unless it is an error. OpenSCAD ignores `v` here.
+        let angles = arguments.triple("a", 0.0, sink)?.unwrap_or_default();
+        let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| about(axis, angles.dot(axis)));
+        return Ok(DAffine3::from_mat3(z * y * x));
+    };
+    let axis = arguments.triple("v", 0.0, sink)?.unwrap_or(DVec3::Z);
+    Ok(DAffine3::from_mat3(about(axis, angle)))
+}
+
+/// The rotation by degrees about an axis of any length (Rodrigues); about no axis it is none, as in OpenSCAD.
+fn about(axis: DVec3, angle: f64) -> DMat3 {
+    let (sine, cosine) = (degrees::sin(angle), degrees::cos(angle));
+    let Some(DVec3 { x, y, z }) = unit(axis) else { return DMat3::IDENTITY };
+    let rest = 1.0 - cosine;
+    DMat3::from_cols(
+        DVec3::new(x * x * rest + cosine, x * y * rest + z * sine, x * z * rest - y * sine),
+        DVec3::new(x * y * rest - z * sine, y * y * rest + cosine, y * z * rest + x * sine),
+        DVec3::new(x * z * rest + y * sine, y * z * rest - x * sine, z * z * rest + cosine),
+    )
+}
+
+/// I − 2nnᵀ; without a normal nothing is mirrored, as in OpenSCAD.
+fn mirror(normal: DVec3) -> DMat3 {
+    let Some(n) = unit(normal) else { return DMat3::IDENTITY };
+    let column = |axis: DVec3| axis - n * (2.0 * n.dot(axis));
+    DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z))
+}
+
+/// The direction of a vector of any finite length; none for 0. Scaled by a power of two first, so that no
+/// square overflows.
+pub fn unit(v: DVec3) -> Option<DVec3> {
+    let largest = v.abs().max_element();
+    if largest == 0.0 {
+        return None;
+    }
+    let exponent = libm::ilogb(largest);
+    let scaled = DVec3::from_array(v.to_array().map(|entry| libm::scalbn(entry, -exponent)));
+    Some(scaled / scaled.dot(scaled).sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quarter_turns_are_exact() {
+        assert_eq!(about(DVec3::Z, 90.0) * DVec3::X, DVec3::Y);
+        assert_eq!(about(DVec3::X * 1e200, -90.0) * DVec3::Z, DVec3::Y);
+        assert_eq!(about(DVec3::ZERO, 90.0), DMat3::IDENTITY);
+        assert_eq!(mirror(DVec3::X * 1e-200) * DVec3::ONE, DVec3::new(-1.0, 1.0, 1.0));
+    }
+
+    #[test]
+    fn singular_means_exactly_so() {
+        let flat = DMat3::from_cols_array(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]);
+        assert!(is_singular(&flat));
+        assert!(is_singular(&(flat * 1e-150)));
+        let nearly = DMat3::from_cols_array(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0 + 2e-15]);
+        assert!(!is_singular(&nearly));
+        for scale in [1e-300, 1e-150, 1.0, 1e150, 1e300] {
+            assert!(!is_singular(&DMat3::from_diagonal(DVec3::new(scale, 1.0, scale))), "{scale}");
+        }
+        assert!(is_singular(&DMat3::from_diagonal(DVec3::new(1.0, 0.0, 1.0))));
+    }
+}

@@ -1,0 +1,268 @@
+//! `polyhedron`: points and faces to a closed surface of triangles.
+
+use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
+
+use earcut::Earcut;
+
+use super::arguments::{Arguments, numbers};
+use super::maps::unit;
+use crate::math::{Bounds, DVec2, DVec3};
+use crate::scene::diagnostic::{Reported, Sink};
+use crate::scene::language::syntax::{Span, Spanned, Value};
+use crate::scene::{Diagnostic, Mesh, Shape};
+
+/// The mesh of a `polyhedron` call.
+pub fn polyhedron(arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<Shape, Reported> {
+    let Some(points) = arguments.value("points") else { return Err(arguments.missing("points", sink)) };
+    let faces = match (arguments.value("faces"), arguments.value("triangles")) {
+        (Some(faces), None) | (None, Some(faces)) => faces,
+        (None, None) => return Err(arguments.missing("faces", sink)),
+        (Some(_), Some(triangles)) => {
+            let error = Diagnostic::error(triangles.span, "`faces` and `triangles` exclude each other");
+            return Err(sink.report(error.help("`triangles` is the old name of `faces`")));
+        }
+    };
+    let mut corners = Corners::read(points, sink)?;
+    let mut triangles = Vec::new();
+    for face in items(faces, "faces", "a list of faces, each a list of indices", sink)? {
+        let polygon = corners.polygon(face, sink)?;
+        triangulate(&corners.points, &polygon, &mut corners.earcut, |triangle| {
+            triangles.push((triangle, face.span))
+        });
+    }
+    cancel_pairs(&mut triangles);
+    if triangles.is_empty() {
+        let error = Diagnostic::error(faces.span, "the faces of the polyhedron enclose nothing");
+        return Err(sink.report(error));
+    }
+    if let Some((edge, place)) = open_edge(&triangles) {
+        let [a, b] = edge.map(|index| corners.points[index as usize].to_array());
+        let error = Diagnostic::error(place, "the polyhedron is not closed")
+            .label(format!("nothing meets its edge from {a:?} to {b:?}"));
+        return Err(
+            sink.report(error.help("every edge must belong to two faces: add the face that is missing"))
+        );
+    }
+    let triangles = triangles.into_iter().map(|(triangle, _)| triangle).collect();
+    Ok(Shape::Mesh(Arc::new(Mesh { points: corners.points, triangles })))
+}
+
+/// The points of a polyhedron, equal ones merged.
+struct Corners {
+    points: Vec<DVec3>,
+    /// For each point of the text its place in `points`.
+    merged: Vec<u32>,
+    earcut: Earcut<f64>,
+}
+
+impl Corners {
+    fn read(list: &Spanned<'_>, sink: &mut Sink) -> Result<Self, Reported> {
+        let mut corners = Self { points: Vec::new(), merged: Vec::new(), earcut: Earcut::new() };
+        let mut places = HashMap::new();
+        for item in items(list, "points", "a list of points [x, y, z]", sink)? {
+            let Some(&[x, y, z]) = numbers(&item.value).as_deref() else {
+                let error = Diagnostic::error(item.span, "a point of `polyhedron` is [x, y, z]");
+                return Err(sink.report(error.label(format!("this is {}", item.value.describe()))));
+            };
+            // Adding 0 makes −0 and 0 the same point.
+            let point = DVec3::new(x, y, z) + DVec3::ZERO;
+            let next = corners.points.len() as u32;
+            let place = *places.entry(point.to_array().map(f64::to_bits)).or_insert_with(|| {
+                corners.points.push(point);
+                next
+            });
+            corners.merged.push(place);
+        }
+        Ok(corners)
+    }
+
+    /// The corners of a face, without neighbours that are the same point. Fewer than three: no area.
+    fn polygon(&self, face: &Spanned<'_>, sink: &mut Sink) -> Result<Vec<u32>, Reported> {
+        let indices = items(face, "faces", "a list of faces, each a list of indices", sink)?;
+        if indices.len() < 3 {
+            let message = format!("a face has {} corners", indices.len());
+            return Err(sink.report(Diagnostic::error(face.span, message).help("a face needs three or more")));
+        }
+        let mut polygon: Vec<u32> = Vec::with_capacity(indices.len());
+        for index in indices {
+            let place = match index.value {
+                Value::Number(number) if number >= 0.0 && number.fract() == 0.0 => {
+                    self.merged.get(number as usize).copied()
+                }
+                _ => None,
+            };
+            let Some(place) = place else { return Err(sink.report(self.no_point(index))) };
+            if polygon.last() != Some(&place) {
+                polygon.push(place);
+            }
+        }
+        while polygon.len() > 1 && polygon.first() == polygon.last() {
+            polygon.pop();
+        }
+        Ok(polygon)
+    }
+
+    fn no_point(&self, index: &Spanned<'_>) -> Diagnostic {
+        let error = Diagnostic::error(index.span, "a face names a point that there is not");
+        let error = error.label(format!("this is {}", index.value.describe()));
+        match self.merged.len() {
+            0 => error.help("`points` is empty"),
+            count => error.help(format!("points are numbered from 0 to {}", count - 1)),
+        }
+    }
+}
+
+fn items<'c, 'a>(
+    list: &'c Spanned<'a>,
+    name: &str,
+    takes: &str,
+    sink: &mut Sink,
+) -> Result<&'c [Spanned<'a>], Reported> {
+    if let Value::List(items) = &list.value {
+        return Ok(items);
+    }
+    let error = Diagnostic::error(list.span, format!("`{name}` of `polyhedron` takes {takes}"));
+    Err(sink.report(error.label(format!("this is {}", list.value.describe()))))
+}
+
+/// Cuts a face into triangles whose edges, counted modulo 2, are exactly the face's own: so that a surface
+/// of closed faces stays closed however badly a face is shaped. No triangle names a point twice.
+fn triangulate(points: &[DVec3], polygon: &[u32], earcut: &mut Earcut<f64>, mut give: impl FnMut([u32; 3])) {
+    if let &[a, b, c] = polygon {
+        return give([a, b, c]);
+    }
+    let mut fan = |cycle: &[u32]| {
+        for pair in cycle.windows(2).skip(1) {
+            if cycle[0] != pair[0] && cycle[0] != pair[1] {
+                give([cycle[0], pair[0], pair[1]]);
+            }
+        }
+    };
+    let flat = flattened(points, polygon);
+    if is_convex(&flat) {
+        return fan(polygon);
+    }
+    let mut ears: Vec<u32> = Vec::new();
+    earcut.earcut(flat.iter().map(|corner| corner.to_array()), &[], &mut ears);
+    // Ear clipping leaves out corners that lie on a straight line, and other faces may still end there. What
+    // the triangles' edges and the polygon's do not share are closed ways along such lines.
+    let mut rest = EdgeSet::default();
+    for (i, &corner) in polygon.iter().enumerate() {
+        rest.toggle(corner, polygon[(i + 1) % polygon.len()]);
+    }
+    for ear in ears.chunks_exact(3) {
+        let [a, b, c] = [0, 1, 2].map(|i| polygon[ear[i] as usize]);
+        if a != b && b != c && c != a {
+            fan(&[a, b, c]);
+            rest.toggle_triangle([a, b, c]);
+        }
+    }
+    rest.cycles().iter().for_each(|cycle| fan(cycle));
+}
+
+/// The corners projected along the polygon's normal by Newell's method, within −1..=1.
+fn flattened(points: &[DVec3], polygon: &[u32]) -> Vec<DVec2> {
+    let corner = |i: usize| points[polygon[i % polygon.len()] as usize];
+    let bounds = Bounds::around((0..polygon.len()).map(corner));
+    let (center, half) = (bounds.center(), bounds.half().max_element());
+    // Unit size, so that no product over- or underflows.
+    let local = |i: usize| if half > 0.0 { (corner(i) - center) / half } else { DVec3::ZERO };
+    let newell = (0..polygon.len()).fold(DVec3::ZERO, |sum, i| sum + local(i).cross(local(i + 1)));
+    let normal = unit(newell).unwrap_or(DVec3::Z);
+    let (right, up) = normal.any_orthonormal_pair();
+    (0..polygon.len()).map(|i| DVec2::new(local(i).dot(right), local(i).dot(up))).collect()
+}
+
+/// Whether a polygon turns one way only, and once around.
+fn is_convex(polygon: &[DVec2]) -> bool {
+    let count = polygon.len();
+    let side = |i: usize| polygon[(i + 1) % count] - polygon[i % count];
+    let mut turns = (0..count).map(|i| side(i).perp_dot(side(i + 1)));
+    let one_way = turns.clone().all(|turn| turn >= 0.0) || turns.all(|turn| turn <= 0.0);
+    // A star turns one way, too, but its sides change between rising and falling more than twice.
+    let rises = (0..count).filter(|&i| (side(i).y < 0.0) != (side(i + 1).y < 0.0)).count();
+    one_way && rises <= 2
+}
+
+/// Undirected edges that were named an odd number of times.
+#[derive(Default)]
+struct EdgeSet(HashSet<[u32; 2]>);
+
+impl EdgeSet {
+    fn toggle(&mut self, a: u32, b: u32) {
+        let edge = [a.min(b), a.max(b)];
+        if !self.0.remove(&edge) {
+            self.0.insert(edge);
+        }
+    }
+
+    fn toggle_triangle(&mut self, [a, b, c]: [u32; 3]) {
+        for [from, to] in [[a, b], [b, c], [c, a]] {
+            self.toggle(from, to);
+        }
+    }
+
+    /// The edges as closed ways, in an order that does not depend on hashing. Every point has an even number
+    /// of edges, since polygons and triangles are closed ways.
+    fn cycles(self) -> Vec<Vec<u32>> {
+        let mut edges: Vec<[u32; 2]> = self.0.into_iter().collect();
+        edges.sort_unstable();
+        let mut neighbours: HashMap<u32, Vec<usize>> = HashMap::new();
+        for (index, edge) in edges.iter().enumerate() {
+            edge.iter().for_each(|&end| neighbours.entry(end).or_default().push(index));
+        }
+        let mut used = vec![false; edges.len()];
+        let mut cycles = Vec::new();
+        for first in 0..edges.len() {
+            if used[first] {
+                continue;
+            }
+            let mut cycle = vec![edges[first][0]];
+            let mut next = Some(first);
+            while let Some(index) = next {
+                used[index] = true;
+                let [a, b] = edges[index];
+                let at = if cycle.last() == Some(&a) { b } else { a };
+                cycle.push(at);
+                let ways = neighbours.entry(at).or_default();
+                while ways.last().is_some_and(|&way| used[way]) {
+                    ways.pop();
+                }
+                next = ways.last().copied();
+            }
+            cycles.push(cycle);
+        }
+        cycles
+    }
+}
+
+/// Takes out triangles of the same three points, two by two: between two equal surfaces lies nothing.
+fn cancel_pairs(triangles: &mut Vec<([u32; 3], Span)>) {
+    let sorted = |mut triangle: [u32; 3]| {
+        triangle.sort_unstable();
+        triangle
+    };
+    let mut odd = HashSet::with_capacity(triangles.len());
+    for &(triangle, _) in triangles.iter() {
+        let key = sorted(triangle);
+        if !odd.remove(&key) {
+            odd.insert(key);
+        }
+    }
+    triangles.retain(|&(triangle, _)| odd.remove(&sorted(triangle)));
+}
+
+/// The first edge, in file order, that an odd number of triangles share; and the face that has it.
+fn open_edge(triangles: &[([u32; 3], Span)]) -> Option<([u32; 2], Span)> {
+    let edges = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [c, a]];
+    let mut odd = EdgeSet::default();
+    for &(triangle, _) in triangles {
+        odd.toggle_triangle(triangle);
+    }
+    if odd.0.is_empty() {
+        return None;
+    }
+    let open = |&[a, b]: &[u32; 2]| odd.0.contains(&[a.min(b), a.max(b)]);
+    triangles.iter().find_map(|&(triangle, place)| Some((edges(triangle).into_iter().find(open)?, place)))
+}

@@ -1,0 +1,170 @@
+//! The words for primitives: a unit shape, and the map that gives it its place and size.
+
+use super::arguments::Arguments;
+use super::maps::compose;
+use super::{Builder, Context, facets, polyhedron};
+use crate::math::{Bounds, DAffine3, DMat3, DVec3};
+use crate::scene::diagnostic::{Reported, Sink};
+use crate::scene::language::syntax::Call;
+use crate::scene::language::vocabulary::{SolidWord, Word};
+use crate::scene::{Diagnostic, Primitive, Shape, Solid};
+
+impl Builder<'_> {
+    /// The primitive of a call.
+    pub(super) fn primitive(
+        &mut self,
+        kind: SolidWord,
+        word: &'static Word,
+        call: &Call<'_>,
+        context: &Context,
+    ) -> Result<Solid, Reported> {
+        let sink = &mut *self.sink;
+        if let Some(child) = call.children.first() {
+            let error = Diagnostic::error(child.name.span, format!("`{}` takes no children", word.name));
+            return Err(sink.report(error.help(format!("end `{}(…)` with a `;`", word.name))));
+        }
+        let arguments = Arguments::bind(call, word, sink)?;
+        let sides = facets::sides(arguments.fragments.unwrap_or(context.fragments));
+        let (shape, local) = match kind {
+            SolidWord::Cube => cube(&arguments, sink)?,
+            SolidWord::Sphere => sphere(&arguments, sides, sink)?,
+            SolidWord::Cylinder => cylinder(&arguments, sides, sink)?,
+            SolidWord::Cone => cone(&arguments, sides, sink)?,
+            SolidWord::Polyhedron => (polyhedron::polyhedron(&arguments, sink)?, DAffine3::IDENTITY),
+        };
+        let map = compose(&context.map, &local, call.name.span, sink)?;
+        let bounds = bounds(&shape).mapped(&map);
+        if !(bounds.lo.is_finite() && bounds.hi.is_finite()) {
+            let error = Diagnostic::error(call.name.span, "it reaches farther than a 64-bit float holds");
+            return Err(sink.report(error.label("too large, or too far away")));
+        }
+        let material = self.surfaces.id(context.surface);
+        Ok(Solid::Primitive(Primitive { shape, map, material }))
+    }
+}
+
+/// The box of a shape in its own coordinates.
+fn bounds(shape: &Shape) -> Bounds {
+    match shape {
+        Shape::Sphere | Shape::Frustum { .. } | Shape::Cube => Bounds::new(DVec3::NEG_ONE, DVec3::ONE),
+        Shape::Facets(facets) => facets.bounds,
+        Shape::Mesh(mesh) => Bounds::around(mesh.points.iter().copied()),
+    }
+}
+
+/// The map of the shape with centre `at` and half-sizes `semi`.
+fn placed(at: DVec3, semi: DVec3) -> DAffine3 {
+    DAffine3 { matrix3: DMat3::from_diagonal(semi), translation: at }
+}
+
+/// The paper's parameters, where they are used: centre and half-sizes.
+fn centre_and_half_sizes(
+    arguments: &Arguments<'_, '_>,
+    sink: &mut Sink,
+) -> Result<Option<(DVec3, DVec3)>, Reported> {
+    let (at, semi) = (arguments.triple("at", 0.0, sink)?, arguments.triple("semi", 0.0, sink)?);
+    match (semi, arguments.other_than(&["at", "semi"])) {
+        (Some(semi), None) => Ok(Some((at.unwrap_or_default(), semi))),
+        (Some(_), Some((name, place))) => {
+            let error = Diagnostic::error(place, format!("`{name}` and `semi` exclude each other"));
+            Err(sink.report(error.help(format!("`semi` has all sizes: leave `{name}` out"))))
+        }
+        (None, _) if at.is_some() => {
+            let error = Diagnostic::error(arguments.place_of("at"), "`at` stands without `semi`");
+            Err(sink.report(error.help("give the half-sizes, semi = [a, b, c]; or use `translate`")))
+        }
+        (None, _) => Ok(None),
+    }
+}
+
+fn cube(arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<(Shape, DAffine3), Reported> {
+    if let Some((at, semi)) = centre_and_half_sizes(arguments, sink)? {
+        return Ok((Shape::Cube, placed(at, semi)));
+    }
+    let half = arguments.triple("size", 0.0, sink)?.unwrap_or(DVec3::ONE) * 0.5;
+    // Half a size is exact, and so are the corners: half − half and half + half.
+    let middle = if arguments.flag("center", sink)? { DVec3::ZERO } else { half };
+    Ok((Shape::Cube, placed(middle, half)))
+}
+
+fn sphere(
+    arguments: &Arguments<'_, '_>,
+    sides: Option<u32>,
+    sink: &mut Sink,
+) -> Result<(Shape, DAffine3), Reported> {
+    let shape = sides.map_or(Shape::Sphere, facets::sphere);
+    if let Some((at, semi)) = centre_and_half_sizes(arguments, sink)? {
+        return Ok((shape, placed(at, semi)));
+    }
+    let radius = radius(arguments, "d", "r", sink)?.unwrap_or(1.0);
+    Ok((shape, placed(DVec3::ZERO, DVec3::splat(radius))))
+}
+
+/// A diameter goes before a radius, as in OpenSCAD.
+fn radius(
+    arguments: &Arguments<'_, '_>,
+    diameter: &str,
+    radius: &str,
+    sink: &mut Sink,
+) -> Result<Option<f64>, Reported> {
+    if let (Some(_), Some(place)) = (arguments.value(radius), arguments.value(diameter)) {
+        let error = Diagnostic::error(place.span, format!("`{radius}` and `{diameter}` exclude each other"));
+        return Err(sink.report(error.help("give the radius or the diameter")));
+    }
+    match arguments.number(diameter, sink)? {
+        Some(diameter) => Ok(Some(diameter * 0.5)),
+        None => arguments.number(radius, sink),
+    }
+}
+
+fn frustum(sides: Option<u32>, bottom: f64, top: f64) -> Shape {
+    sides.map_or(Shape::Frustum { bottom, top }, |sides| facets::frustum(sides, bottom, top))
+}
+
+fn cylinder(
+    arguments: &Arguments<'_, '_>,
+    sides: Option<u32>,
+    sink: &mut Sink,
+) -> Result<(Shape, DAffine3), Reported> {
+    if let Some((at, semi)) = centre_and_half_sizes(arguments, sink)? {
+        return Ok((frustum(sides, 1.0, 1.0), placed(at, semi)));
+    }
+    // As in OpenSCAD: `r` sets both radii, `r1` and `r2` each its own after that, and 1 is the default.
+    let both = radius(arguments, "d", "r", sink)?.unwrap_or(1.0);
+    let bottom = radius(arguments, "d1", "r1", sink)?.unwrap_or(both);
+    let top = radius(arguments, "d2", "r2", sink)?.unwrap_or(both);
+    let largest = bottom.max(top);
+    if largest == 0.0 {
+        let place = arguments.place_of(if arguments.value("r1").is_some() { "r1" } else { "d1" });
+        let error = Diagnostic::error(place, "both ends of the cylinder are 0");
+        return Err(sink.report(error.help("one end may be a point, not both")));
+    }
+    upright(arguments, frustum(sides, bottom / largest, top / largest), largest, sink)
+}
+
+/// A shape of height 2 put onto the plane z = 0, or with its middle into it.
+fn upright(
+    arguments: &Arguments<'_, '_>,
+    shape: Shape,
+    radius: f64,
+    sink: &mut Sink,
+) -> Result<(Shape, DAffine3), Reported> {
+    let half = arguments.number("h", sink)?.unwrap_or(1.0) * 0.5;
+    let middle = if arguments.flag("center", sink)? { 0.0 } else { half };
+    Ok((shape, placed(DVec3::new(0.0, 0.0, middle), DVec3::new(radius, radius, half))))
+}
+
+fn cone(
+    arguments: &Arguments<'_, '_>,
+    sides: Option<u32>,
+    sink: &mut Sink,
+) -> Result<(Shape, DAffine3), Reported> {
+    let shape = frustum(sides, 1.0, 0.0);
+    if let Some((apex, semi)) = centre_and_half_sizes(arguments, sink)? {
+        // The paper's cone fills −c ≤ Z ≤ 0 below its apex, half of the box that its half-sizes span.
+        let half = semi.with_z(semi.z * 0.5);
+        return Ok((shape, placed(apex.with_z(apex.z - half.z), half)));
+    }
+    let radius = radius(arguments, "d", "r", sink)?.unwrap_or(1.0);
+    upright(arguments, shape, radius, sink)
+}

@@ -1,0 +1,101 @@
+//! The syntax tree: what stands where in the text, before any word has a meaning.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+/// Bytes of the source, `start..end`. 32 bits hold every place, because files are limited to 256 MiB.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Span {
+    pub start: u32,
+    pub end: u32,
+}
+
+impl Span {
+    /// From the start of this to the end of `last`.
+    pub fn to(self, last: Self) -> Self {
+        Self { start: self.start, end: last.end }
+    }
+}
+
+impl From<Span> for Range<usize> {
+    fn from(span: Span) -> Self {
+        span.start as usize..span.end as usize
+    }
+}
+
+/// A name as it is written.
+#[derive(Clone, Copy, Debug)]
+pub struct Name<'a> {
+    pub text: &'a str,
+    pub span: Span,
+}
+
+/// A file: top-level assignments and calls, each in file order.
+#[derive(Debug, Default)]
+pub struct File<'a> {
+    pub assignments: Vec<(Name<'a>, Spanned<'a>)>,
+    pub calls: Vec<Call<'a>>,
+}
+
+/// `* name(arguments) children`
+#[derive(Debug)]
+pub struct Call<'a> {
+    pub modifiers: Modifiers,
+    pub name: Name<'a>,
+    /// From the opening to the closing parenthesis.
+    pub parentheses: Span,
+    pub arguments: Vec<Argument<'a>>,
+    pub children: Vec<Call<'a>>,
+}
+
+/// The characters `* ! # %` before a call.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Modifiers {
+    /// `*`: as if it were not there.
+    pub disable: bool,
+    /// `!`: as if nothing else were there.
+    pub root: bool,
+    /// `%`: left out, and said so.
+    pub background: bool,
+}
+
+/// `value` or `name = value`
+#[derive(Debug)]
+pub struct Argument<'a> {
+    pub name: Option<Name<'a>>,
+    pub value: Spanned<'a>,
+}
+
+/// A value and its place.
+#[derive(Debug)]
+pub struct Spanned<'a> {
+    pub value: Value<'a>,
+    pub span: Span,
+}
+
+/// A literal. Numbers are finite.
+#[derive(Debug)]
+pub enum Value<'a> {
+    Undef,
+    Flag(bool),
+    Number(f64),
+    Text(Cow<'a, str>),
+    List(Vec<Spanned<'a>>),
+}
+
+impl Value<'_> {
+    /// What it is, for a message.
+    pub fn describe(&self) -> String {
+        match self {
+            Value::Undef => "undef".into(),
+            Value::Flag(flag) => flag.to_string(),
+            Value::Number(number) => format!("the number {number:?}"),
+            Value::Text(_) => "a text".into(),
+            Value::List(items) if items.is_empty() => "an empty list".into(),
+            Value::List(items) if items.iter().all(|item| matches!(item.value, Value::Number(_))) => {
+                format!("a list of {} number{}", items.len(), if items.len() == 1 { "" } else { "s" })
+            }
+            Value::List(_) => "a list".into(),
+        }
+    }
+}

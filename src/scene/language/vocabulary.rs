@@ -1,0 +1,176 @@
+//! What a word of the language is: its arguments, what they take, their defaults. The words themselves are
+//! in [`super::words`]; the builder, the messages and a test of `docs/scene-language.md` all read that table.
+
+use super::nearest::nearest;
+use super::words::{UNSUPPORTED, WORDS};
+
+/// The settings that OpenSCAD passes down to every word.
+pub const FRAGMENT_SETTINGS: [&str; 3] = ["$fn", "$fa", "$fs"];
+
+/// Words of OpenSCAD's programs: they never stand in a `.csg` file.
+pub const PROGRAM_WORDS: [&str; 13] = [
+    "module",
+    "function",
+    "for",
+    "intersection_for",
+    "if",
+    "else",
+    "let",
+    "assign",
+    "use",
+    "include",
+    "echo",
+    "assert",
+    "each",
+];
+
+/// A word of the language.
+#[derive(Debug)]
+pub struct Word {
+    pub name: &'static str,
+    pub meaning: Meaning,
+    /// Those that may be given without their name come first, in their order.
+    pub arguments: &'static [Parameter],
+    /// One sentence for the documentation.
+    pub summary: &'static str,
+}
+
+/// What the builder does with a word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Meaning {
+    Solid(SolidWord),
+    Operator(OperatorWord),
+    Map(MapWord),
+    Color,
+    Material,
+    Object,
+    Camera,
+    Light,
+    World,
+}
+
+/// Words for primitives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SolidWord {
+    Cube,
+    Sphere,
+    Cylinder,
+    Cone,
+    Polyhedron,
+}
+
+/// Words that put their children together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OperatorWord {
+    Union,
+    Intersection,
+    Difference,
+}
+
+/// Words that move their children.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MapWord {
+    Multmatrix,
+    Translate,
+    Rotate,
+    Scale,
+    Mirror,
+}
+
+/// An argument of a word.
+#[derive(Debug)]
+pub struct Parameter {
+    pub name: &'static str,
+    pub takes: Takes,
+    /// Whether it may be given by its position, without its name.
+    pub by_position: bool,
+    /// For the documentation; `–` where there is none.
+    pub default: &'static str,
+    /// For the documentation: what it does, and its unit.
+    pub summary: &'static str,
+}
+
+/// What an argument takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Takes {
+    /// A number above 0.
+    Positive,
+    /// A number that is 0 or more.
+    NotNegative,
+    /// A number in `0..=1`.
+    Share,
+    /// `true` or `false`.
+    Flag,
+    /// A text that is not empty.
+    Text,
+    /// `[x, y, z]`.
+    Point,
+    /// `[x, y, z]` or `[x, y]`.
+    Offset,
+    /// A number or `[x, y, z]`, above 0.
+    Size,
+    /// A number or `[x, y, z]`, not 0.
+    Factor,
+    /// A number or `[x, y, z]` or `[x, y]`.
+    Angles,
+    /// `[across, down]`, each in `0 < angle < 180`.
+    Field,
+    /// A colour.
+    Color,
+    /// A number or `[r, g, b]`, 0 or more.
+    Glow,
+    /// Three or four rows of four numbers.
+    Matrix,
+    /// A list of points.
+    Points,
+    /// A list of lists of indices of points.
+    Faces,
+    /// Anything: read for OpenSCAD's sake, without effect.
+    Ignored,
+}
+
+impl Takes {
+    /// For messages and the documentation.
+    pub fn describe(self) -> &'static str {
+        match self {
+            Self::Positive => "number above 0",
+            Self::NotNegative => "number, 0 or more",
+            Self::Share => "number from 0 to 1",
+            Self::Flag => "true or false",
+            Self::Text => "text in double quotes",
+            Self::Point => "[x, y, z]",
+            Self::Offset => "[x, y, z] or [x, y]",
+            Self::Size => "number or [x, y, z], above 0",
+            Self::Factor => "number or [x, y, z], not 0",
+            Self::Angles => "number or [x, y, z] or [x, y]",
+            Self::Field => "[across, down], each above 0 and below 180",
+            Self::Color => "[r, g, b] from 0 to 1, or a colour's name",
+            Self::Glow => "number or [r, g, b], 0 or more",
+            Self::Matrix => "4 or 3 rows of 4 numbers",
+            Self::Points => "list of [x, y, z]",
+            Self::Faces => "list of lists of indices",
+            Self::Ignored => "anything",
+        }
+    }
+}
+
+/// What a name in the text is.
+pub enum Known {
+    /// A word of the language.
+    Word(&'static Word),
+    /// A word of OpenSCAD that has no solid here, and why.
+    Unsupported(&'static str),
+    /// No word, and the nearest right one.
+    Unknown(Option<&'static str>),
+}
+
+/// Looks a name up.
+pub fn look_up(name: &str) -> Known {
+    if let Some(word) = WORDS.iter().find(|word| word.name == name) {
+        return Known::Word(word);
+    }
+    if let Some((_, why)) = UNSUPPORTED.iter().find(|(word, _)| *word == name) {
+        return Known::Unsupported(why);
+    }
+    Known::Unknown(nearest(name, WORDS.iter().map(|word| word.name)))
+}

@@ -88,9 +88,10 @@ impl Diagnostics {
 }
 
 fn place(source: &str, offset: usize) -> (usize, usize) {
-    let before = &source[..source.floor_char_boundary(offset)];
+    // A place that is none is taken as the end.
+    let before = source.get(..offset).unwrap_or(source);
     let line_start = before.rfind('\n').map_or(0, |i| i + 1);
-    let line = 1 + before.bytes().filter(|&byte| byte == b'\n').count();
+    let line = before.split('\n').count();
     (line, 1 + before[line_start..].chars().count())
 }
 

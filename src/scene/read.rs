@@ -99,7 +99,7 @@ fn too_large(name: &str) -> Diagnostics {
 
 fn text<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Diagnostics> {
     let no_text = |offset: usize, what: &str| {
-        let line = 1 + bytes[..offset].iter().filter(|&&byte| byte == b'\n').count();
+        let line = bytes[..offset].split(|&byte| byte == b'\n').count();
         let message = format!("the file is not text: byte {offset}, in line {line}, is {what}");
         Diagnostics::whole(name, Diagnostic::error(0..0, message).help("a scene is UTF-8 text"))
     };

@@ -186,6 +186,16 @@ impl Engine for Exact<'_> {
         Some(Hit { t: way + hit.t, ..hit })
     }
 
+    fn next(
+        &self,
+        ray: &Ray,
+        departure: Departure,
+        memory: &mut Memory,
+        meter: &mut Meter<impl Probe>,
+    ) -> Option<Hit> {
+        self.closest(ray, 0.0, Some(departure), memory, meter)
+    }
+
     fn blocked(
         &self,
         ray: &Ray,

@@ -1,5 +1,5 @@
-//! Stages 4 to 8, driven: rays in, hits out. An engine answers two questions, [`Engine::closest`] and
-//! [`Engine::blocked`]; [`Exact`] is the reference.
+//! Stages 4 to 8, driven: rays in, hits out. An engine answers what a ray meets first ([`Engine::first`],
+//! [`Engine::next`]) and whether light comes through ([`Engine::blocked`]); [`Exact`] is the reference.
 
 mod exact;
 
@@ -34,6 +34,15 @@ pub trait Engine {
 
     /// The first hit of a ray from the eye, which may start far outside the world.
     fn first(&self, ray: &Ray, memory: &mut Self::Memory, meter: &mut Meter<impl Probe>) -> Option<Hit>;
+
+    /// The first hit of a ray that leaves a surface of the world.
+    fn next(
+        &self,
+        ray: &Ray,
+        departure: Departure,
+        memory: &mut Self::Memory,
+        meter: &mut Meter<impl Probe>,
+    ) -> Option<Hit>;
 
     /// Whether anything stands between a surface and a light at `distance`.
     fn blocked(

@@ -88,8 +88,8 @@ impl<'a> Lexer<'a> {
             let rest = &rest[blank..];
             if rest.starts_with("//") {
                 self.at += rest.find('\n').unwrap_or(rest.len());
-            } else if rest.starts_with("/*") {
-                let Some(length) = rest[2..].find("*/") else {
+            } else if let Some(comment) = rest.strip_prefix("/*") {
+                let Some(length) = comment.find("*/") else {
                     let start = self.at;
                     self.at += 2;
                     let token = self.token(start, TokenKind::OpenComment);

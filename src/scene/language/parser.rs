@@ -228,14 +228,14 @@ impl<'a> Parser<'a, '_> {
             TokenKind::Text => Value::Text(unescaped(self.take().text)),
             TokenKind::Word => self.word_value()?,
             TokenKind::Sign('[') => Value::List(self.list()?),
-            TokenKind::Sign('(') => return Err(self.arithmetic()),
+            TokenKind::Sign('(' | '!') => return Err(self.arithmetic("a value was expected here")),
             _ => return Err(self.expected("a value")),
         };
         if let TokenKind::Sign(
             '+' | '-' | '*' | '/' | '%' | '^' | '<' | '>' | '?' | ':' | '.' | '[' | '&' | '|' | '!',
         ) = self.token.kind
         {
-            return Err(self.arithmetic());
+            return Err(self.arithmetic("a value ends before this"));
         }
         let value = match value {
             Value::Number(number) if negative == Some(true) => Value::Number(-number),
@@ -299,11 +299,9 @@ impl<'a> Parser<'a, '_> {
         )
     }
 
-    fn arithmetic(&mut self) -> Reported {
+    fn arithmetic(&mut self, label: &str) -> Reported {
         let message = format!("`{}` is arithmetic", self.token.text);
-        self.sink.report(
-            Diagnostic::error(self.token.span, message).label("a value ends before this").help(EXPORT),
-        )
+        self.sink.report(Diagnostic::error(self.token.span, message).label(label).help(EXPORT))
     }
 
     /// As [`Parser::expected`], but at the end of the text the opener is what needs a look.

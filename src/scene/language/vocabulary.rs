@@ -160,8 +160,8 @@ pub enum Known {
     Word(&'static Word),
     /// A word of OpenSCAD that has no solid here, and why.
     Unsupported(&'static str),
-    /// No word, and the nearest right one.
-    Unknown(Option<&'static str>),
+    /// No word.
+    Unknown,
 }
 
 /// Looks a name up.
@@ -172,5 +172,10 @@ pub fn look_up(name: &str) -> Known {
     if let Some((_, why)) = UNSUPPORTED.iter().find(|(word, _)| *word == name) {
         return Known::Unsupported(why);
     }
-    Known::Unknown(nearest(name, WORDS.iter().map(|word| word.name)))
+    Known::Unknown
+}
+
+/// The word nearest to a name that is none.
+pub fn nearest_word(name: &str) -> Option<&'static str> {
+    nearest(name, WORDS.iter().map(|word| word.name))
 }

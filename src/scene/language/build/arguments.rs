@@ -206,14 +206,7 @@ impl<'c, 'a> Arguments<'c, 'a> {
         match &value.value {
             Value::Text(text) => match colors::by_name(text) {
                 Some(color) => Ok(Some(color)),
-                None => {
-                    let message = format!("there is no colour \"{}\"", quoted(text));
-                    let error = Diagnostic::error(value.span, message);
-                    Err(sink.report(error.help(match colors::nearest_name(text) {
-                        Some(right) => format!("did you mean \"{right}\"?"),
-                        None => "write a CSS colour's name, \"#rrggbb\", or [r, g, b] from 0 to 1".into(),
-                    })))
-                }
+                None => Err(sink.report(no_color(text, value.span))),
             },
             other => match numbers(other).as_deref() {
                 Some(rgb @ ([_, _, _] | [_, _, _, _]))
@@ -225,6 +218,14 @@ impl<'c, 'a> Arguments<'c, 'a> {
             },
         }
     }
+}
+
+fn no_color(name: &str, place: Span) -> Diagnostic {
+    let error = Diagnostic::error(place, format!("there is no colour \"{}\"", quoted(name)));
+    error.help(match colors::nearest_name(name) {
+        Some(right) => format!("did you mean \"{right}\"?"),
+        None => "write a CSS colour's name, \"#rrggbb\", or [r, g, b] from 0 to 1".into(),
+    })
 }
 
 /// `$fn`, `$fa` or `$fs`: a number, or `undef` for none.

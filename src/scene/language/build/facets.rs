@@ -1,5 +1,6 @@
 //! What `$fn` of 3 to 12 makes of round shapes: the convex solids that OpenSCAD meshes them to.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::degrees;
@@ -12,13 +13,34 @@ pub fn sides(fragments: f64) -> Option<u32> {
     (3.0..13.0).contains(&fragments).then_some(fragments as u32)
 }
 
-/// `|z| ≤ 1` between polygons of circumradius `bottom` and `top`, each with a corner at angle 0.
-pub fn frustum(sides: u32, bottom: f64, top: f64) -> Shape {
-    turned(sides, &[(bottom, -1.0), (top, 1.0)])
+/// The faceted solids made so far: a scene has few kinds of them, and many of each.
+#[derive(Debug, Default)]
+pub struct Polygons {
+    known: HashMap<(u32, Profile), Shape>,
 }
 
-/// OpenSCAD's sphere of radius 1: rings of corners, none of them at the poles.
-pub fn sphere(sides: u32) -> Shape {
+/// What is turned about the z axis; radii by their bits, so that they can be looked up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Profile {
+    Sphere,
+    Frustum([u64; 2]),
+}
+
+impl Polygons {
+    /// OpenSCAD's sphere of radius 1: rings of corners, none of them at the poles.
+    pub fn sphere(&mut self, sides: u32) -> Shape {
+        self.known.entry((sides, Profile::Sphere)).or_insert_with(|| sphere(sides)).clone()
+    }
+
+    /// `|z| ≤ 1` between polygons of circumradius `bottom` and `top`, each with a corner at angle 0.
+    pub fn frustum(&mut self, sides: u32, bottom: f64, top: f64) -> Shape {
+        let profile = Profile::Frustum([bottom.to_bits(), top.to_bits()]);
+        let new = || turned(sides, &[(bottom, -1.0), (top, 1.0)]);
+        self.known.entry((sides, profile)).or_insert_with(new).clone()
+    }
+}
+
+fn sphere(sides: u32) -> Shape {
     let rings = sides.div_ceil(2);
     let ring = |i: u32| {
         let polar = (f64::from(i) + 0.5) * 180.0 / f64::from(rings);
@@ -92,7 +114,7 @@ mod tests {
     fn corners_lie_on_the_faces() {
         for sides in 3..=12 {
             for (bottom, top) in [(1.0, 1.0), (1.0, 0.25), (0.0, 1.0), (1.0, 0.0)] {
-                let shape = frustum(sides, bottom, top);
+                let shape = Polygons::default().frustum(sides, bottom, top);
                 let facets = facets(&shape);
                 assert_eq!(facets.faces.len() as u32, sides + u32::from(bottom > 0.0) + u32::from(top > 0.0));
                 for side in 0..sides {

@@ -14,13 +14,15 @@ mod views;
 use std::collections::HashSet;
 
 use super::nearest::quoted;
-use super::syntax::{Call, File};
-use super::vocabulary::{Known, Meaning, Word, look_up};
+use super::syntax::{Argument, Call, File, Value};
+use super::vocabulary::{Known, Meaning, Word, look_up, nearest_word};
 use crate::math::DAffine3;
 use crate::scene::diagnostic::{Reported, Sink};
 use crate::scene::{Diagnostic, ReadOptions, Scene};
 use arguments::{Arguments, setting};
+use facets::Polygons;
 use materials::{Surface, Surfaces};
+use polyhedron::EarClipper;
 
 /// Builds the scene of a file. Errors go to `sink`; the scene is whole where there is none.
 pub fn build(file: &File<'_>, options: &ReadOptions, sink: &mut Sink) -> Scene {
@@ -31,6 +33,8 @@ pub fn build(file: &File<'_>, options: &ReadOptions, sink: &mut Sink) -> Scene {
         surfaces: Surfaces::default(),
         view_names: HashSet::new(),
         has_world: false,
+        polygons: Polygons::default(),
+        clipper: EarClipper::default(),
     };
     builder.file(file);
     Scene { materials: builder.surfaces.table(), ..builder.scene }
@@ -53,6 +57,8 @@ struct Builder<'s> {
     surfaces: Surfaces,
     view_names: HashSet<String>,
     has_world: bool,
+    polygons: Polygons,
+    clipper: EarClipper,
 }
 
 impl Builder<'_> {
@@ -66,7 +72,7 @@ impl Builder<'_> {
                 let _ = self.define(call);
             }
         }
-        let root = file.calls.iter().find_map(|call| self.root(call, &context));
+        let root = file.calls.iter().find_map(|call| root(call, &context));
         match root {
             // As in OpenSCAD: what stands above the root has no effect on it.
             Some((call, context)) => self.open(std::slice::from_ref(call), &context),
@@ -110,24 +116,6 @@ impl Builder<'_> {
         }
     }
 
-    /// The first call marked `!`, with the settings that reach it.
-    fn root<'c, 'a>(&mut self, call: &'c Call<'a>, above: &Context) -> Option<(&'c Call<'a>, Context)> {
-        if call.modifiers.disable || is_definition(call) {
-            return None;
-        }
-        if call.modifiers.root {
-            return Some((call, *above));
-        }
-        let own =
-            call.arguments.iter().rev().find(|argument| argument.name.is_some_and(|name| name.text == "$fn"));
-        let fragments = match own.map(|argument| &argument.value.value) {
-            Some(super::syntax::Value::Number(number)) => *number,
-            _ => above.fragments,
-        };
-        let inner = Context { fragments, ..*above };
-        call.children.iter().find_map(|child| self.root(child, &inner))
-    }
-
     /// The word of a call; what is none is reported, or noted where it may be left out.
     fn word(&mut self, call: &Call<'_>) -> Option<&'static Word> {
         let (name, span) = (quoted(call.name.text), call.name.span);
@@ -140,9 +128,9 @@ impl Builder<'_> {
                 let error = Diagnostic::error(span, format!("`{name}` can not be shown: {why}"));
                 self.sink.report(error.help("--skip-unsupported shows the rest of the scene"));
             }
-            Known::Unknown(nearest) => {
+            Known::Unknown => {
                 let error = Diagnostic::error(span, format!("there is no word `{name}`"));
-                self.sink.report(match nearest {
+                self.sink.report(match nearest_word(call.name.text) {
                     Some(right) => error.help(format!("did you mean `{right}`?")),
                     None => error.help("docs/scene-language.md has all words; modules are OpenSCAD's work"),
                 });
@@ -162,4 +150,21 @@ fn is_definition(call: &Call<'_>) -> bool {
         },
         _ => false,
     }
+}
+
+/// The first call marked `!`, with the settings that reach it.
+fn root<'c, 'a>(call: &'c Call<'a>, above: &Context) -> Option<(&'c Call<'a>, Context)> {
+    if call.modifiers.disable || is_definition(call) {
+        return None;
+    }
+    if call.modifiers.root {
+        return Some((call, *above));
+    }
+    let own = |argument: &&Argument<'_>| argument.name.is_some_and(|name| name.text == "$fn");
+    let fragments = match call.arguments.iter().find(own).map(|argument| &argument.value.value) {
+        Some(Value::Number(number)) => *number,
+        _ => above.fragments,
+    };
+    let inner = Context { fragments, ..*above };
+    call.children.iter().find_map(|child| root(child, &inner))
 }

@@ -12,8 +12,44 @@ use crate::scene::diagnostic::{Reported, Sink};
 use crate::scene::language::syntax::{Span, Spanned, Value};
 use crate::scene::{Diagnostic, Mesh, Shape};
 
+/// Cuts faces that are not convex, as far as its budget goes.
+pub struct EarClipper {
+    earcut: Earcut<f64>,
+    /// Ear clipping takes up to the cube of the corners where a face crosses itself: some 5e−11 s each.
+    /// Simple faces take far less, but are not known as such before.
+    budget: f64,
+}
+
+/// Cubed corners of a scene's faces: a quarter of a second at worst; one face of 1,700 corners.
+const EAR_CLIPPING_BUDGET: f64 = 5e9;
+
+impl Default for EarClipper {
+    fn default() -> Self {
+        Self { earcut: Earcut::new(), budget: EAR_CLIPPING_BUDGET }
+    }
+}
+
+impl EarClipper {
+    /// Triangles of a face as indices of its corners; none where the budget is used up.
+    fn clip(&mut self, face: &[DVec2]) -> Option<Vec<u32>> {
+        let corners = face.len() as f64;
+        let left = self.budget - corners * corners * corners;
+        if left < 0.0 {
+            return None;
+        }
+        self.budget = left;
+        let mut ears = Vec::new();
+        self.earcut.earcut(face.iter().map(DVec2::to_array), &[], &mut ears);
+        Some(ears)
+    }
+}
+
 /// The mesh of a `polyhedron` call.
-pub fn polyhedron(arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<Shape, Reported> {
+pub fn polyhedron(
+    arguments: &Arguments<'_, '_>,
+    clipper: &mut EarClipper,
+    sink: &mut Sink,
+) -> Result<Shape, Reported> {
     let Some(points) = arguments.value("points") else { return Err(arguments.missing("points", sink)) };
     let faces = match (arguments.value("faces"), arguments.value("triangles")) {
         (Some(faces), None) | (None, Some(faces)) => faces,
@@ -23,12 +59,12 @@ pub fn polyhedron(arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<Shap
             return Err(sink.report(error.help("`triangles` is the old name of `faces`")));
         }
     };
-    let mut corners = Corners::read(points, sink)?;
+    let corners = Corners::read(points, sink)?;
     let mut triangles = Vec::new();
     for face in items(faces, "faces", "a list of faces, each a list of indices", sink)? {
         let polygon = corners.polygon(face, sink)?;
-        triangulate(&corners.points, &polygon, &mut corners.earcut, |triangle| {
-            triangles.push((triangle, face.span))
+        triangulate(&corners.points, &polygon, clipper, |triangle| {
+            triangles.push((triangle, face.span));
         });
     }
     cancel_pairs(&mut triangles);
@@ -53,12 +89,11 @@ struct Corners {
     points: Vec<DVec3>,
     /// For each point of the text its place in `points`.
     merged: Vec<u32>,
-    earcut: Earcut<f64>,
 }
 
 impl Corners {
     fn read(list: &Spanned<'_>, sink: &mut Sink) -> Result<Self, Reported> {
-        let mut corners = Self { points: Vec::new(), merged: Vec::new(), earcut: Earcut::new() };
+        let mut corners = Self { points: Vec::new(), merged: Vec::new() };
         let mut places = HashMap::new();
         for item in items(list, "points", "a list of points [x, y, z]", sink)? {
             let Some(&[x, y, z]) = numbers(&item.value).as_deref() else {
@@ -128,7 +163,7 @@ fn items<'c, 'a>(
 
 /// Cuts a face into triangles whose edges, counted modulo 2, are exactly the face's own: so that a surface
 /// of closed faces stays closed however badly a face is shaped. No triangle names a point twice.
-fn triangulate(points: &[DVec3], polygon: &[u32], earcut: &mut Earcut<f64>, mut give: impl FnMut([u32; 3])) {
+fn triangulate(points: &[DVec3], polygon: &[u32], clipper: &mut EarClipper, mut give: impl FnMut([u32; 3])) {
     if let &[a, b, c] = polygon {
         return give([a, b, c]);
     }
@@ -140,11 +175,10 @@ fn triangulate(points: &[DVec3], polygon: &[u32], earcut: &mut Earcut<f64>, mut 
         }
     };
     let flat = flattened(points, polygon);
-    if is_convex(&flat) {
-        return fan(polygon);
-    }
-    let mut ears: Vec<u32> = Vec::new();
-    earcut.earcut(flat.iter().map(|corner| corner.to_array()), &[], &mut ears);
+    // Of a face that is not convex, too, a fan is right by the parity rule: where its triangles overlap they
+    // cancel. But every overlap costs each ray that passes it.
+    let ears = if is_convex(&flat) { None } else { clipper.clip(&flat) };
+    let Some(ears) = ears else { return fan(polygon) };
     // Ear clipping leaves out corners that lie on a straight line, and other faces may still end there. What
     // the triangles' edges and the polygon's do not share are closed ways along such lines.
     let mut rest = EdgeSet::default();
@@ -210,7 +244,9 @@ impl EdgeSet {
         edges.sort_unstable();
         let mut neighbours: HashMap<u32, Vec<usize>> = HashMap::new();
         for (index, edge) in edges.iter().enumerate() {
-            edge.iter().for_each(|&end| neighbours.entry(end).or_default().push(index));
+            for &end in edge {
+                neighbours.entry(end).or_default().push(index);
+            }
         }
         let mut used = vec![false; edges.len()];
         let mut cycles = Vec::new();

@@ -1,6 +1,7 @@
 //! The words for primitives: a unit shape, and the map that gives it its place and size.
 
 use super::arguments::Arguments;
+use super::facets::Polygons;
 use super::maps::compose;
 use super::{Builder, Context, facets, polyhedron};
 use crate::math::{Bounds, DAffine3, DMat3, DVec3};
@@ -24,13 +25,18 @@ impl Builder<'_> {
             return Err(sink.report(error.help(format!("end `{}(…)` with a `;`", word.name))));
         }
         let arguments = Arguments::bind(call, word, sink)?;
-        let sides = facets::sides(arguments.fragments.unwrap_or(context.fragments));
+        let mut round = Round {
+            sides: facets::sides(arguments.fragments.unwrap_or(context.fragments)),
+            polygons: &mut self.polygons,
+        };
         let (shape, local) = match kind {
             SolidWord::Cube => cube(&arguments, sink)?,
-            SolidWord::Sphere => sphere(&arguments, sides, sink)?,
-            SolidWord::Cylinder => cylinder(&arguments, sides, sink)?,
-            SolidWord::Cone => cone(&arguments, sides, sink)?,
-            SolidWord::Polyhedron => (polyhedron::polyhedron(&arguments, sink)?, DAffine3::IDENTITY),
+            SolidWord::Sphere => sphere(&arguments, &mut round, sink)?,
+            SolidWord::Cylinder => cylinder(&arguments, &mut round, sink)?,
+            SolidWord::Cone => cone(&arguments, &mut round, sink)?,
+            SolidWord::Polyhedron => {
+                (polyhedron::polyhedron(&arguments, &mut self.clipper, sink)?, DAffine3::IDENTITY)
+            }
         };
         let map = compose(&context.map, &local, call.name.span, sink)?;
         let bounds = bounds(&shape).mapped(&map);
@@ -40,6 +46,28 @@ impl Builder<'_> {
         }
         let material = self.surfaces.id(context.surface);
         Ok(Solid::Primitive(Primitive { shape, map, material }))
+    }
+}
+
+/// Round shapes, or what `$fn` makes of them.
+struct Round<'b> {
+    sides: Option<u32>,
+    polygons: &'b mut Polygons,
+}
+
+impl Round<'_> {
+    fn sphere(&mut self) -> Shape {
+        match self.sides {
+            Some(sides) => self.polygons.sphere(sides),
+            None => Shape::Sphere,
+        }
+    }
+
+    fn frustum(&mut self, bottom: f64, top: f64) -> Shape {
+        match self.sides {
+            Some(sides) => self.polygons.frustum(sides, bottom, top),
+            None => Shape::Frustum { bottom, top },
+        }
     }
 }
 
@@ -89,10 +117,10 @@ fn cube(arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<(Shape, DAffin
 
 fn sphere(
     arguments: &Arguments<'_, '_>,
-    sides: Option<u32>,
+    round: &mut Round<'_>,
     sink: &mut Sink,
 ) -> Result<(Shape, DAffine3), Reported> {
-    let shape = sides.map_or(Shape::Sphere, facets::sphere);
+    let shape = round.sphere();
     if let Some((at, semi)) = centre_and_half_sizes(arguments, sink)? {
         return Ok((shape, placed(at, semi)));
     }
@@ -117,17 +145,13 @@ fn radius(
     }
 }
 
-fn frustum(sides: Option<u32>, bottom: f64, top: f64) -> Shape {
-    sides.map_or(Shape::Frustum { bottom, top }, |sides| facets::frustum(sides, bottom, top))
-}
-
 fn cylinder(
     arguments: &Arguments<'_, '_>,
-    sides: Option<u32>,
+    round: &mut Round<'_>,
     sink: &mut Sink,
 ) -> Result<(Shape, DAffine3), Reported> {
     if let Some((at, semi)) = centre_and_half_sizes(arguments, sink)? {
-        return Ok((frustum(sides, 1.0, 1.0), placed(at, semi)));
+        return Ok((round.frustum(1.0, 1.0), placed(at, semi)));
     }
     // As in OpenSCAD: `r` sets both radii, `r1` and `r2` each its own after that, and 1 is the default.
     let both = radius(arguments, "d", "r", sink)?.unwrap_or(1.0);
@@ -139,7 +163,7 @@ fn cylinder(
         let error = Diagnostic::error(place, "both ends of the cylinder are 0");
         return Err(sink.report(error.help("one end may be a point, not both")));
     }
-    upright(arguments, frustum(sides, bottom / largest, top / largest), largest, sink)
+    upright(arguments, round.frustum(bottom / largest, top / largest), largest, sink)
 }
 
 /// A shape of height 2 put onto the plane z = 0, or with its middle into it.
@@ -156,10 +180,10 @@ fn upright(
 
 fn cone(
     arguments: &Arguments<'_, '_>,
-    sides: Option<u32>,
+    round: &mut Round<'_>,
     sink: &mut Sink,
 ) -> Result<(Shape, DAffine3), Reported> {
-    let shape = frustum(sides, 1.0, 0.0);
+    let shape = round.frustum(1.0, 0.0);
     if let Some((apex, semi)) = centre_and_half_sizes(arguments, sink)? {
         // The paper's cone fills −c ≤ Z ≤ 0 below its apex, half of the box that its half-sizes span.
         let half = semi.with_z(semi.z * 0.5);

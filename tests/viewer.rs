@@ -14,9 +14,12 @@ const SMALLEST: Size = Size { columns: 80, rows: 25 };
 
 const VIEWER: &str = env!("CARGO_BIN_EXE_ray13");
 
-/// The viewer on the embedded scene, its first picture drawn.
+/// An embedded scene that looks different from every side.
+const SCENE: &str = "die";
+
+/// The viewer on the scene, its first picture drawn.
 fn viewer(size: Size) -> Pty {
-    let mut pty = Pty::start(&[VIEWER], size);
+    let mut pty = Pty::start(&[VIEWER, SCENE], size);
     pty.wait_for("the first picture", |pty| pty.drawn());
     pty
 }
@@ -82,7 +85,7 @@ fn the_screen_follows_the_size_of_the_terminal() {
 
 #[test]
 fn a_terminal_without_a_size_is_taken_as_80_by_25() {
-    let mut pty = Pty::start(&[VIEWER], Size { columns: 0, rows: 0 });
+    let mut pty = Pty::start(&[VIEWER, SCENE], Size { columns: 0, rows: 0 });
     pty.wait_for("the first picture", |pty| pty.size() == SMALLEST && pty.drawn());
 }
 
@@ -128,7 +131,7 @@ fn a_signal_leaves_the_terminal_as_it_was_and_ends_the_process_by_that_signal() 
 
 #[test]
 fn suspended_it_gives_the_terminal_back_and_continued_it_takes_it_again() {
-    let mut pty = Pty::start_job(&[VIEWER], SMALLEST);
+    let mut pty = Pty::start_job(&[VIEWER, SCENE], SMALLEST);
     pty.wait_for("the first picture", |pty| pty.drawn());
     let picture = pty.picture();
     pty.send("\x1a");
@@ -146,7 +149,7 @@ fn suspended_it_gives_the_terminal_back_and_continued_it_takes_it_again() {
 
 #[test]
 fn what_stops_only_the_process_does_not_spoil_the_screen() {
-    let mut pty = Pty::start_job(&[VIEWER], SMALLEST);
+    let mut pty = Pty::start_job(&[VIEWER, SCENE], SMALLEST);
     pty.wait_for("the first picture", |pty| pty.drawn());
     // Nothing can give the terminal back before a SIGSTOP; the shell writes over the picture.
     pty.signal("STOP");
@@ -169,7 +172,7 @@ fn without_a_shell_to_continue_it_the_viewer_does_not_stop() {
 fn a_lost_connection_leaves_no_process() {
     viewer(SMALLEST).hang_up();
     // In a session of its own the process gets no SIGHUP and has to notice by itself.
-    let mut pty = Pty::start(&["setsid", "-w", VIEWER], SMALLEST);
+    let mut pty = Pty::start(&["setsid", "-w", VIEWER, SCENE], SMALLEST);
     pty.wait_for("the first picture", |pty| pty.drawn());
     pty.hang_up();
 }
@@ -230,7 +233,7 @@ fn start_broken(part: &str) -> Pty {
 #[ignore = "runs only inside the pseudo-terminal of a_panic_shows_its_message_on_the_terminal_as_it_was"]
 fn a_viewer_that_panics() {
     let Ok(part) = std::env::var(BROKEN_PART) else { return };
-    let studio = Studio::new(Scene::default());
+    let studio = Studio::new(Scene::default()).unwrap();
     let broken = Broken { studio, in_tracer: part == "tracer", cameras: AtomicU32::new(0) };
     let settings = Settings { title: "broken.scene".to_owned(), ..Settings::default() };
     app::run(broken, settings).unwrap();

@@ -240,7 +240,8 @@ mod tests {
     }
 
     fn three() -> Three {
-        Three(Studio::new(Scene { views: ["a", "b", "c"].map(view).to_vec(), ..Scene::default() }))
+        let scene = Scene { views: ["a", "b", "c"].map(view).to_vec(), ..Scene::default() };
+        Three(Studio::new(scene).unwrap())
     }
 
     const SCREEN: Window = Window { cells: Size::new(80, 25), pixels: Size::ZERO };
@@ -297,7 +298,7 @@ mod tests {
 
     #[test]
     fn a_scene_without_views_has_one_of_its_own() {
-        let studio = Studio::new(Scene::default());
+        let studio = Studio::new(Scene::default()).unwrap();
         let mut model = Model::new(&studio, Settings::default(), SCREEN);
         let whole = model.request();
         for action in [Action::NextView, Action::PreviousView] {

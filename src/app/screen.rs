@@ -3,8 +3,7 @@
 use std::time::Duration;
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Alignment, Rect};
-use ratatui::style::Style;
+use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, BorderType, Widget};
 
@@ -67,7 +66,6 @@ fn draw_panels(model: &Model, shown: Option<&Shown>, panels: &Panels, theme: &Th
     chart.render(panels.chart, buffer);
     if let Some(shown) = shown {
         FlowChart::new(&shown.frame)
-            .field(model.field())
             .shading(model.settings.options.shading)
             .sent(shown.bytes, shown.display)
             .styles(theme.text, theme.dim)
@@ -79,12 +77,12 @@ fn draw_panels(model: &Model, shown: Option<&Shown>, panels: &Panels, theme: &Th
         .style(theme.text)
         .title(Span::styled(" PICTURE ", theme.bright))
         .title(Line::from(format!(" view: {} ", model.view_name())).right_aligned());
-    if let Some(note) = note(&model.notes) {
+    if let Some(note) = note(model, shown) {
         picture = picture.title_bottom(note);
     }
     picture.render(panels.picture, buffer);
 
-    Line::from(status(model, shown)).style(theme.text).render(panels.status, buffer);
+    Line::from(status(model, shown, panels.status.width)).style(theme.text).render(panels.status, buffer);
     draw_bar(theme, panels.bar, buffer);
 }
 
@@ -123,29 +121,36 @@ fn draw_bar(theme: &Theme, area: Rect, buffer: &mut Buffer) {
     Line::from(spans).style(theme.text).render(area, buffer);
 }
 
-/// What the reader left out: the first note, and how many more there are.
-fn note(notes: &[String]) -> Option<Line<'_>> {
-    let first = notes.first()?;
-    let more = match notes.len() - 1 {
+/// What is shown otherwise than asked for: the first note, and how many more there are.
+fn note<'a>(model: &'a Model, shown: Option<&'a Shown>) -> Option<Line<'a>> {
+    let mut notes = model.notes.iter().chain(shown.and_then(|shown| shown.frame.without_lattice.as_ref()));
+    let first = notes.next()?;
+    let more = match notes.count() {
         0 => String::new(),
         more => format!(" (+{more})"),
     };
-    Some(Line::from(format!(" {first}{more} ")).alignment(Alignment::Left).style(Style::new()))
+    Some(Line::from(format!(" {first}{more} ")))
 }
 
-fn status(model: &Model, shown: Option<&Shown>) -> String {
+fn status(model: &Model, shown: Option<&Shown>, columns: u16) -> String {
     let camera = &model.camera;
     let DVec3 { x, y, z } = camera.eye;
     let digits = decimals(motion::distance(camera));
     let [x, y, z] = [x, y, z].map(|coordinate| length(coordinate, digits));
     let [azimuth, elevation] = motion::direction(camera).map(tenths);
     let [across, down] = model.field().map(tenths);
-    let view = format!(" EYE {x} {y} {z}  DIR {azimuth} {elevation}  FIELD {across}×{down}");
-    shown.map_or(view.clone(), |shown| {
+    let mut parts = vec![
+        format!("EYE {x} {y} {z}"),
+        format!("DIR {azimuth} {elevation}"),
+        format!("FIELD {across}×{down}"),
+    ];
+    if let Some(shown) = shown {
         let ms = shown.total_ms();
-        let bytes = figures::bytes(shown.bytes);
-        format!("{view}  {}  {} fps  {bytes}/f", milliseconds(ms), rate(ms))
-    })
+        parts.extend([milliseconds(ms), rate(ms), figures::bytes(shown.bytes) + "/f"]);
+    }
+    let wide = format!(" {}", parts.join("  "));
+    // Long coordinates take the room from between the figures first.
+    if wide.chars().count() <= columns.into() { wide } else { format!(" {}", parts.join(" ")) }
 }
 
 /// How many decimals show a step of the keys, a fiftieth of the distance or so, at any scale of the scene.
@@ -178,10 +183,10 @@ fn milliseconds(ms: f64) -> String {
 /// Pictures per second if they followed each other without a pause.
 fn rate(ms: f64) -> String {
     match 1e3 / ms {
-        rate if rate < 9.95 => format!("{rate:.1}"),
+        rate if rate < 9.95 => format!("{rate:.1} fps"),
         // Beyond a thousand the clock says more about itself than about the picture.
-        rate if rate < 999.5 => format!("{rate:.0}"),
-        _ => ">999".to_owned(),
+        rate if rate < 999.5 => format!("{rate:.0} fps"),
+        _ => ">999 fps".to_owned(),
     }
 }
 
@@ -253,8 +258,6 @@ mod tests {
         times[Stage::Csg] = Duration::from_micros(300);
         times[Stage::Shade] = Duration::from_micros(600);
         let frame = Frame {
-            light: Grid::filled(math::Size::new(0, 0), 0.0),
-            cells,
             counts: Counts {
                 primary_rays: 7_600,
                 primary_hits: 3_100,
@@ -268,9 +271,10 @@ mod tests {
             },
             times,
             objects: 9,
-            primitives: 14,
             lattice: Some([4, 3, 5]),
-            total_ms: 5.0,
+            field: model.field(),
+            total: Duration::from_millis(5),
+            ..Frame::blank(math::Size::new(0, 0), cells)
         };
         Shown { frame, bytes: 1_946, display: Duration::from_micros(200) }
     }

@@ -125,7 +125,7 @@ mod tests {
     /// A request told apart by its width.
     fn request(width: u32) -> Request {
         Request {
-            camera: Studio::new(Scene::default()).camera(0, 1.0),
+            camera: Studio::new(Scene::default()).unwrap().camera(0, 1.0),
             dots: Size::new(width, 1),
             dot_aspect: 1.0,
             options: Options { threads: 1, ..Options::default() },
@@ -138,7 +138,7 @@ mod tests {
     fn start() -> (Tracer, Receiver<u32>, Sender<()>, Receiver<Event>) {
         let (begin, begun) = mpsc::channel();
         let (finish, finished) = mpsc::channel();
-        let studio = Studio::new(Scene::default());
+        let studio = Studio::new(Scene::default()).unwrap();
         let slow = Slow { studio, begun: Mutex::new(begin), finish: Mutex::new(finished) };
         let (sender, events) = mpsc::channel();
         (Tracer::start(Arc::new(slow), sender).unwrap(), begun, finish, events)

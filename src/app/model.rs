@@ -210,8 +210,8 @@ fn after<T: Copy + PartialEq>(all: &[T], now: T) -> T {
 mod tests {
     use super::*;
     use crate::frame::{Frame, Studio};
-    use crate::math::DVec3;
-    use crate::scene::Scene;
+    use crate::math::{DAffine3, DVec3};
+    use crate::scene::{Material, MaterialId, Object, Primitive, Scene, Shape, Solid};
 
     /// A scene of three views; the framing depends on the aspect, as one from bounds does.
     struct Three(Studio);
@@ -298,7 +298,10 @@ mod tests {
 
     #[test]
     fn a_scene_without_views_has_one_of_its_own() {
-        let studio = Studio::new(Scene::default()).unwrap();
+        let sphere = Primitive { shape: Shape::Sphere, map: DAffine3::IDENTITY, material: MaterialId(0) };
+        let object = Object { name: None, solid: Solid::Primitive(sphere) };
+        let scene = Scene { objects: vec![object], materials: vec![Material::default()], ..Scene::default() };
+        let studio = Studio::new(scene).unwrap();
         let mut model = Model::new(&studio, Settings::default(), SCREEN);
         let whole = model.request();
         for action in [Action::NextView, Action::PreviousView] {

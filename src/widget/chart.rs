@@ -26,7 +26,7 @@ pub struct FlowChart {
     times: StageTimes,
     objects: usize,
     space: Space,
-    field: Option<[f64; 2]>,
+    field: [f64; 2],
     shading: Option<Shading>,
     bytes: Option<usize>,
     lit: Style,
@@ -48,19 +48,12 @@ impl FlowChart {
             times: frame.times,
             objects: frame.objects,
             space: frame.space,
-            field: None,
+            field: frame.field,
             shading: None,
             bytes: None,
             lit: Style::new().fg(Color::Gray),
             dim: Style::new().fg(Color::DarkGray),
         }
-    }
-
-    /// The field shown by VIEW: full angles across and down, in degrees.
-    #[must_use]
-    pub const fn field(mut self, field: [f64; 2]) -> Self {
-        self.field = Some(field);
-        self
     }
 
     /// The model shown by SHADE.
@@ -108,10 +101,11 @@ impl FlowChart {
                     Line { count: if fits { sides } else { cells() }, busy: true }
                 }
             },
-            Stage::View => self.field.map_or_else(Line::idle, |[across, down]| Line {
-                count: format!("{across:.0}×{down:.0}°"),
-                busy: true,
-            }),
+            Stage::View => match self.field {
+                // A frame that is still blank.
+                [0.0, 0.0] => Line::idle(),
+                [across, down] => Line { count: format!("{across:.0}×{down:.0}°"), busy: true },
+            },
             Stage::Ray => counted(rays),
             Stage::Clip => counted(counts.clipped_rays),
             Stage::Cell => mean(counts.cells_visited),
@@ -144,11 +138,10 @@ impl Line {
     }
 }
 
-/// A bar in steps of half a column. A stage that took any time shows at least one step.
+/// A bar in steps of half a column, rounded.
 fn bar(share: f64, columns: u16) -> String {
     let whole = usize::from(columns) * 2;
-    let steps =
-        (share * whole as f64).round().clamp(if share > 0.0 { 1.0 } else { 0.0 }, whole as f64) as usize;
+    let steps = ((share * whole as f64).round() as usize).min(whole);
     let mut bar = "█".repeat(steps / 2);
     bar.push_str(if steps % 2 == 1 { "▌" } else { "" });
     bar
@@ -204,8 +197,8 @@ mod tests {
             },
             times,
             objects: 9,
-            primitives: 14,
-            space: Space::Lattice([4, 3, 5]),
+            lattice: Some([4, 3, 5]),
+            field: [40.0, 25.0],
             ..Frame::blank(Size::new(0, 0), Grid::from_values(Size::new(0, 0), Vec::new()))
         }
     }
@@ -223,8 +216,7 @@ mod tests {
 
     #[test]
     fn each_stage_has_its_count_and_its_share() {
-        let chart =
-            FlowChart::new(&frame()).field([40.0, 25.0]).shading(Shading::Phong).sent(1_946, Duration::ZERO);
+        let chart = FlowChart::new(&frame()).shading(Shading::Phong).sent(1_946, Duration::ZERO);
         let (buffer, lines) = drawn(&chart, 24, 11);
         assert_eq!(
             lines,
@@ -237,7 +229,7 @@ mod tests {
                 " 6 CELL     2.1/ray ███░",
                 " 7 SOLID    1.4/ray █░░░",
                 " 8 CSG            - ░░░░",
-                " 9 SHADE    eq. (3) ▌░░░",
+                " 9 SHADE    eq. (3) ░░░░",
                 "10 DITHER        13 ░░░░",
                 "11 DISPLAY   1.9 KB ░░░░",
             ]

@@ -1,12 +1,11 @@
-//! NFF text as a stream of words: what stands between blanks, `#` comments left out. Lines mean nothing else.
+//! NFF text as a stream of words: what stands between blanks, without `#` comments. Lines mean nothing else.
 
-use crate::scene::Diagnostic;
-use crate::scene::diagnostic::{Reported, Sink};
+use std::ops::Range;
 
 /// One word of the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Token<'a> {
-    /// The word itself.
+    /// The word itself, never empty.
     pub word: &'a str,
     /// Where it begins, in bytes.
     pub start: usize,
@@ -14,13 +13,19 @@ pub struct Token<'a> {
 
 impl Token<'_> {
     /// The bytes that it takes.
-    pub fn span(&self) -> std::ops::Range<usize> {
+    pub fn span(&self) -> Range<usize> {
         self.start..self.start + self.word.len()
     }
 
     /// Whether it is written as a number, be it a good one or not.
-    fn looks_like_a_number(&self) -> bool {
+    pub fn begins_a_number(&self) -> bool {
         self.word.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.'))
+    }
+
+    /// The word as far as a message has room for it.
+    pub fn shown(&self) -> String {
+        const ROOM: usize = 40;
+        self.word.chars().take(ROOM).collect()
     }
 }
 
@@ -28,6 +33,7 @@ impl Token<'_> {
 #[derive(Clone, Debug)]
 pub struct Tokens<'a> {
     text: &'a str,
+    /// Where the search for the word behind `next` begins.
     at: usize,
     next: Option<Token<'a>>,
 }
@@ -38,115 +44,56 @@ impl<'a> Tokens<'a> {
         // Some editors begin a file with a byte order mark; it is no word.
         let at = if text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
         let mut tokens = Self { text, at, next: None };
-        tokens.next = tokens.scan();
+        tokens.take();
         tokens
     }
 
     /// The next word, which stays the next.
+    #[inline]
     pub fn peek(&self) -> Option<Token<'a>> {
         self.next
     }
 
     /// Takes the next word.
+    #[inline]
     pub fn take(&mut self) -> Option<Token<'a>> {
         let token = self.next;
         self.next = self.scan();
         token
     }
 
-    /// Whether a number comes next.
-    pub fn number_is_next(&self) -> bool {
-        self.next.is_some_and(|token| token.looks_like_a_number())
-    }
-
-    /// Takes a finite number, or says what stands in its place; a word that belongs to something else stays.
-    #[inline]
-    pub fn number(&mut self, sink: &mut Sink, within: &Within) -> Result<(f64, Token<'a>), Reported> {
-        let Some(token) = self.next else { return Err(self.cut_off(sink, within)) };
-        match token.word.parse::<f64>() {
-            Ok(number) if number.is_finite() && token.looks_like_a_number() => {
-                self.next = self.scan();
-                Ok((number, token))
-            }
-            Ok(_) if token.looks_like_a_number() => {
-                self.take();
-                let error = Diagnostic::error(token.span(), "a number is not finite");
-                Err(sink.report(error.label(format!("`{}` is beyond the largest number", shown(token.word)))))
-            }
-            _ => {
-                let error = Diagnostic::error(token.span(), format!("{within} ends too early"));
-                let label = format!("here a number belongs: {}", within.missing);
-                let label = format!("{label}; this is `{}`", shown(token.word));
-                Err(sink.report(error.label(label)))
-            }
-        }
-    }
-
-    /// Reports that the text ends here.
-    pub fn cut_off(&self, sink: &mut Sink, within: &Within) -> Reported {
-        let error = Diagnostic::error(within.keyword.span(), format!("the file ends within {within}"));
-        sink.report(error.label(format!("of this, {} is missing", within.missing)).help("the file is cut off"))
+    /// Bytes of the text from the next word on.
+    pub fn bytes_left(&self) -> usize {
+        self.next.map_or(0, |token| self.text.len() - token.start)
     }
 
     fn scan(&mut self) -> Option<Token<'a>> {
         let bytes = self.text.as_bytes();
-        let mut at = self.at;
-        loop {
-            while bytes.get(at).is_some_and(u8::is_ascii_whitespace) {
-                at += 1;
-            }
-            if bytes.get(at) != Some(&b'#') {
-                break;
-            }
-            while bytes.get(at).is_some_and(|&byte| byte != b'\n') {
-                at += 1;
-            }
+        let until = |from: usize, stop: fn(&u8) -> bool| {
+            bytes[from..].iter().position(stop).map_or(bytes.len(), |length| from + length)
+        };
+        let mut start = until(self.at, |byte| !byte.is_ascii_whitespace());
+        while bytes.get(start) == Some(&b'#') {
+            let line_end = until(start, |&byte| byte == b'\n');
+            start = until(line_end, |byte| !byte.is_ascii_whitespace());
         }
-        let start = at;
-        while bytes.get(at).is_some_and(|byte| !byte.is_ascii_whitespace()) {
-            at += 1;
-        }
-        self.at = at;
-        // Blanks are ASCII: both ends are on character boundaries.
-        self.text.get(start..at).filter(|word| !word.is_empty()).map(|word| Token { word, start })
+        self.at = until(start, u8::is_ascii_whitespace);
+        // Blanks are ASCII, so both ends are on character boundaries.
+        (start < self.at).then(|| Token { word: &self.text[start..self.at], start })
     }
 }
 
-/// What is being read, for messages.
-#[derive(Clone, Copy, Debug)]
-pub struct Within<'a> {
-    /// The word that began it.
-    pub keyword: Token<'a>,
-    /// What comes next in it.
-    pub missing: Missing,
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-impl std::fmt::Display for Within<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "`{}`", self.keyword.word)
+    #[test]
+    fn words_stand_between_blanks_and_comments_are_none() {
+        let text = "\u{feff}# a\nb  .1 -2e3\r\n#p 3\n\tö#x # last";
+        let mut tokens = Tokens::new(text);
+        let words: Vec<_> = std::iter::from_fn(|| tokens.take()).collect();
+        assert_eq!(words.iter().map(|t| t.word).collect::<Vec<_>>(), ["b", ".1", "-2e3", "ö#x"]);
+        assert!(words.iter().all(|t| &text[t.span()] == t.word));
+        assert_eq!((tokens.peek(), tokens.bytes_left()), (None, 0));
     }
-}
-
-/// The part of an entity that is read.
-#[derive(Clone, Copy, Debug)]
-pub enum Missing {
-    /// One of its numbers, by its name.
-    Named(&'static str),
-    /// A corner of a polygon, from 1, of so many.
-    Corner(u64, u64),
-}
-
-impl std::fmt::Display for Missing {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Named(name) => f.write_str(name),
-            Self::Corner(number, count) => write!(f, "corner {number} of {count}"),
-        }
-    }
-}
-
-/// A word as far as a message has room for it.
-pub fn shown(word: &str) -> &str {
-    const ROOM: usize = 40;
-    &word[..word.floor_char_boundary(ROOM)]
 }

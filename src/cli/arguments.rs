@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::math::{DVec3, Size};
+use crate::plan::{CUTOFF, DEPTH};
 
 use super::picture::{Glyphs, PaletteName, StructureName, ToneName};
 use super::values;
@@ -97,9 +98,15 @@ pub struct PictureArguments {
     pub dots: Option<Size>,
     #[command(flatten)]
     pub camera: CameraArguments,
-    /// The paper's illumination model: 1 diffuse, 2 with depth, 3 with highlights
-    #[arg(long, value_name = "1..3", default_value = "3", value_parser = clap::value_parser!(u8).range(1..=3))]
+    /// The paper's illumination model: 1 diffuse, 2 with depth, 3 with highlights, 4 with mirrors and glass
+    #[arg(long, value_name = "1..4", default_value = "4", value_parser = clap::value_parser!(u8).range(1..=4))]
     pub shading: u8,
+    /// Follow mirror and Snell rays for so many generations
+    #[arg(long, value_name = "N", default_value_t = DEPTH, value_parser = clap::value_parser!(u32).range(0..=64))]
+    pub depth: u32,
+    /// Follow a mirror or Snell ray only while it can still change the light of its dot by so much; 0 follows all
+    #[arg(long, value_name = "F", default_value_t = CUTOFF, value_parser = values::not_negative)]
+    pub cutoff: f64,
     /// Lights shine through everything
     #[arg(long)]
     pub no_shadows: bool,

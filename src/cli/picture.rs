@@ -87,7 +87,9 @@ impl PictureArguments {
     pub fn options(&self) -> Options {
         let shading = Shading::ALL.into_iter().find(|s| s.number() == self.shading);
         Options {
-            shading: shading.unwrap_or(Shading::Phong),
+            shading: shading.unwrap_or(Shading::Whitted),
+            depth: self.depth,
+            cutoff: self.cutoff,
             shadows: !self.no_shadows,
             structure: match self.structure {
                 StructureName::Auto => StructureChoice::Auto,

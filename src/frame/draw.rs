@@ -7,9 +7,9 @@ use rayon::prelude::*;
 use crate::glyph;
 use crate::math::{DVec3, Grid};
 use crate::plan::{Channels, Plan};
-use crate::shade::{Channel, Shader, View};
+use crate::shade::{Channel, Memory, Shader, View};
 use crate::stage::{Counts, Meter, Probe, Silent, Stage, StageTimes, Stopwatch};
-use crate::trace::{Engine, Exact};
+use crate::trace::Exact;
 use crate::view::{Lens, Picture, TILE, Tile, tiles};
 
 use super::{Frame, Request, Space, Studio};
@@ -71,7 +71,7 @@ impl Studio {
         let drawn: Vec<Drawn> = tiles
             .par_iter()
             .map_init(
-                || engine.memory(),
+                || shader.memory(),
                 |memory, tile| {
                     if tile.number % TIMED == 0 {
                         let mut meter = Meter::new(Stopwatch::start(Stage::Ray));
@@ -125,12 +125,7 @@ struct Sampler<'a, 'b, C> {
 }
 
 impl<'b, C: Channel> Sampler<'_, 'b, C> {
-    fn tile(
-        &self,
-        tile: &Tile,
-        memory: &mut <Exact<'b> as Engine>::Memory,
-        meter: &mut Meter<impl Probe>,
-    ) -> Vec<Dot> {
+    fn tile(&self, tile: &Tile, memory: &mut Memory<Exact<'b>>, meter: &mut Meter<impl Probe>) -> Vec<Dot> {
         let mut dots = Vec::with_capacity((TILE * TILE) as usize);
         for (i, j) in tile.dots() {
             let (x, y) = (f64::from(i) + 0.5, f64::from(j) + 0.5);
@@ -164,7 +159,7 @@ impl<'b, C: Channel> Sampler<'_, 'b, C> {
         &self,
         x: f64,
         y: f64,
-        memory: &mut <Exact<'b> as Engine>::Memory,
+        memory: &mut Memory<Exact<'b>>,
         meter: &mut Meter<impl Probe>,
     ) -> View<C> {
         meter.at(Stage::Ray);

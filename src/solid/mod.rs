@@ -6,6 +6,7 @@ mod ball;
 mod crossing;
 mod expression;
 mod facets;
+mod inside;
 mod mesh;
 mod primitive;
 mod round;

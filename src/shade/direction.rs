@@ -23,8 +23,8 @@ pub fn refracted(d: DVec3, n: DVec3, before: f64, behind: f64) -> Option<DVec3> 
     }
     let along = (d - d.dot(n) * n) * (before / behind);
     let sine_squared = along.length_squared();
-    // Written so that an overflow of the quotient counts as total reflection too.
-    if !(sine_squared < 1.0) {
+    // Straight in, a quotient that overflows gives not-a-number.
+    if sine_squared >= 1.0 || sine_squared.is_nan() {
         return None;
     }
     Some((along - (1.0 - sine_squared).sqrt() * n).normalize_or(-n))

@@ -40,14 +40,18 @@ fn ten_rays() -> Vec<(DVec3, DVec3)> {
         .collect()
 }
 
+/// Bends of a path that are compared.
+const MOST: usize = 12;
+
 /// Compares the paths of rays with those worked out by hand; gives how often a path bent.
 fn agree(text: &str, world: &World, rays: &[(DVec3, DVec3)]) -> usize {
     let scene = scene(&clear(text));
     let mut bent = 0;
     for &(eye, d) in rays {
-        let expected = world.path(eye, d, 40);
-        let traced = bends(&legs(&scene, eye, d, Kind::Snell));
-        assert!(expected.len() < 40, "a path without end shows nothing");
+        // A path may go round in total reflections for ever.
+        let expected = world.path(eye, d, MOST);
+        let mut traced = bends(&legs(&scene, eye, d, Kind::Snell));
+        traced.truncate(MOST);
         assert_eq!(traced.len(), expected.len(), "from {eye} along {d}:\n{traced:?}\n{expected:?}");
         for (one, other) in traced.iter().zip(&expected) {
             let near = |a: DVec3, b: DVec3| (a - b).length() < 1e-9;
@@ -240,11 +244,9 @@ mod the_light {
         let (light, counts) = dot(&text, EYE, DVec3::Y, &all_rays());
         assert_eq!((light, counts.secondary_rays, counts.secondary_hits), (0.5, 1, 1));
         // 0.4 · 1.5 = 0.6 wide it seems, and no wider.
-        let aim = |x: f64| DVec3::new(x, 0.0, 0.0) + DVec3::Y * 6.0;
         let far = DVec3::new(0.0, -600.0, 0.0);
         let seen = |x: f64| dot(&text, far + DVec3::X * x, DVec3::Y, &all_rays()).0;
         assert_eq!((seen(0.59), seen(0.61)), (0.5, 0.0));
-        assert!(aim(0.0).is_finite());
     }
 
     #[test]
@@ -264,8 +266,8 @@ mod the_light {
         let text = |world: &str| {
             format!(
                 "{world} light(at = [0, 20, 0], intensity = 1);
-                material(kd = 0, ks = 0, kr = 0.25, color = 0) translate([0, 1, 0]) cube([4, 2, 4], center = true);
-                material(kd = 0.5, ks = 0, color = 1) translate([0, -9, 0]) cube([4, 2, 4], center = true);"
+                material(kd = 0, ks = 0, kr = 0.25, color = [0, 0, 0]) translate([0, 1, 0]) cube([4, 2, 4], center = true);
+                material(kd = 0.5, ks = 0, color = [1, 1, 1]) translate([0, -9, 0]) cube([4, 2, 4], center = true);"
             )
         };
         let options = Options { shadows: false, ..all_rays() };
@@ -293,7 +295,7 @@ mod the_light {
     #[test]
     fn that_is_totally_reflected_is_sent_once_with_both_shares() {
         let text =
-            "material(kd = 0, ks = 0, kr = 0.25, kt = 0.5, index = 1.5, color = 0) cube(2, center = true);
+            "material(kd = 0, ks = 0, kr = 0.25, kt = 0.5, index = 1.5, color = [0, 0, 0]) cube(2, center = true);
             world(ambient = 0, background = 1);";
         let d = DVec3::new(0.6, 0.0, 0.8);
         // Inside, onto the upper face at 37° (sine 0.6): above the critical sine of 0.667 it is not.
@@ -301,8 +303,8 @@ mod the_light {
         let (_, counts) = dot(text, eye, d, &Options { depth: 1, ..all_rays() });
         assert_eq!((counts.secondary_rays, counts.truncated_rays), (2, 1));
         // At 53° it is.
-        let (_, counts) =
-            dot(text, eye, DVec3::new(0.8, 0.0, 0.6).normalize(), &Options { depth: 1, ..all_rays() });
+        let (eye, d) = (DVec3::new(-0.9, 0.1, 0.0), DVec3::new(0.8, 0.0, 0.6));
+        let (_, counts) = dot(text, eye, d, &Options { depth: 1, ..all_rays() });
         assert_eq!((counts.secondary_rays, counts.secondary_hits), (1, 1));
         let path = legs(&scene(text), DVec3::new(0.0, 0.1, 0.5), DVec3::new(0.8, 0.0, 0.6), Kind::Snell);
         assert_eq!((path[1].kind, path[1].weight), (Kind::Mirror, 0.75));
@@ -310,7 +312,7 @@ mod the_light {
 
     #[test]
     fn of_a_ray_cut_off_is_ambient_and_counted() {
-        let text = "world(ambient = 0.3, background = 0); material(kd = 0, ks = 0, kr = 1, color = 0) {
+        let text = "world(ambient = 0.3, background = 0); material(kd = 0, ks = 0, kr = 1, color = [0, 0, 0]) {
             translate([0, 0, 2]) cube([9, 9, 1], center = true); translate([0, 0, -2]) cube([9, 9, 1], center = true); }";
         for depth in [0, 1, 4, 64] {
             let (light, counts) = dot(text, DVec3::ZERO, DVec3::Z, &Options { depth, ..all_rays() });
@@ -327,7 +329,7 @@ mod the_light {
     fn is_followed_while_it_can_still_change_by_the_cutoff() {
         let text = |lamp: &str| {
             format!(
-                "{lamp} material(kd = 0, ks = 0, kr = 0.1, color = 0) {{
+                "{lamp} material(kd = 0, ks = 0, kr = 0.1, color = [0, 0, 0]) {{
                 translate([0, 0, 2]) cube([9, 9, 1], center = true);
                 translate([0, 0, -2]) cube([9, 9, 1], center = true); }}"
             )
@@ -358,7 +360,7 @@ mod the_light {
             let text = format!(
                 "world(ambient = 0); light(at = [0, 0, 10], intensity = 1);
                 material(name = \"glass\", kd = 0, ks = 0, kt = 0.6, index = 1.5);
-                material(kd = 1, ks = 0, color = 1) translate([0, 0, -0.5]) cube([9, 9, 1], center = true);
+                material(kd = 1, ks = 0, color = [1, 1, 1]) translate([0, 0, -0.5]) cube([9, 9, 1], center = true);
                 {between}"
             );
             let eye = DVec3::new(3.0, 0.0, 1.0);
@@ -404,11 +406,10 @@ mod the_light {
 }
 
 fn material() -> impl Strategy<Value = Material> {
-    let shares = prop::array::uniform5(0.0..1.0_f64);
+    let shares = prop::array::uniform4(0.0..1.0_f64);
     (shares, 0.5..3.0, 1.0..40.0, prop::array::uniform3(0.0..=1.0)).prop_map(|(shares, index, n, color)| {
-        // The fifth is what the surface swallows.
-        let all: f64 = shares.iter().sum();
-        let [kd, ks, kr, kt, _] = shares.map(|share| share / all);
+        let all = shares.iter().sum::<f64>().max(1.0);
+        let [kd, ks, kr, kt] = shares.map(|share| share / all);
         Material { name: None, color: DVec3::from(color), kd, ks, n, kr, kt, index }
     })
 }
@@ -420,7 +421,7 @@ proptest! {
     /// enclose one another.
     #[test]
     fn no_dot_is_brighter_than_the_brightest_source(
-        materials in prop::collection::vec(material(), 6),
+        materials in prop::collection::vec(material(), 7),
         places in prop::collection::vec((-4..=4, -4..=4, -4..=4), 6),
         background in 0.0..=1.0,
         eye in (-9..=9, -9..=9, -9..=9),
@@ -434,11 +435,11 @@ proptest! {
         let mut scene = scene(&format!(
             "world(ambient = 0, background = {background});
             light(at = [5, -9, 12], intensity = 0.7); light(at = [0, 0, 0], intensity = 0.3); {text}"));
-        let plain = scene.materials.len() as u32;
-        for (object, number) in scene.objects.iter_mut().zip(plain..) {
+        for (object, number) in scene.objects.iter_mut().zip(0..) {
             paint(&mut object.solid, number);
         }
-        scene.materials.extend(materials);
+        prop_assert!(scene.objects.len() <= materials.len());
+        scene.materials = materials;
         let eye = DVec3::new(f64::from(eye.0), f64::from(eye.1), f64::from(eye.2)) * 0.5;
         let camera = Camera { name: None, eye, target: eye + DVec3::new(-1.0, 3.0, -0.5), up: DVec3::Z,
             field: [120.0, 120.0], zoom: 1.0 };

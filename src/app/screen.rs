@@ -177,7 +177,7 @@ fn without_sign_of_zero(text: String) -> String {
 }
 
 fn milliseconds(ms: f64) -> String {
-    if ms < 99.95 { format!("{ms:.1} ms") } else { format!("{ms:.0} ms") }
+    if ms < 9.95 { format!("{ms:.1} ms") } else { format!("{ms:.0} ms") }
 }
 
 /// Pictures per second if they followed each other without a pause.

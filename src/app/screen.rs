@@ -122,8 +122,9 @@ fn draw_bar(theme: &Theme, area: Rect, buffer: &mut Buffer) {
 }
 
 /// What is shown otherwise than asked for: the first note, and how many more there are.
-fn note<'a>(model: &'a Model, shown: Option<&'a Shown>) -> Option<Line<'a>> {
-    let mut notes = model.notes.iter().chain(shown.and_then(|shown| shown.frame.without_lattice.as_ref()));
+fn note(model: &Model, shown: Option<&Shown>) -> Option<Line<'static>> {
+    let over = shown.and_then(|shown| shown.frame.over_budget).map(|over| over.to_string());
+    let mut notes = model.notes.iter().chain(over.as_ref());
     let first = notes.next()?;
     let more = match notes.count() {
         0 => String::new(),

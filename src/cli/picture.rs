@@ -78,6 +78,8 @@ pub enum StructureName {
     None,
     /// The paper's lattice
     Lattice,
+    /// Lattices within lattices
+    Tree,
 }
 
 impl PictureArguments {
@@ -91,6 +93,7 @@ impl PictureArguments {
                 StructureName::Auto => StructureChoice::Auto,
                 StructureName::None => StructureChoice::None,
                 StructureName::Lattice => StructureChoice::Lattice,
+                StructureName::Tree => StructureChoice::Tree,
             },
             samples: self.samples,
             threads: self.threads.map_or(0, usize::from),

@@ -8,7 +8,7 @@ use ratatui_core::style::{Color, Style};
 use ratatui_core::widgets::Widget;
 
 use super::figures;
-use crate::frame::Frame;
+use crate::frame::{Frame, Space};
 use crate::plan::Shading;
 use crate::stage::{Counts, Stage, StageTimes};
 
@@ -25,7 +25,7 @@ pub struct FlowChart {
     counts: Counts,
     times: StageTimes,
     objects: usize,
-    lattice: Option<[usize; 3]>,
+    space: Space,
     field: [f64; 2],
     shading: Option<Shading>,
     bytes: Option<usize>,
@@ -47,7 +47,7 @@ impl FlowChart {
             counts: frame.counts,
             times: frame.times,
             objects: frame.objects,
-            lattice: frame.lattice,
+            space: frame.space,
             field: frame.field,
             shading: None,
             bytes: None,
@@ -89,12 +89,18 @@ impl FlowChart {
         };
         match stage {
             Stage::Objects => counted(self.objects as u64),
-            Stage::Lattice => self.lattice.map_or_else(Line::idle, |[x, y, z]| {
-                let sides = format!("{x}×{y}×{z}");
-                let fits = sides.chars().count() <= COUNT_COLUMNS.into();
-                let cells = || figures::count(x.saturating_mul(y).saturating_mul(z) as u64);
-                Line { count: if fits { sides } else { cells() }, busy: true }
-            }),
+            Stage::Lattice => match self.space {
+                Space::Whole => Line::idle(),
+                Space::Tree(nodes) => {
+                    Line { count: format!("{} nod", figures::count(nodes as u64)), busy: true }
+                }
+                Space::Lattice([x, y, z]) => {
+                    let sides = format!("{x}×{y}×{z}");
+                    let fits = sides.chars().count() <= COUNT_COLUMNS.into();
+                    let cells = || figures::count(x.saturating_mul(y).saturating_mul(z) as u64);
+                    Line { count: if fits { sides } else { cells() }, busy: true }
+                }
+            },
             Stage::View => match self.field {
                 // A frame that is still blank.
                 [0.0, 0.0] => Line::idle(),
@@ -234,7 +240,7 @@ mod tests {
 
     #[test]
     fn a_large_lattice_shows_its_cells() {
-        let chart = FlowChart::new(&Frame { lattice: Some([128, 128, 100]), ..frame() });
+        let chart = FlowChart::new(&Frame { space: Space::Lattice([128, 128, 100]), ..frame() });
         assert!(drawn(&chart, 24, 2).1[1].contains(" 1.6 M"));
     }
 

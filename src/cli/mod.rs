@@ -4,3 +4,5 @@
 pub fn run() -> std::process::ExitCode {
     std::process::ExitCode::SUCCESS
 }
+
+pub mod diagnostics;

@@ -56,6 +56,7 @@ fn group<'a>(diagnostics: &'a Diagnostics, diagnostic: &'a Diagnostic) -> Group<
 fn window<'a>(source: &'a str, span: &Range<usize>) -> (&'a str, Range<usize>) {
     let line_start = source[..span.start].rfind('\n').map_or(0, |at| at + 1);
     let line_end = source[span.start..].find('\n').map_or(source.len(), |at| span.start + at);
+    let line_end = span.start + source[span.start..line_end].trim_end_matches('\r').len();
     let start = char_boundary(source, line_start.max(span.start.saturating_sub(REACH)));
     let end = char_boundary(source, line_end.min(span.start + REACH));
     (&source[start..end], span.start - start..span.end.min(end) - start)
@@ -78,7 +79,7 @@ mod tests {
 
     #[test]
     fn points_at_the_place() {
-        insta::assert_snapshot!(rendered("union() {\n    shpere(r = 1);\n}\n"), @r"
+        insta::assert_snapshot!(rendered("union() {\r\n    shpere(r = 1);\r\n}\r\n"), @r"
         error: there is no word `shpere`
          --> test.scene:2:5
           |

@@ -62,7 +62,7 @@ pub struct Diagnostics {
     pub source_name: String,
     /// The text that the spans are of; empty where the input is no text.
     pub source: Arc<str>,
-    /// What was found, at most [`MAX_ERRORS`] errors.
+    /// What was found: at most 20 errors, and as many notes.
     pub list: Vec<Diagnostic>,
     /// Whether reading stopped early because there were too many errors.
     pub stopped: bool,

@@ -2,8 +2,9 @@
 
 use proptest::prelude::*;
 
+use super::polyhedra::six_volumes;
 use super::primitives;
-use crate::scene::{Diagnostics, ReadOptions, Scene, read};
+use crate::scene::{Diagnostics, ReadOptions, Scene, Shape, read};
 
 /// Reads with and without leaving words out, and checks what every answer must keep.
 fn check(bytes: &[u8]) {
@@ -20,6 +21,9 @@ fn check_scene(scene: &Scene) {
     assert!(!scene.objects.is_empty());
     for primitive in primitives(scene) {
         assert!(primitive.map.is_finite() && (primitive.material.0 as usize) < scene.materials.len());
+        if let Shape::Mesh(mesh) = &primitive.shape {
+            six_volumes(mesh);
+        }
     }
 }
 
@@ -144,11 +148,25 @@ proptest! {
     #[test]
     fn random_polyhedra(
         points in proptest::collection::vec(proptest::array::uniform3(0..3i32), 4..10),
-        faces in proptest::collection::vec(proptest::collection::vec(0..10usize, 3..9), 1..6),
+        faces in proptest::collection::vec(proptest::collection::vec(0..4usize, 3..9), 1..6),
     ) {
-        // A face and the same face once more are closed, whatever the face: nothing but emptiness is refused.
-        let faces: Vec<_> = faces.iter().map(|face| face.iter().map(|i| i % points.len()).collect::<Vec<_>>()).collect();
         check(format!("polyhedron({points:?}, {faces:?});").as_bytes());
+    }
+
+    #[test]
+    fn a_pyramid_on_any_polygon_is_closed(
+        points in proptest::collection::vec([0..4i32, 0..4i32], 5..10),
+        polygon in proptest::collection::vec(0..5usize, 3..12),
+    ) {
+        // The base may cross itself, touch itself, lie on a line and name a point many times.
+        let apex = points.len();
+        let places: Vec<_> = points.iter().map(|[x, y]| [*x, *y, 0]).chain([[1, 1, 5]]).collect();
+        let sides = (0..polygon.len()).map(|i| vec![polygon[i], polygon[(i + 1) % polygon.len()], apex]);
+        let faces: Vec<_> = sides.chain([polygon.clone()]).collect();
+        match read("test", format!("polyhedron({places:?}, {faces:?});").as_bytes(), &ReadOptions::default()) {
+            Ok(scene) => check_scene(&scene),
+            Err(errors) => prop_assert!(errors.to_string().contains("enclose nothing"), "{errors}"),
+        }
     }
 }
 

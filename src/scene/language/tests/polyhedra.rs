@@ -14,8 +14,8 @@ fn mesh(points: &str, faces: &str) -> Arc<Mesh> {
     }
 }
 
-/// Six times the volume inside, and whether every edge is shared by an even number of triangles.
-fn check(mesh: &Mesh) -> f64 {
+/// Six times the volume inside; fails where an edge is shared by an odd number of triangles.
+pub fn six_volumes(mesh: &Mesh) -> f64 {
     let mut edges: HashMap<[u32; 2], u32> = HashMap::new();
     let mut volume = 0.0;
     for &[a, b, c] in &mesh.triangles {
@@ -36,7 +36,7 @@ const BOX: &str = "[[0,0,0],[2,0,0],[2,3,0],[0,3,0],[0,0,4],[2,0,4],[2,3,4],[0,3
 fn convex_faces_are_fans() {
     let mesh = mesh(BOX, "[[0,1,2,3],[7,6,5,4],[0,4,5,1],[1,5,6,2],[2,6,7,3],[3,7,4,0]]");
     assert_eq!((mesh.points.len(), mesh.triangles.len()), (8, 12));
-    assert_eq!(check(&mesh), 6.0 * 24.0);
+    assert_eq!(six_volumes(&mesh), 6.0 * 24.0);
 }
 
 #[test]
@@ -44,7 +44,7 @@ fn equal_points_are_merged_and_flat_faces_dropped() {
     let points = "[[0,0,0],[1,0,0],[0,1,0],[0,0,1],[-0,0,0],[1,0,0],[0,1,0]]";
     let mesh = mesh(points, "[[0,1,2],[4,3,5],[1,3,6],[6,3,0],[0,4,1],[1,5,5,1]]");
     assert_eq!((mesh.points.len(), mesh.triangles.len()), (4, 4));
-    assert_eq!(check(&mesh), 1.0);
+    assert_eq!(six_volumes(&mesh), 1.0);
 }
 
 #[test]
@@ -56,8 +56,9 @@ fn faces_that_are_not_convex_are_cut() {
         (0..6).map(|i| format!("[{},{},{},{}]", (i + 1) % 6, i, i + 6, (i + 1) % 6 + 6)).collect();
     let faces = format!("[[0,1,2,3,4,5],[11,10,9,8,7,6],{}]", sides.join(","));
     let mesh = mesh(&format!("[{},{}]", point(0), point(1)), &faces);
-    assert_eq!(check(&mesh), 6.0 * 3.0);
-    let area: f64 = mesh.triangles[..mesh.triangles.len()]
+    assert_eq!(six_volumes(&mesh), 6.0 * 3.0);
+    let area: f64 = mesh
+        .triangles
         .iter()
         .map(|triangle| triangle.map(|index| mesh.points[index as usize]))
         .filter(|corners| corners.iter().all(|corner| corner.z == 0.0))
@@ -75,22 +76,22 @@ fn corners_on_a_straight_edge_stay() {
     let sides: Vec<String> =
         (0..6).map(|i| format!("[{},{},{},{}]", (i + 1) % 6, i, i + 6, (i + 1) % 6 + 6)).collect();
     let faces = format!("[[0,1,2,3,4,5],[11,10,9,8,7,6],{}]", sides.join(","));
-    assert_eq!(check(&mesh(&format!("[{},{}]", point(0), point(1)), &faces)), 6.0 * 3.0);
+    assert_eq!(six_volumes(&mesh(&format!("[{},{}]", point(0), point(1)), &faces)), 6.0 * 3.0);
 }
 
 #[test]
 fn faces_may_turn_either_way() {
     let mesh = mesh("[[0,0,0],[1,0,0],[0,1,0],[0,0,1]]", "[[0,2,1],[0,3,1],[1,3,2],[2,3,0]]");
     assert_eq!(mesh.triangles.len(), 4);
-    check(&mesh);
+    six_volumes(&mesh);
 }
 
 #[test]
 fn faces_that_cross_themselves_stay_closed() {
     let star = "[[0,3,0],[2,-3,0],[-3,1,0],[3,1,0],[-2,-3,0],[0,0,5]]";
     let faces = "[[0,1,2,3,4],[0,1,5],[1,2,5],[2,3,5],[3,4,5],[4,0,5]]";
-    check(&mesh(star, faces));
+    six_volumes(&mesh(star, faces));
     let keyhole = "[[0,0,0],[4,0,0],[0,4,0],[1,1,0],[2,1,0],[1,2,0],[0,0,5]]";
     let faces = "[[0,1,2,0,3,5,4,3],[0,1,6],[1,2,6],[2,0,6],[3,5,6],[5,4,6],[4,3,6]]";
-    check(&mesh(keyhole, faces));
+    six_volumes(&mesh(keyhole, faces));
 }

@@ -149,6 +149,8 @@ fn the_outermost_color_counts() {
         color([1, 0, 0]) color(\"blue\") cube(1); color(\"blue\", 0.25) cube(1); color([0, 0, 1, 0.25]) cube(1);";
     let [inside, outside, first, clear, also_clear] = &materials(text)[..] else { panic!("five primitives") };
     assert_eq!(inside, outside);
+    let text = "color([-1, -1, -1, 1]) color(\"red\") cube(1);";
+    assert_eq!(materials(text)[0].color, DVec3::X, "as OpenSCAD writes a colour that is none");
     assert_eq!((inside.color, inside.kd), (DVec3::X, 0.5));
     assert_eq!((first.color, first.kd), (DVec3::X, Material::default().kd));
     assert_eq!((clear.color, clear.kt), (DVec3::Z * 0.25, 0.75));

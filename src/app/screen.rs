@@ -272,7 +272,7 @@ mod tests {
             },
             times,
             objects: 9,
-            lattice: Some([4, 3, 5]),
+            space: crate::frame::Space::Lattice([4, 3, 5]),
             field: model.field(),
             total: Duration::from_millis(5),
             ..Frame::blank(math::Size::new(0, 0), cells)

@@ -203,7 +203,7 @@ mod tests {
     use super::*;
     use crate::app::model::Window;
     use crate::app::{Painter, Settings, keys::Action};
-    use crate::frame::Request;
+    use crate::frame::{Request, Space};
     use crate::glyph::{self, Paint, Palette};
     use crate::math::{self, Grid};
     use crate::scene::{Camera, Scene};
@@ -272,7 +272,7 @@ mod tests {
             },
             times,
             objects: 9,
-            space: crate::frame::Space::Lattice([4, 3, 5]),
+            space: Space::Lattice([4, 3, 5]),
             field: model.field(),
             total: Duration::from_millis(5),
             ..Frame::blank(math::Size::new(0, 0), cells)

@@ -60,5 +60,7 @@ pub fn title(file: &str) -> String {
 
 /// Says what the reader left out.
 pub fn say(notes: &[String]) {
-    notes.iter().for_each(|note| tell(note));
+    for note in notes {
+        tell(note);
+    }
 }

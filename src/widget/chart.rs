@@ -197,7 +197,7 @@ mod tests {
             },
             times,
             objects: 9,
-            lattice: Some([4, 3, 5]),
+            space: Space::Lattice([4, 3, 5]),
             field: [40.0, 25.0],
             ..Frame::blank(Size::new(0, 0), Grid::from_values(Size::new(0, 0), Vec::new()))
         }

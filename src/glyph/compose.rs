@@ -1,10 +1,15 @@
 //! A picture's light as character cells.
 
-use super::cell::{Cell, GlyphMode, Palette};
+use super::cell::Cell;
+use super::choice::{GlyphMode, Palette};
+use super::dots::{braille, half, half_in_color, quadrant, quadrant_in_color};
 use super::fit::BestFit;
+use super::paint::{ColorDepth, Paint};
+use super::pair::{Grays, PairFit, paint};
 use super::shade::{ascii, shade};
-use super::shape::{BLOCKS, HALVES};
-use crate::math::Grid;
+use super::shape::{BLOCKS, DOT_COUNT, DOTS, HALVES};
+use crate::math::{DVec3, Grid};
+use crate::shade::luminance;
 use crate::tone::Tone;
 
 /// The cells that show `light`, a gray in linear light per traced dot, with [`GlyphMode::dots_per_cell`] dots to a
@@ -24,19 +29,66 @@ use crate::tone::Tone;
 /// assert_eq!(cells[(0, 0)].glyph, '▌');
 /// ```
 pub fn compose(light: &Grid<f64>, mode: GlyphMode, palette: Palette, tone: Tone) -> Grid<Cell> {
-    match mode {
+    if let Palette::Color(depth) = palette {
+        return compose_color(&light.map(|&light| DVec3::splat(light)), mode, depth, tone);
+    }
+    let cells = match mode {
         GlyphMode::Shade => Grid::from_fn(light.size(), |column, row| {
             shade(tone.level(light[(column, row)]), palette, column, row)
         }),
         GlyphMode::Ascii => light.map(|&light| ascii(tone.level(light))),
-        GlyphMode::Blocks => BestFit::new(BLOCKS, palette.papers(), palette).compose(light, tone),
-        GlyphMode::Cp437 => BestFit::new(HALVES, palette.dim_papers(), palette).compose(light, tone),
-    }
+        GlyphMode::Half => half(light, palette, tone),
+        GlyphMode::Quadrant => quadrant(light, palette, tone),
+        GlyphMode::Braille => braille(light, tone, |_, _| Paint::Terminal),
+        GlyphMode::Blocks | GlyphMode::Cp437 => {
+            let shapes = if mode == GlyphMode::Blocks { BLOCKS } else { HALVES };
+            let papers = if mode == GlyphMode::Blocks { palette.papers() } else { palette.dim_papers() };
+            match palette {
+                Palette::Gray(_) => PairFit::new(shapes).compose_grays(light, &Grays::levels(), tone),
+                _ => BestFit::new(shapes, papers, palette).compose(light, tone),
+            }
+        }
+    };
+    at(palette.depth(), cells)
+}
+
+/// The cells that show `color`, three linear primaries per traced dot, as [`compose`] does, in any colours. There
+/// are no levels: `tone` changes luminance, nothing is rounded but to the terminal's depth. Where a cell can have one
+/// colour only beside the terminal's own (`ascii`, `braille`), its ink carries lightness and its colour the hue.
+pub fn compose_color(color: &Grid<DVec3>, mode: GlyphMode, depth: ColorDepth, tone: Tone) -> Grid<Cell> {
+    let light = || color.map(|&color| luminance(color));
+    let cells = match mode {
+        GlyphMode::Shade => color.map(|&color| Cell::flat(paint(tone.shown_color(color)))),
+        GlyphMode::Ascii => {
+            color.map(|&color| Cell { ink: hue(color), ..ascii(tone.level(luminance(color))) })
+        }
+        GlyphMode::Half => half_in_color(color, tone),
+        GlyphMode::Quadrant => quadrant_in_color(color, tone),
+        GlyphMode::Braille => braille(&light(), tone, |column, row| {
+            let dots = (0..DOT_COUNT as u32).map(|dot| {
+                let (x, y) = (dot % DOTS.width, dot / DOTS.width);
+                color[(column * DOTS.width + x, row * DOTS.height + y)]
+            });
+            hue(dots.sum())
+        }),
+        GlyphMode::Blocks => PairFit::new(BLOCKS).compose_colors(color, tone),
+        GlyphMode::Cp437 => PairFit::new(HALVES).compose_colors(color, tone),
+    };
+    at(depth, cells)
+}
+
+/// A colour at its brightest; white for no light.
+fn hue(color: DVec3) -> Paint {
+    let most = color.max_element();
+    paint(if most > 0.0 { color / most } else { DVec3::ONE })
+}
+
+fn at(depth: ColorDepth, cells: Grid<Cell>) -> Grid<Cell> {
+    if depth == ColorDepth::Direct { cells } else { cells.map(|cell| cell.at(depth)) }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::cell::Paint;
     use super::super::shape::coverage;
     use super::*;
     use crate::math::Size;

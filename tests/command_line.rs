@@ -161,7 +161,7 @@ mod a_still {
     /// A scene in which every term of the light shows: nine, divided by the way of about eight and k, is about 1.
     const SHINING: &str = "world(k = 1); light(at = [5, -9, 9], intensity = 9);\n\
         material(kd = 0.6, ks = 0.6, n = 6) cube(2, center = true);\n\
-        material(kd = 0.6, ks = 0.6, n = 6) sphere(1.3);\n";
+        material(kd = 0.6, ks = 0.6, n = 6) translate([2.5, 0, 0]) sphere(1.3);\n";
 
     #[test]
     fn follows_every_option() {

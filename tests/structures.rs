@@ -3,7 +3,7 @@
 mod request;
 mod scenery;
 
-use ray13::frame::{Frame, Studio};
+use ray13::frame::{Frame, Space, Studio};
 use ray13::math::{Bounds, DVec3, Size};
 use ray13::plan::StructureChoice;
 use ray13::scene::{Camera, Scene, Solid};
@@ -100,13 +100,14 @@ fn the_lattice_changes_no_dot() {
                 request.options.structure = structure;
                 studio.draw(&request)
             };
-            let (without, with) = (draw(StructureChoice::None), draw(StructureChoice::Lattice));
-            assert!(
-                without.lattice.is_none() && with.lattice.is_some(),
-                "{name}: the choice is not followed"
-            );
-            assert_same(&format!("{name}, {view}"), &without, &with);
-            walked += with.counts.cells_visited;
+            let without = draw(StructureChoice::None);
+            assert_eq!(without.space, Space::Whole, "{name}: the choice is not followed");
+            for (choice, what) in [(StructureChoice::Lattice, "lattice"), (StructureChoice::Tree, "tree")] {
+                let with = draw(choice);
+                assert_eq!(with.space.name(), what, "{name}: the choice is not followed");
+                assert_same(&format!("{name}, {view}, {what}"), &without, &with);
+                walked += with.counts.cells_visited;
+            }
         }
         assert!(walked > 0, "{name}: no cell was visited");
     }

@@ -8,16 +8,20 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use pty::{Pty, Size};
 use ray13::app::{self, Painter, Settings};
 use ray13::frame::{Frame, Request, Studio};
-use ray13::scene::{Camera, Scene};
+use ray13::math::DAffine3;
+use ray13::scene::{Camera, Material, MaterialId, Object, Primitive, Scene, Shape, Solid};
 
 const SMALLEST: Size = Size { columns: 80, rows: 25 };
 
 const VIEWER: &str = env!("CARGO_BIN_EXE_ray13");
 
-/// The viewer on the embedded scene, its first picture drawn.
+/// An embedded scene that looks different from every side.
+const SCENE: &str = "die";
+
+/// The viewer on the scene, its first picture drawn.
 fn viewer(size: Size) -> Pty {
-    let mut pty = Pty::start(&[VIEWER], size);
-    pty.wait_for("the first picture", |pty| pty.drawn());
+    let mut pty = Pty::start(&[VIEWER, SCENE], size);
+    pty.wait_for("the first picture", Reading::drawn);
     pty
 }
 
@@ -70,19 +74,19 @@ fn an_arrow_moves_the_eye_and_changes_the_picture() {
 fn the_screen_follows_the_size_of_the_terminal() {
     let mut pty = viewer(SMALLEST);
     pty.resize(Size { columns: 120, rows: 40 });
-    pty.wait_for("the larger screen", |pty| pty.drawn());
+    pty.wait_for("the larger screen", Reading::drawn);
     pty.resize(Size { columns: 40, rows: 10 });
     pty.wait_for("the picture alone", |pty| {
         let text = pty.text();
         !text.contains(['║', '═', '│']) && text.chars().any(|c| !c.is_whitespace())
     });
     pty.resize(SMALLEST);
-    pty.wait_for("the panels again", |pty| pty.drawn());
+    pty.wait_for("the panels again", Reading::drawn);
 }
 
 #[test]
 fn a_terminal_without_a_size_is_taken_as_80_by_25() {
-    let mut pty = Pty::start(&[VIEWER], Size { columns: 0, rows: 0 });
+    let mut pty = Pty::start(&[VIEWER, SCENE], Size { columns: 0, rows: 0 });
     pty.wait_for("the first picture", |pty| pty.size() == SMALLEST && pty.drawn());
 }
 
@@ -128,8 +132,8 @@ fn a_signal_leaves_the_terminal_as_it_was_and_ends_the_process_by_that_signal() 
 
 #[test]
 fn suspended_it_gives_the_terminal_back_and_continued_it_takes_it_again() {
-    let mut pty = Pty::start_job(&[VIEWER], SMALLEST);
-    pty.wait_for("the first picture", |pty| pty.drawn());
+    let mut pty = Pty::start_job(&[VIEWER, SCENE], SMALLEST);
+    pty.wait_for("the first picture", Reading::drawn);
     let picture = pty.picture();
     pty.send("\x1a");
     pty.wait_for("the shell", |pty| pty.text().contains("stopped modes=same") && pty.given_back());
@@ -139,15 +143,15 @@ fn suspended_it_gives_the_terminal_back_and_continued_it_takes_it_again() {
     pty.signal("TSTP");
     pty.wait_for("the shell again", |pty| pty.text().matches("stopped modes=same").count() == 2);
     pty.send("\n");
-    pty.wait_for("the viewer once more", |pty| pty.drawn());
+    pty.wait_for("the viewer once more", Reading::drawn);
     pty.send("q");
     pty.wait_for_end(0);
 }
 
 #[test]
 fn what_stops_only_the_process_does_not_spoil_the_screen() {
-    let mut pty = Pty::start_job(&[VIEWER], SMALLEST);
-    pty.wait_for("the first picture", |pty| pty.drawn());
+    let mut pty = Pty::start_job(&[VIEWER, SCENE], SMALLEST);
+    pty.wait_for("the first picture", Reading::drawn);
     // Nothing can give the terminal back before a SIGSTOP; the shell writes over the picture.
     pty.signal("STOP");
     pty.wait_for("the shell", |pty| pty.text().contains("modes=changed"));
@@ -169,8 +173,8 @@ fn without_a_shell_to_continue_it_the_viewer_does_not_stop() {
 fn a_lost_connection_leaves_no_process() {
     viewer(SMALLEST).hang_up();
     // In a session of its own the process gets no SIGHUP and has to notice by itself.
-    let mut pty = Pty::start(&["setsid", "-w", VIEWER], SMALLEST);
-    pty.wait_for("the first picture", |pty| pty.drawn());
+    let mut pty = Pty::start(&["setsid", "-w", VIEWER, SCENE], SMALLEST);
+    pty.wait_for("the first picture", Reading::drawn);
     pty.hang_up();
 }
 
@@ -230,7 +234,10 @@ fn start_broken(part: &str) -> Pty {
 #[ignore = "runs only inside the pseudo-terminal of a_panic_shows_its_message_on_the_terminal_as_it_was"]
 fn a_viewer_that_panics() {
     let Ok(part) = std::env::var(BROKEN_PART) else { return };
-    let studio = Studio::new(Scene::default());
+    let sphere = Primitive { shape: Shape::Sphere, map: DAffine3::IDENTITY, material: MaterialId(0) };
+    let object = Object { name: None, solid: Solid::Primitive(sphere) };
+    let scene = Scene { objects: vec![object], materials: vec![Material::default()], ..Scene::default() };
+    let studio = Studio::new(scene).unwrap();
     let broken = Broken { studio, in_tracer: part == "tracer", cameras: AtomicU32::new(0) };
     let settings = Settings { title: "broken.scene".to_owned(), ..Settings::default() };
     app::run(broken, settings).unwrap();

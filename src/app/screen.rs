@@ -3,8 +3,7 @@
 use std::time::Duration;
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Alignment, Rect};
-use ratatui::style::Style;
+use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, BorderType, Widget};
 
@@ -67,7 +66,6 @@ fn draw_panels(model: &Model, shown: Option<&Shown>, panels: &Panels, theme: &Th
     chart.render(panels.chart, buffer);
     if let Some(shown) = shown {
         FlowChart::new(&shown.frame)
-            .field(model.field())
             .shading(model.settings.options.shading)
             .sent(shown.bytes, shown.display)
             .styles(theme.text, theme.dim)
@@ -79,12 +77,12 @@ fn draw_panels(model: &Model, shown: Option<&Shown>, panels: &Panels, theme: &Th
         .style(theme.text)
         .title(Span::styled(" PICTURE ", theme.bright))
         .title(Line::from(format!(" view: {} ", model.view_name())).right_aligned());
-    if let Some(note) = note(&model.notes) {
+    if let Some(note) = note(model, shown) {
         picture = picture.title_bottom(note);
     }
     picture.render(panels.picture, buffer);
 
-    Line::from(status(model, shown)).style(theme.text).render(panels.status, buffer);
+    Line::from(status(model, shown, panels.status.width)).style(theme.text).render(panels.status, buffer);
     draw_bar(theme, panels.bar, buffer);
 }
 
@@ -123,29 +121,37 @@ fn draw_bar(theme: &Theme, area: Rect, buffer: &mut Buffer) {
     Line::from(spans).style(theme.text).render(area, buffer);
 }
 
-/// What the reader left out: the first note, and how many more there are.
-fn note(notes: &[String]) -> Option<Line<'_>> {
-    let first = notes.first()?;
-    let more = match notes.len() - 1 {
+/// What is shown otherwise than asked for: the first note, and how many more there are.
+fn note(model: &Model, shown: Option<&Shown>) -> Option<Line<'static>> {
+    let over = shown.and_then(|shown| shown.frame.over_budget).map(|over| over.to_string());
+    let mut notes = model.notes.iter().chain(over.as_ref());
+    let first = notes.next()?;
+    let more = match notes.count() {
         0 => String::new(),
         more => format!(" (+{more})"),
     };
-    Some(Line::from(format!(" {first}{more} ")).alignment(Alignment::Left).style(Style::new()))
+    Some(Line::from(format!(" {first}{more} ")))
 }
 
-fn status(model: &Model, shown: Option<&Shown>) -> String {
+fn status(model: &Model, shown: Option<&Shown>, columns: u16) -> String {
     let camera = &model.camera;
     let DVec3 { x, y, z } = camera.eye;
     let digits = decimals(motion::distance(camera));
     let [x, y, z] = [x, y, z].map(|coordinate| length(coordinate, digits));
     let [azimuth, elevation] = motion::direction(camera).map(tenths);
     let [across, down] = model.field().map(tenths);
-    let view = format!(" EYE {x} {y} {z}  DIR {azimuth} {elevation}  FIELD {across}×{down}");
-    shown.map_or(view.clone(), |shown| {
+    let mut parts = vec![
+        format!("EYE {x} {y} {z}"),
+        format!("DIR {azimuth} {elevation}"),
+        format!("FIELD {across}×{down}"),
+    ];
+    if let Some(shown) = shown {
         let ms = shown.total_ms();
-        let bytes = figures::bytes(shown.bytes);
-        format!("{view}  {}  {} fps  {bytes}/f", milliseconds(ms), rate(ms))
-    })
+        parts.extend([milliseconds(ms), rate(ms), figures::bytes(shown.bytes) + "/f"]);
+    }
+    let wide = format!(" {}", parts.join("  "));
+    // Long coordinates take the room from between the figures first.
+    if wide.chars().count() <= columns.into() { wide } else { format!(" {}", parts.join(" ")) }
 }
 
 /// How many decimals show a step of the keys, a fiftieth of the distance or so, at any scale of the scene.
@@ -172,19 +178,184 @@ fn without_sign_of_zero(text: String) -> String {
 }
 
 fn milliseconds(ms: f64) -> String {
-    if ms < 99.95 { format!("{ms:.1} ms") } else { format!("{ms:.0} ms") }
+    if ms < 9.95 { format!("{ms:.1} ms") } else { format!("{ms:.0} ms") }
 }
 
 /// Pictures per second if they followed each other without a pause.
 fn rate(ms: f64) -> String {
     match 1e3 / ms {
-        rate if rate < 9.95 => format!("{rate:.1}"),
+        rate if rate < 9.95 => format!("{rate:.1} fps"),
         // Beyond a thousand the clock says more about itself than about the picture.
-        rate if rate < 999.5 => format!("{rate:.0}"),
-        _ => ">999".to_owned(),
+        rate if rate < 999.5 => format!("{rate:.0} fps"),
+        _ => ">999 fps".to_owned(),
     }
 }
 
 fn middle_row(area: Rect) -> Rect {
     Rect { y: area.y + area.height / 2, height: area.height.min(1), ..area }
+}
+
+#[cfg(test)]
+mod tests {
+    use ratatui::buffer::Cell;
+    use ratatui::layout::Size;
+
+    use super::*;
+    use crate::app::model::Window;
+    use crate::app::{Painter, Settings, keys::Action};
+    use crate::frame::{Request, Space};
+    use crate::glyph::{self, Paint, Palette};
+    use crate::math::{self, Grid};
+    use crate::scene::{Camera, Scene};
+    use crate::stage::{Counts, Stage, StageTimes};
+
+    /// A scene of one named view and a note.
+    struct Still(Scene);
+
+    impl Painter for Still {
+        fn scene(&self) -> &Scene {
+            &self.0
+        }
+        fn camera(&self, index: usize, _aspect: f64) -> Camera {
+            self.0.views[index].clone()
+        }
+        fn draw(&self, _request: &Request) -> Frame {
+            unreachable!("the screen is drawn from a frame that is there")
+        }
+    }
+
+    fn still() -> Still {
+        let front = Camera {
+            name: Some("front".to_owned()),
+            eye: DVec3::new(0.0, -9.0, 3.0),
+            target: DVec3::ZERO,
+            up: DVec3::Z,
+            field: [40.0, 25.0],
+            zoom: 1.0,
+        };
+        let notes = vec!["line 12: hull() is left out".to_owned(), "line 14: text() is left out".to_owned()];
+        Still(Scene { views: vec![front], notes, ..Scene::default() })
+    }
+
+    fn model(width: u16, height: u16) -> Model {
+        let settings = Settings { title: "hanyang.scene".to_owned(), ..Settings::default() };
+        Model::new(&still(), settings, Window { cells: Size::new(width, height), ..Window::default() })
+    }
+
+    /// A disc on black, as large as the model's picture.
+    fn shown(model: &Model) -> Shown {
+        let picture = model.layout.picture;
+        let (width, height) = (f64::from(picture.width), f64::from(picture.height));
+        let cells =
+            Grid::from_fn(math::Size::new(picture.width.into(), picture.height.into()), |column, row| {
+                let x = (f64::from(column) + 0.5 - width / 2.0) / height;
+                let y = (f64::from(row) + 0.5 - height / 2.0) / height * 2.0;
+                let glyph = ['█', '▓', '▒', '░', ' '][((x * x + y * y) * 5.0).min(4.0) as usize];
+                glyph::Cell { glyph, ink: Paint::White, paper: Paint::Black }
+            });
+        let mut times = StageTimes::default();
+        times[Stage::Cell] = Duration::from_micros(2_600);
+        times[Stage::Solid] = Duration::from_micros(1_500);
+        times[Stage::Csg] = Duration::from_micros(300);
+        times[Stage::Shade] = Duration::from_micros(600);
+        let frame = Frame {
+            counts: Counts {
+                primary_rays: 7_600,
+                primary_hits: 3_100,
+                shadow_rays: 6_200,
+                shadow_hits: 400,
+                clipped_rays: 2_114,
+                cells_visited: 29_000,
+                primitive_tests: 19_320,
+                csg_evaluations: 5_000,
+                ..Counts::default()
+            },
+            times,
+            objects: 9,
+            space: Space::Lattice([4, 3, 5]),
+            field: model.field(),
+            total: Duration::from_millis(5),
+            ..Frame::blank(math::Size::new(0, 0), cells)
+        };
+        Shown { frame, bytes: 1_946, display: Duration::from_micros(200) }
+    }
+
+    fn drawn(model: &Model, shown: Option<&Shown>) -> Buffer {
+        let mut buffer = Buffer::empty(model.layout.screen);
+        draw(model, shown, &mut buffer);
+        buffer
+    }
+
+    fn text(buffer: &Buffer) -> String {
+        let rows = buffer.content.chunks(buffer.area.width.into());
+        rows.map(|row| row.iter().map(Cell::symbol).collect::<String>() + "\n").collect()
+    }
+
+    #[test]
+    fn the_whole_screen_at_80_by_25() {
+        let model = model(80, 25);
+        insta::assert_snapshot!(text(&drawn(&model, Some(&shown(&model)))));
+    }
+
+    #[test]
+    fn the_help_over_the_screen() {
+        let mut model = model(80, 25);
+        model.update(&still(), Some(Action::Help));
+        insta::assert_snapshot!(text(&drawn(&model, Some(&shown(&model)))));
+    }
+
+    #[test]
+    fn before_the_first_picture_the_screen_says_so() {
+        let text = text(&drawn(&model(80, 25), None));
+        assert!(text.contains(" tracing ") && text.contains(" EYE 0.0 -9.0 3.0 ") && !text.contains("fps"));
+    }
+
+    #[test]
+    fn no_size_of_screen_or_picture_is_too_small_or_too_large() {
+        let frames = [model(80, 25), model(1, 1), model(300, 100)].map(|model| shown(&model));
+        for (width, height) in [(1, 1), (2, 1), (40, 10), (79, 25), (80, 24), (80, 25), (200, 60)] {
+            let mut model = model(width, height);
+            for _ in 0..2 {
+                for shown in frames.iter().map(Some).chain([None]) {
+                    assert_eq!(drawn(&model, shown).area, model.layout.screen);
+                }
+                model.update(&still(), Some(Action::Help));
+            }
+        }
+    }
+
+    #[test]
+    fn below_80_by_25_the_picture_is_alone() {
+        let model = model(40, 10);
+        let text = text(&drawn(&model, Some(&shown(&model))));
+        assert!(text.contains('█') && !text.contains(['║', '│', 'R']), "{text}");
+    }
+
+    #[test]
+    fn names_from_outside_cannot_command_the_terminal() {
+        let mut model = model(80, 25);
+        model.settings.title = "a\x1b]0;b\x07\r\n.scene".to_owned();
+        model.camera.name = Some("c\u{9b}2J".to_owned());
+        model.notes = vec!["d\x1b[2J".to_owned()];
+        let buffer = drawn(&model, None);
+        assert!(buffer.content.iter().all(|cell| !cell.symbol().contains(char::is_control)));
+    }
+
+    #[test]
+    fn the_terminals_own_colours_mean_no_colour_anywhere() {
+        let mut model = model(80, 25);
+        model.settings.palette = Palette::Mono;
+        model.help = true;
+        let plain =
+            |cell: &Cell| cell.fg == ratatui::style::Color::Reset && cell.bg == ratatui::style::Color::Reset;
+        assert!(drawn(&model, None).content.iter().all(plain));
+    }
+
+    #[test]
+    fn coordinates_show_a_step_at_any_scale() {
+        assert_eq!([9.5, 0.05, 1e-12, 5e4].map(decimals), [1, 3, 9, 1]);
+        assert_eq!(length(-0.01, 1), "0.0");
+        assert_eq!(length(-9.04, 1), "-9.0");
+        assert_eq!(length(-1.5e30, 1), "-1.500e30");
+    }
 }

@@ -26,8 +26,9 @@ impl Tracer {
             while let Some(request) = inbox.take() {
                 // What a panicking painter leaves half done is not looked at again: the program ends.
                 let drawn = panic::catch_unwind(AssertUnwindSafe(|| painter.draw(&request)));
+                let panicked = drawn.is_err();
                 let event = drawn.map_or(Event::Panicked, |frame| Event::Drawn(Box::new(frame)));
-                if events.send(event).is_err() {
+                if events.send(event).is_err() || panicked {
                     return;
                 }
             }
@@ -85,5 +86,101 @@ impl Mailbox {
     fn lock(&self) -> MutexGuard<'_, Slot> {
         // Each change is a single assignment: the slot is whole after any panic.
         self.slot.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::mpsc::{self, Receiver};
+
+    use super::*;
+    use crate::frame::{Frame, Studio};
+    use crate::glyph::{GlyphMode, Palette};
+    use crate::math::Size;
+    use crate::plan::Options;
+    use crate::scene::{Camera, Scene};
+    use crate::tone::Tone;
+
+    /// Says when it begins a picture, and finishes it when it is told to.
+    struct Slow {
+        studio: Studio,
+        begun: Mutex<Sender<u32>>,
+        finish: Mutex<Receiver<()>>,
+    }
+
+    impl Painter for Slow {
+        fn scene(&self) -> &Scene {
+            self.studio.scene()
+        }
+        fn camera(&self, index: usize, aspect: f64) -> Camera {
+            self.studio.camera(index, aspect)
+        }
+        fn draw(&self, request: &Request) -> Frame {
+            self.begun.lock().unwrap().send(request.dots.width).unwrap();
+            self.finish.lock().unwrap().recv().expect("the order to finish");
+            self.studio.draw(request)
+        }
+    }
+
+    /// A request told apart by its width.
+    fn request(width: u32) -> Request {
+        Request {
+            camera: Studio::new(Scene::default()).unwrap().camera(0, 1.0),
+            dots: Size::new(width, 1),
+            dot_aspect: 1.0,
+            options: Options { threads: 1, ..Options::default() },
+            glyphs: GlyphMode::Shade,
+            palette: Palette::Dos,
+            tone: Tone::Lightness,
+        }
+    }
+
+    fn start() -> (Tracer, Receiver<u32>, Sender<()>, Receiver<Event>) {
+        let (begin, begun) = mpsc::channel();
+        let (finish, finished) = mpsc::channel();
+        let studio = Studio::new(Scene::default()).unwrap();
+        let slow = Slow { studio, begun: Mutex::new(begin), finish: Mutex::new(finished) };
+        let (sender, events) = mpsc::channel();
+        (Tracer::start(Arc::new(slow), sender).unwrap(), begun, finish, events)
+    }
+
+    #[test]
+    fn only_the_latest_of_the_waiting_requests_is_drawn() {
+        let (mut tracer, begun, finish, events) = start();
+        tracer.ask(request(1));
+        assert_eq!(begun.recv().unwrap(), 1);
+        for width in 2..=9 {
+            tracer.ask(request(width));
+        }
+        finish.send(()).unwrap();
+        assert_eq!(begun.recv().unwrap(), 9);
+        finish.send(()).unwrap();
+        for width in [1, 9] {
+            let Event::Drawn(frame) = events.recv().unwrap() else { panic!("a picture") };
+            assert_eq!(frame.cells.size().width, width);
+        }
+    }
+
+    #[test]
+    fn the_same_request_is_drawn_once() {
+        let (mut tracer, begun, finish, _events) = start();
+        for width in [1, 2] {
+            tracer.ask(request(width));
+            assert_eq!(begun.recv().unwrap(), width);
+            tracer.ask(request(width));
+            finish.send(()).unwrap();
+        }
+        drop(tracer);
+        assert_eq!(begun.iter().count(), 0);
+    }
+
+    #[test]
+    fn a_panic_is_an_event_and_ends_the_thread() {
+        let (mut tracer, begun, finish, events) = start();
+        drop(finish); // the order to finish never comes, and the painter panics
+        tracer.ask(request(1));
+        assert!(matches!(events.recv().unwrap(), Event::Panicked));
+        assert!(events.recv().is_err(), "the thread has dropped its sender");
+        assert_eq!(begun.recv().unwrap(), 1);
     }
 }

@@ -112,7 +112,7 @@ pub struct PictureArguments {
     /// Characters of the picture
     #[arg(long, value_enum, default_value = "blocks")]
     pub glyphs: Glyphs,
-    /// Colours of the picture [default: dos; mono where NO_COLOR is set and in txt]
+    /// Colours of the picture [default: dos; mono where `NO_COLOR` is set and in txt]
     #[arg(long, value_enum)]
     pub palette: Option<PaletteName>,
     /// How light becomes a level

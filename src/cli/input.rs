@@ -9,7 +9,7 @@ use crate::scene::{
 };
 
 use super::diagnostics;
-use super::error::CliError;
+use super::error::{CliError, tell};
 
 /// Reads a scene: a file, `-` for standard input, or an embedded scene where there is no file of that name.
 pub fn read(file: &str, skip_unsupported: bool) -> Result<Scene, CliError> {
@@ -61,6 +61,6 @@ pub fn title(file: &str) -> String {
 /// Says what the reader left out.
 pub fn say(notes: &[String]) {
     for note in notes {
-        eprintln!("{note}");
+        tell(note);
     }
 }

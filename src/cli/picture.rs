@@ -91,6 +91,8 @@ pub enum StructureName {
     None,
     /// The paper's lattice
     Lattice,
+    /// Lattices within lattices
+    Tree,
 }
 
 impl PictureArguments {
@@ -104,6 +106,7 @@ impl PictureArguments {
                 StructureName::Auto => StructureChoice::Auto,
                 StructureName::None => StructureChoice::None,
                 StructureName::Lattice => StructureChoice::Lattice,
+                StructureName::Tree => StructureChoice::Tree,
             },
             samples: self.samples,
             color: false,
@@ -113,12 +116,13 @@ impl PictureArguments {
 
     /// The palette asked for; else what `NO_COLOR` (<https://no-color.org>) leaves.
     pub fn palette(&self) -> Palette {
+        let forbidden = || std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
         match self.palette {
             Some(PaletteName::Dos) => Palette::Dos,
             Some(PaletteName::Gray) => Palette::Gray(color_depth()),
             Some(PaletteName::Mono) => Palette::Mono,
             Some(PaletteName::Color) => Palette::Color(color_depth()),
-            None if std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty()) => Palette::Mono,
+            None if forbidden() => Palette::Mono,
             None => Palette::Dos,
         }
     }
@@ -127,13 +131,12 @@ impl PictureArguments {
     pub fn request(&self, studio: &Studio, palette: Palette) -> Result<Request, CliError> {
         let glyphs = GlyphMode::from(self.glyphs);
         let per_cell = glyphs.dots_per_cell();
-        let (dots, dot_aspect) = match self.dots {
-            Some(dots) => (dots, 1.0),
-            None => {
-                let cells = self.cells.unwrap_or_else(screen);
-                let dots = Size::new(cells.width * per_cell.width, cells.height * per_cell.height);
-                (dots, CELL_ASPECT * f64::from(per_cell.height) / f64::from(per_cell.width))
-            }
+        let (dots, dot_aspect) = if let Some(dots) = self.dots {
+            (dots, 1.0)
+        } else {
+            let cells = self.cells.unwrap_or_else(screen);
+            let dots = Size::new(cells.width * per_cell.width, cells.height * per_cell.height);
+            (dots, CELL_ASPECT * f64::from(per_cell.height) / f64::from(per_cell.width))
         };
         let aspect = f64::from(dots.width) / f64::from(dots.height) * dot_aspect;
         let camera = self.camera.camera(studio, aspect)?;

@@ -27,8 +27,8 @@ pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
     let request = arguments.picture.request(&studio, palette(&arguments.picture, format))?;
     let mut frame = studio.draw(&request);
     frame.times[crate::stage::Stage::Objects] = read;
-    if let Some(reason) = &frame.without_lattice {
-        eprintln!("note: drawn without a lattice: {reason}");
+    if let Some(over) = &frame.over_budget {
+        return Err(CliError::Input(format!("{over}: use --structure tree")));
     }
     let writing = Instant::now();
     let bytes = encoded(&frame, &request, format, arguments.channel)?;

@@ -4,17 +4,18 @@ use std::time::Duration;
 
 use serde_json::{Map, Value, json};
 
-use crate::frame::{Built, Frame};
+use crate::frame::{Built, Frame, Space};
 use crate::stage::Stage;
 
 use super::arguments::StatsFormat;
+use super::error::tell;
 
 /// Says the figures on standard error.
 pub fn say(frame: &Frame, built: &Built, form: StatsFormat) {
     let figures = figures(frame, built);
     match form {
-        StatsFormat::Json => eprintln!("{}", Value::Object(figures)),
-        StatsFormat::Text => eprint!("{}", lines(&figures)),
+        StatsFormat::Json => tell(&Value::Object(figures).to_string()),
+        StatsFormat::Text => tell(lines(&figures).trim_end()),
     }
 }
 
@@ -26,7 +27,9 @@ pub fn figures(frame: &Frame, built: &Built) -> Map<String, Value> {
         .map(|stage| (stage.name().to_lowercase(), json!(ms(frame.times[stage]))))
         .collect();
     let mut all = Map::new();
-    let mut put = |key: &str, value: Value| all.insert(key.to_owned(), value);
+    let mut put = |key: &str, value: Value| {
+        all.insert(key.to_owned(), value);
+    };
     put("primary_rays", json!(counts.primary_rays));
     put("primary_hits", json!(counts.primary_hits));
     put("shadow_rays", json!(counts.shadow_rays));
@@ -38,14 +41,18 @@ pub fn figures(frame: &Frame, built: &Built) -> Map<String, Value> {
     put("primitive_tests", json!(counts.primitive_tests));
     put("csg_evaluations", json!(counts.csg_evaluations));
     put("truncated_rays", json!(counts.truncated_rays));
-    put("build_ms", json!(ms(built.assembling + built.lattice.unwrap_or_default())));
+    put("build_ms", json!(ms(built.assembling + built.cutting)));
     put("trace_ms", json!(ms(frame.trace)));
     put("total_ms", json!(ms(frame.total)));
     put("stage_ms", Value::Object(stages));
     put("threads", json!(frame.threads));
     put("engine", json!("exact"));
-    put("structure", json!(if frame.lattice.is_some() { "lattice" } else { "none" }));
-    put("lattice", json!(frame.lattice));
+    put("structure", json!(frame.space.name()));
+    match frame.space {
+        Space::Whole => {}
+        Space::Lattice(cells) => put("lattice_cells", json!(cells)),
+        Space::Tree(nodes) => put("tree_nodes", json!(nodes)),
+    }
     put("objects", json!(frame.objects));
     put("primitives", json!(frame.primitives));
     all

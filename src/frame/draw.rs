@@ -12,7 +12,7 @@ use crate::stage::{Counts, Meter, Probe, Silent, Stage, StageTimes, Stopwatch};
 use crate::trace::{Engine, Exact};
 use crate::view::{Lens, Picture, TILE, Tile, tiles};
 
-use super::{Frame, Request, Studio};
+use super::{Frame, Request, Space, Studio};
 
 /// One tile in this many is timed stage by stage: reading the clock at every change of stage costs about as much
 /// as the stage. A prime, so that the timed tiles do not stand in columns.
@@ -27,10 +27,8 @@ impl Studio {
         let wants_color = request.options.color || request.palette.is_color();
         let options = Options { color: wants_color, ..request.options };
         let plan = Plan::new(self.scene(), &self.assembly, &lens, &options);
-        let lattice = if plan.lattice { Some(self.lattice()) } else { None };
-        let without_lattice = lattice.and_then(Result::err).map(|e| e.to_string());
-        let lattice = lattice.and_then(Result::ok);
-        let engine = Exact::new(&self.assembly, lattice);
+        let (structure, over_budget) = self.structure(plan.structure);
+        let engine = Exact::new(&self.assembly, structure);
         let viewed = Instant::now();
 
         let workers = self.workers(request.options.threads);
@@ -52,7 +50,7 @@ impl Studio {
         };
         let mut times = shared_out(&times, trace);
         times[Stage::Objects] = self.built().assembling;
-        times[Stage::Lattice] = self.built().lattice.unwrap_or_default();
+        times[Stage::Lattice] = self.built().cutting;
         times[Stage::View] = viewed - start;
         times[Stage::Dither] = dithering.elapsed();
         Frame {
@@ -66,8 +64,8 @@ impl Studio {
             times,
             objects: self.assembly.objects.len(),
             primitives: self.assembly.primitives.len(),
-            lattice: lattice.map(|l| l.planes().dimensions()),
-            without_lattice,
+            space: Space::of(&structure),
+            over_budget,
             field: lens.field(),
             threads: workers.map_or(1, |pool| pool.current_num_threads()),
             trace,

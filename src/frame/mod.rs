@@ -4,5 +4,5 @@ mod draw;
 mod request;
 mod studio;
 
-pub use request::{Frame, Request};
+pub use request::{Frame, Request, Space};
 pub use studio::{Built, Studio};

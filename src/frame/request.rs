@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use crate::glyph::{Cell, GlyphMode, Palette};
+use crate::lattice::{OverBudget, Structure};
 use crate::math::{DVec3, Grid, Size};
 use crate::plan::Options;
 use crate::scene::Camera;
@@ -53,10 +54,10 @@ pub struct Frame {
     pub objects: usize,
     /// Primitives of all objects.
     pub primitives: usize,
-    /// Cells of the lattice along x, y and z; absent where the picture was made without one.
-    pub lattice: Option<[usize; 3]>,
-    /// Why the picture was made without a lattice although one was wanted.
-    pub without_lattice: Option<String>,
+    /// How space was cut.
+    pub space: Space,
+    /// Why that is a tree, where a lattice was asked for.
+    pub over_budget: Option<OverBudget>,
     /// The full angles of the field across and down, in degrees.
     pub field: [f64; 2],
     /// Worker threads that traced.
@@ -65,6 +66,37 @@ pub struct Frame {
     pub trace: Duration,
     /// From the request to the finished frame.
     pub total: Duration,
+}
+
+/// How space was cut for a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Space {
+    /// Not at all.
+    Whole,
+    /// By the paper's lattice, with this many cells along x, y and z.
+    Lattice([usize; 3]),
+    /// By lattices within lattices, this many.
+    Tree(usize),
+}
+
+impl Space {
+    /// What a structure looks like from outside.
+    pub(super) fn of(structure: &Structure) -> Self {
+        match structure {
+            Structure::None => Self::Whole,
+            Structure::Lattice(lattice, _) => Self::Lattice(lattice.planes().dimensions()),
+            Structure::Tree(tree, _) => Self::Tree(tree.nodes()),
+        }
+    }
+
+    /// The name on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Whole => "none",
+            Self::Lattice(_) => "lattice",
+            Self::Tree(_) => "tree",
+        }
+    }
 }
 
 impl Frame {
@@ -82,8 +114,8 @@ impl Frame {
             times: StageTimes::default(),
             objects: 0,
             primitives: 0,
-            lattice: None,
-            without_lattice: None,
+            space: Space::Whole,
+            over_budget: None,
             field: [0.0; 2],
             threads: 1,
             trace: Duration::ZERO,

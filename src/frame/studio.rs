@@ -3,7 +3,9 @@
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
-use crate::lattice::{Lattice, OverBudget};
+use crate::lattice::{Lattice, OverBudget, Structure, SubLattices, Tree};
+use crate::math::DVec3;
+use crate::plan::StructureChoice;
 use crate::scene::{Camera, Scene};
 use crate::solid::{Assembly, AssemblyError};
 use crate::view::framed;
@@ -16,6 +18,8 @@ pub struct Studio {
     pub(super) assembly: Assembly,
     assembling: Duration,
     lattice: OnceLock<(Result<Lattice, OverBudget>, Duration)>,
+    tree: OnceLock<(Tree, Duration)>,
+    subs: OnceLock<(SubLattices, Duration)>,
     /// The workers of the last picture, kept while the number of threads stays the same.
     workers: Mutex<Option<Workers>>,
 }
@@ -27,8 +31,8 @@ type Workers = (usize, Arc<rayon::ThreadPool>);
 pub struct Built {
     /// Putting the solids together.
     pub assembling: Duration,
-    /// Building the lattice; absent as long as none was wanted.
-    pub lattice: Option<Duration>,
+    /// Building lattice, tree and sub-lattices, as far as they were wanted.
+    pub cutting: Duration,
 }
 
 impl Studio {
@@ -37,7 +41,15 @@ impl Studio {
         let start = Instant::now();
         let assembly = Assembly::new(&scene)?;
         let assembling = start.elapsed();
-        Ok(Self { scene, assembly, assembling, lattice: OnceLock::new(), workers: Mutex::new(None) })
+        Ok(Self {
+            scene,
+            assembly,
+            assembling,
+            lattice: OnceLock::new(),
+            tree: OnceLock::new(),
+            subs: OnceLock::new(),
+            workers: Mutex::new(None),
+        })
     }
 
     /// The scene.
@@ -47,7 +59,12 @@ impl Studio {
 
     /// What was built so far.
     pub fn built(&self) -> Built {
-        Built { assembling: self.assembling, lattice: self.lattice.get().map(|(_, time)| *time) }
+        let times = [
+            self.lattice.get().map(|(_, time)| *time),
+            self.tree.get().map(|(_, time)| *time),
+            self.subs.get().map(|(_, time)| *time),
+        ];
+        Built { assembling: self.assembling, cutting: times.into_iter().flatten().sum() }
     }
 
     /// The camera of a view of the scene, by its index; the framing from the scene's bounds where it has none or
@@ -58,17 +75,37 @@ impl Studio {
 
     /// A camera that sees the whole scene.
     pub fn framed(&self, aspect: f64) -> Camera {
+        if self.assembly.objects.is_empty() {
+            // Nothing to see, from anywhere: as if a unit ball stood at the origin.
+            return framed(DVec3::length, aspect);
+        }
         framed(|v| self.assembly.support(v), aspect)
     }
 
     /// The lattice, built now if it was not before; else why there is none.
     pub fn lattice(&self) -> Result<&Lattice, OverBudget> {
-        let (lattice, _) = self.lattice.get_or_init(|| {
-            let start = Instant::now();
-            let lattice = Lattice::new(&self.assembly);
-            (lattice, start.elapsed())
-        });
+        let (lattice, _) = self.lattice.get_or_init(|| timed(|| Lattice::new(&self.assembly)));
         lattice.as_ref().map_err(|&e| e)
+    }
+
+    /// The tree, built now if it was not before.
+    pub fn tree(&self) -> &Tree {
+        &self.tree.get_or_init(|| timed(|| Tree::new(&self.assembly))).0
+    }
+
+    /// How space is cut for a plan, and why that is not the lattice that the plan wants.
+    pub(super) fn structure(&self, choice: StructureChoice) -> (Structure<'_>, Option<OverBudget>) {
+        if choice == StructureChoice::None {
+            return (Structure::None, None);
+        }
+        let subs = &self.subs.get_or_init(|| timed(|| SubLattices::new(&self.assembly))).0;
+        if choice == StructureChoice::Tree {
+            return (Structure::Tree(self.tree(), subs), None);
+        }
+        match self.lattice() {
+            Ok(lattice) => (Structure::Lattice(lattice, subs), None),
+            Err(over) => (Structure::Tree(self.tree(), subs), Some(over)),
+        }
     }
 
     /// Workers for a number of threads, 0 for one per processor. Where threads can not be had, the caller's alone.
@@ -81,4 +118,10 @@ impl Studio {
         *kept = Some((threads, Arc::clone(&pool)));
         Some(pool)
     }
+}
+
+fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
+    let start = Instant::now();
+    let done = work();
+    (done, start.elapsed())
 }

@@ -95,7 +95,16 @@ mod tests {
     use crate::tone::Level;
     use proptest::prelude::*;
 
-    const PALETTES: [Palette; 2] = [Palette::Dos, Palette::Mono];
+    /// With levels or the terminal's own ink.
+    const LEVELLED: [Palette; 3] = [Palette::Dos, Palette::Gray(ColorDepth::Direct), Palette::Mono];
+    const PALETTES: [Palette; 6] = [
+        Palette::Dos,
+        Palette::Gray(ColorDepth::Direct),
+        Palette::Gray(ColorDepth::Indexed),
+        Palette::Mono,
+        Palette::Color(ColorDepth::Direct),
+        Palette::Color(ColorDepth::Indexed),
+    ];
     const TONES: [Tone; 2] = [Tone::Lightness, Tone::Even];
 
     /// A screen of 5 × 3 cells of one light.
@@ -108,7 +117,7 @@ mod tests {
     fn flat_light_is_its_level_in_every_mode() {
         for k in 0..=240 {
             let light = f64::from(k) / 240.0;
-            for (palette, tone) in PALETTES.into_iter().flat_map(|p| TONES.map(|t| (p, t))) {
+            for (palette, tone) in LEVELLED.into_iter().flat_map(|p| TONES.map(|t| (p, t))) {
                 let cells = |mode| compose(&flat(mode, light), mode, palette, tone);
                 let shades = cells(GlyphMode::Shade);
                 assert_eq!(shades[(3, 2)], shade(tone.level(light), palette, 3, 2));
@@ -117,6 +126,41 @@ mod tests {
                 assert_eq!(cells(GlyphMode::Ascii)[(3, 2)], ascii(tone.level(light)));
             }
         }
+    }
+
+    #[test]
+    fn flat_light_is_one_gray_in_the_gray_palette() {
+        for level in Level::all() {
+            for mode in [GlyphMode::Blocks, GlyphMode::Cp437, GlyphMode::Quadrant, GlyphMode::Half] {
+                let palette = Palette::Gray(ColorDepth::Direct);
+                let cells = compose(&flat(mode, level.light()), mode, palette, Tone::Lightness);
+                let meant = Cell::flat(Paint::of_level(level));
+                assert!(cells.values().iter().all(|cell| *cell == meant), "{mode:?} {level:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn flat_colour_is_that_colour() {
+        let colour = DVec3::new(0.9, 0.3, 0.01);
+        for mode in GlyphMode::ALL {
+            let dots = flat(mode, 0.0).map(|_| colour);
+            let cells = compose_color(&dots, mode, ColorDepth::Direct, Tone::Lightness);
+            match mode {
+                GlyphMode::Ascii | GlyphMode::Braille => assert_eq!(cells[(1, 1)].ink, paint(colour / 0.9)),
+                _ => assert_eq!(cells[(1, 1)], Cell::flat(paint(colour))),
+            }
+            let indexed = compose_color(&dots, mode, ColorDepth::Indexed, Tone::Lightness);
+            assert_eq!(indexed[(1, 1)], cells[(1, 1)].at(ColorDepth::Indexed));
+        }
+    }
+
+    #[test]
+    fn the_even_tone_shows_luminance_and_keeps_hue() {
+        let colour = DVec3::new(0.4, 0.5, 0.5);
+        let shown = Tone::Even.shown_color(colour);
+        assert!((luminance(shown) - Tone::Even.shown(luminance(colour))).abs() < 1e-12);
+        assert!((shown.x / shown.y - 0.8).abs() < 1e-12);
     }
 
     #[test]
@@ -175,6 +219,12 @@ mod tests {
                 prop_assert!(" ░▒▓█▀▄▌▐".contains(cell.glyph));
                 prop_assert!(matches!(cell.paper, Paint::Black | Paint::LightGray));
             }
+            let levels: Vec<Paint> = Level::all().map(Paint::of_level).collect();
+            for mode in [GlyphMode::Blocks, GlyphMode::Quadrant, GlyphMode::Half, GlyphMode::Shade] {
+                for cell in compose(&light, mode, Palette::Gray(ColorDepth::Direct), tone).values() {
+                    prop_assert!(levels.contains(&cell.ink) && levels.contains(&cell.paper));
+                }
+            }
             for mode in GlyphMode::ALL {
                 for cell in compose(&light, mode, Palette::Mono, tone).values() {
                     prop_assert_eq!((cell.ink, cell.paper), (Paint::Terminal, Paint::Terminal));
@@ -185,7 +235,7 @@ mod tests {
 
         #[test]
         fn a_cell_depends_on_its_own_dots_only(light in any_light(), other in any_light()) {
-            for mode in [GlyphMode::Blocks, GlyphMode::Cp437] {
+            for mode in [GlyphMode::Blocks, GlyphMode::Cp437, GlyphMode::Braille] {
                 for palette in PALETTES {
                     // The middle cell of the upper row is kept, all around it is changed.
                     let mixed = Grid::from_fn(light.size(), |x, y| {

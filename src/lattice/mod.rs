@@ -7,13 +7,20 @@
 
 mod clip;
 mod planes;
+mod structure;
 mod sub;
+mod tree;
 
 pub use clip::{Outcode, entry};
 pub use planes::{Planes, SLACK, Step};
-pub use sub::SubLattice;
+pub use structure::Structure;
+pub use sub::{SubLattice, SubLattices};
+pub use tree::{MOST_POINTERS, Tree};
 
-use crate::solid::{Assembly, Body};
+use std::ops::ControlFlow;
+
+use crate::math::Ray;
+use crate::solid::Assembly;
 
 /// The most cells, and pointers to objects from them, that a lattice may have: 80 MB.
 pub const BUDGET: f64 = 1e7;
@@ -25,7 +32,6 @@ pub struct Lattice {
     /// By cell: where its objects start in `pointers`; one more than there are cells.
     starts: Vec<u32>,
     pointers: Vec<u32>,
-    subs: Vec<Option<SubLattice>>,
 }
 
 /// A lattice would need more than [`BUDGET`].
@@ -62,8 +68,7 @@ impl Lattice {
             list[ends[cell] as usize] = object as u32;
             ends[cell] += 1;
         });
-        let subs = sub_lattices(assembly);
-        Ok(Self { planes, starts, pointers: list, subs })
+        Ok(Self { planes, starts, pointers: list })
     }
 
     /// The objects that reach into a cell, ascending.
@@ -77,9 +82,20 @@ impl Lattice {
         &self.planes
     }
 
-    /// The sub-lattice of an object, where it has one.
-    pub fn sub(&self, object: usize) -> Option<&SubLattice> {
-        self.subs[object].as_ref()
+    /// Calls `visit` with the objects of each cell that the ray passes between `from` and `to`, in order, until it
+    /// breaks.
+    pub fn walk<B>(
+        &self,
+        ray: &Ray,
+        from: f64,
+        to: f64,
+        cells_visited: &mut u64,
+        mut visit: impl FnMut(&[u32], Step) -> ControlFlow<B>,
+    ) -> Option<B> {
+        self.planes.walk(ray, from, to, |step| {
+            *cells_visited += 1;
+            visit(self.objects_in(step.cell), step)
+        })
     }
 }
 
@@ -93,12 +109,4 @@ fn for_each_cell(planes: &Planes, ranges: &[[(usize, usize); 3]], mut f: impl Fn
             }
         }
     }
-}
-
-fn sub_lattices(assembly: &Assembly) -> Vec<Option<SubLattice>> {
-    let of = |object: &crate::solid::Object| match &object.body {
-        Body::Single(_) => None,
-        Body::Composite { tree, .. } => SubLattice::new(tree, &assembly.primitives, &object.bounds),
-    };
-    assembly.objects.iter().map(of).collect()
 }

@@ -4,13 +4,36 @@ use std::collections::HashMap;
 use std::ops::ControlFlow;
 
 use crate::math::{Bounds, DVec3, Ray};
-use crate::solid::{Expression, Primitive, Pruned, Tree};
+use crate::solid::{Assembly, Body, Expression, Object, Primitive, Pruned, Tree};
 
 use super::planes::{Planes, SLACK, Step};
 
 /// The most cells of one sub-lattice. Past it planes are left out, which costs tests but changes no hit: 64
 /// along each axis, where a cell is as small as a dot of a picture that the object fills.
 const MOST_CELLS: f64 = 262_144.0;
+
+/// The sub-lattices of all composite objects.
+#[derive(Clone, Debug)]
+pub struct SubLattices(Vec<Option<SubLattice>>);
+
+impl SubLattices {
+    /// Cuts every composite object of an assembly.
+    pub fn new(assembly: &Assembly) -> Self {
+        let of = |object: &Object| match &object.body {
+            Body::Single(_) => None,
+            Body::Composite { tree, .. } => SubLattice::new(tree, &assembly.primitives, &object.bounds),
+        };
+        let all: Vec<_> = assembly.objects.iter().map(of).collect();
+        // Most large scenes have no composite object at all.
+        Self(if all.iter().all(Option::is_none) { Vec::new() } else { all })
+    }
+
+    /// The sub-lattice of an object, where it has one.
+    #[inline]
+    pub fn of(&self, object: u32) -> Option<&SubLattice> {
+        self.0.get(object as usize)?.as_ref()
+    }
+}
 
 /// Cells of one composite object.
 #[derive(Clone, Debug)]

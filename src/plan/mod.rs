@@ -13,8 +13,9 @@ use crate::view::Lens;
 /// Everything that the later stages need to know.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// Whether a lattice is wanted. Whether it can be had within its budget shows when it is built.
-    pub lattice: bool,
+    /// How space is cut: what was asked for, or what suits the scene; never [`StructureChoice::Auto`]. Whether a
+    /// lattice can be had within its budget shows when it is built.
+    pub structure: StructureChoice,
     /// The constant of the depth term, in the scene's unit; absent where the division is left out.
     pub depth: Option<f64>,
     /// Whether any surface has a highlight that this shading model shows.
@@ -65,7 +66,7 @@ impl Plan {
         let gray = |c: DVec3| c.x == c.y && c.y == c.z;
         let channels = if lights.chain(surfaces).all(gray) { Channels::Gray } else { Channels::Three };
         Self {
-            lattice: wants_lattice(assembly, options.structure),
+            structure: suitable(assembly, options.structure),
             depth,
             highlight: phong && !lamps.is_empty() && scene.materials.iter().any(|m| m.ks > 0.0),
             shadows: options.shadows && !lamps.is_empty(),
@@ -76,15 +77,18 @@ impl Plan {
     }
 }
 
-/// A lattice over one primitive or two would only add its own steps.
-fn wants_lattice(assembly: &Assembly, choice: StructureChoice) -> bool {
-    match choice {
-        StructureChoice::None => false,
-        StructureChoice::Lattice => true,
-        StructureChoice::Auto => {
-            assembly.objects.len() > 2
-                || assembly.objects.iter().any(|o| matches!(&o.body, Body::Composite { .. }))
-        }
+/// Up to this many objects every object lies in so few cells that one lattice is walked faster than nodes are
+/// entered; above it the lattice's cells grow with the cube of the objects.
+const LATTICE_OBJECTS: usize = 8;
+
+/// A structure over one primitive or two would only add its own steps.
+fn suitable(assembly: &Assembly, choice: StructureChoice) -> StructureChoice {
+    let composite = || assembly.objects.iter().any(|o| matches!(&o.body, Body::Composite { .. }));
+    match (choice, assembly.objects.len()) {
+        (StructureChoice::Auto, 0..=2) if !composite() => StructureChoice::None,
+        (StructureChoice::Auto, 0..=LATTICE_OBJECTS) => StructureChoice::Lattice,
+        (StructureChoice::Auto, _) => StructureChoice::Tree,
+        (asked, _) => asked,
     }
 }
 

@@ -60,6 +60,8 @@ pub enum StructureChoice {
     Auto,
     /// No structure: every ray is tested against every object.
     None,
-    /// The paper's lattice.
+    /// The paper's lattice; a tree where that would pass its budget.
     Lattice,
+    /// Lattices within lattices.
+    Tree,
 }

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use crate::lattice::{self, Lattice, SLACK};
+use crate::lattice::{self, SLACK, Structure};
 use crate::math::{Bounds, DVec3, Ray};
 use crate::solid::{self, Assembly, Body, Crossing, Departure, Reach, first_of_expression, first_of_span};
 use crate::stage::{Meter, Probe, Stage};
@@ -13,11 +13,11 @@ use super::{Engine, Hit};
 /// so that the way to the world adds no rounding. The rest keeps surfaces at the world's limit ahead of the ray.
 const FAR: f64 = 1.0;
 
-/// The reference engine, over an assembly and, where there is one, its lattice.
+/// The reference engine, over an assembly and how its space is cut.
 #[derive(Clone, Copy, Debug)]
 pub struct Exact<'a> {
     assembly: &'a Assembly,
-    lattice: Option<&'a Lattice>,
+    structure: Structure<'a>,
     limit: Bounds,
 }
 
@@ -73,11 +73,11 @@ impl Memory {
 }
 
 impl<'a> Exact<'a> {
-    /// An engine over an assembly. Without a lattice every ray is tested against every object.
-    pub fn new(assembly: &'a Assembly, lattice: Option<&'a Lattice>) -> Self {
+    /// An engine over an assembly.
+    pub fn new(assembly: &'a Assembly, structure: Structure<'a>) -> Self {
         // Moved outward by what rounding may take from a hit at the limit.
         let limit = assembly.limit.padded(DVec3::splat(SLACK));
-        Self { assembly, lattice, limit }
+        Self { assembly, structure, limit }
     }
 
     /// The first crossing of one object, if it lies before `to`.
@@ -100,7 +100,7 @@ impl<'a> Exact<'a> {
             Body::Composite { whole, .. } => {
                 let primitives = &self.assembly.primitives;
                 let scratch = &mut memory.scratch;
-                match self.lattice.and_then(|l| l.sub(object as usize)) {
+                match self.structure.sub(object) {
                     None => {
                         let reach = Reach { from: 0.0, to };
                         first_of_expression(ray, whole, primitives, departure, reach, scratch, meter)
@@ -143,19 +143,19 @@ impl<'a> Exact<'a> {
                 memory.keep(object, crossing);
             }
         };
-        let Some(lattice) = self.lattice else {
+        if let Structure::None = self.structure {
             for object in 0..self.assembly.objects.len() as u32 {
                 test(object, memory, meter);
             }
             return memory.chosen();
-        };
+        }
         meter.at(Stage::Cell);
-        lattice.planes().walk(ray, entry, f64::INFINITY, |step| {
+        let mut visited = 0;
+        self.structure.walk(ray, entry, f64::INFINITY, &mut visited, |objects, step| {
             if step.from > memory.best_t() + SLACK {
                 return ControlFlow::Break(());
             }
-            meter.counts.cells_visited += 1;
-            for &object in lattice.objects_in(step.cell) {
+            for &object in objects {
                 if memory.first_time(object) {
                     test(object, memory, meter);
                     meter.at(Stage::Cell);
@@ -163,6 +163,7 @@ impl<'a> Exact<'a> {
             }
             ControlFlow::Continue(())
         });
+        meter.counts.cells_visited += visited;
         memory.chosen()
     }
 }
@@ -207,15 +208,15 @@ impl Engine for Exact<'_> {
         memory.tested.resize(self.assembly.objects.len(), 0);
         memory.start_ray();
         let blocks = |c: Crossing| c.t + c.error < distance;
-        let Some(lattice) = self.lattice else {
+        if let Structure::None = self.structure {
             return (0..self.assembly.objects.len() as u32).any(|object| {
                 self.object(object, ray, Some(departure), distance, memory, meter).is_some_and(blocks)
             });
-        };
+        }
         meter.at(Stage::Cell);
-        let found = lattice.planes().walk(ray, 0.0, distance, |step| {
-            meter.counts.cells_visited += 1;
-            for &object in lattice.objects_in(step.cell) {
+        let mut visited = 0;
+        let found = self.structure.walk(ray, 0.0, distance, &mut visited, |objects, _| {
+            for &object in objects {
                 if memory.first_time(object) {
                     let crossing = self.object(object, ray, Some(departure), distance, memory, meter);
                     meter.at(Stage::Cell);
@@ -226,6 +227,7 @@ impl Engine for Exact<'_> {
             }
             ControlFlow::Continue(())
         });
+        meter.counts.cells_visited += visited;
         found.is_some()
     }
 }

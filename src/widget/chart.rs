@@ -8,7 +8,7 @@ use ratatui_core::style::{Color, Style};
 use ratatui_core::widgets::Widget;
 
 use super::figures;
-use crate::frame::Frame;
+use crate::frame::{Frame, Space};
 use crate::plan::Shading;
 use crate::stage::{Counts, Stage, StageTimes};
 
@@ -25,8 +25,8 @@ pub struct FlowChart {
     counts: Counts,
     times: StageTimes,
     objects: usize,
-    lattice: Option<[usize; 3]>,
-    field: Option<[f64; 2]>,
+    space: Space,
+    field: [f64; 2],
     shading: Option<Shading>,
     bytes: Option<usize>,
     lit: Style,
@@ -47,20 +47,13 @@ impl FlowChart {
             counts: frame.counts,
             times: frame.times,
             objects: frame.objects,
-            lattice: frame.lattice,
-            field: None,
+            space: frame.space,
+            field: frame.field,
             shading: None,
             bytes: None,
             lit: Style::new().fg(Color::Gray),
             dim: Style::new().fg(Color::DarkGray),
         }
-    }
-
-    /// The field shown by VIEW: full angles across and down, in degrees.
-    #[must_use]
-    pub const fn field(mut self, field: [f64; 2]) -> Self {
-        self.field = Some(field);
-        self
     }
 
     /// The model shown by SHADE.
@@ -96,16 +89,23 @@ impl FlowChart {
         };
         match stage {
             Stage::Objects => counted(self.objects as u64),
-            Stage::Lattice => self.lattice.map_or_else(Line::idle, |[x, y, z]| {
-                let sides = format!("{x}×{y}×{z}");
-                let fits = sides.chars().count() <= COUNT_COLUMNS.into();
-                let cells = || figures::count(x.saturating_mul(y).saturating_mul(z) as u64);
-                Line { count: if fits { sides } else { cells() }, busy: true }
-            }),
-            Stage::View => self.field.map_or_else(Line::idle, |[across, down]| Line {
-                count: format!("{across:.0}×{down:.0}°"),
-                busy: true,
-            }),
+            Stage::Lattice => match self.space {
+                Space::Whole => Line::idle(),
+                Space::Tree(nodes) => {
+                    Line { count: format!("{} nod", figures::count(nodes as u64)), busy: true }
+                }
+                Space::Lattice([x, y, z]) => {
+                    let sides = format!("{x}×{y}×{z}");
+                    let fits = sides.chars().count() <= COUNT_COLUMNS.into();
+                    let cells = || figures::count(x.saturating_mul(y).saturating_mul(z) as u64);
+                    Line { count: if fits { sides } else { cells() }, busy: true }
+                }
+            },
+            Stage::View => match self.field {
+                // A frame that is still blank.
+                [0.0, 0.0] => Line::idle(),
+                [across, down] => Line { count: format!("{across:.0}×{down:.0}°"), busy: true },
+            },
             Stage::Ray => counted(rays),
             Stage::Clip => counted(counts.clipped_rays),
             Stage::Cell => mean(counts.cells_visited),
@@ -138,11 +138,10 @@ impl Line {
     }
 }
 
-/// A bar in steps of half a column. A stage that took any time shows at least one step.
+/// A bar in steps of half a column, rounded.
 fn bar(share: f64, columns: u16) -> String {
     let whole = usize::from(columns) * 2;
-    let steps =
-        (share * whole as f64).round().clamp(if share > 0.0 { 1.0 } else { 0.0 }, whole as f64) as usize;
+    let steps = ((share * whole as f64).round() as usize).min(whole);
     let mut bar = "█".repeat(steps / 2);
     bar.push_str(if steps % 2 == 1 { "▌" } else { "" });
     bar
@@ -198,8 +197,8 @@ mod tests {
             },
             times,
             objects: 9,
-            primitives: 14,
-            lattice: Some([4, 3, 5]),
+            space: Space::Lattice([4, 3, 5]),
+            field: [40.0, 25.0],
             ..Frame::blank(Size::new(0, 0), Grid::from_values(Size::new(0, 0), Vec::new()))
         }
     }
@@ -217,8 +216,7 @@ mod tests {
 
     #[test]
     fn each_stage_has_its_count_and_its_share() {
-        let chart =
-            FlowChart::new(&frame()).field([40.0, 25.0]).shading(Shading::Phong).sent(1_946, Duration::ZERO);
+        let chart = FlowChart::new(&frame()).shading(Shading::Phong).sent(1_946, Duration::ZERO);
         let (buffer, lines) = drawn(&chart, 24, 11);
         assert_eq!(
             lines,
@@ -231,7 +229,7 @@ mod tests {
                 " 6 CELL     2.1/ray ███░",
                 " 7 SOLID    1.4/ray █░░░",
                 " 8 CSG            - ░░░░",
-                " 9 SHADE    eq. (3) ▌░░░",
+                " 9 SHADE    eq. (3) ░░░░",
                 "10 DITHER        13 ░░░░",
                 "11 DISPLAY   1.9 KB ░░░░",
             ]
@@ -242,7 +240,7 @@ mod tests {
 
     #[test]
     fn a_large_lattice_shows_its_cells() {
-        let chart = FlowChart::new(&Frame { lattice: Some([128, 128, 100]), ..frame() });
+        let chart = FlowChart::new(&Frame { space: Space::Lattice([128, 128, 100]), ..frame() });
         assert!(drawn(&chart, 24, 2).1[1].contains(" 1.6 M"));
     }
 

@@ -10,7 +10,7 @@
 //! use ray13::tone::Tone;
 //! use ray13::widget::{FlowChart, Picture};
 //!
-//! let studio = Studio::new(Scene::default());
+//! let studio = Studio::new(Scene::default())?;
 //! let frame = studio.draw(&Request {
 //!     camera: studio.camera(0, 1.0),
 //!     dots: Size::new(20, 10),
@@ -25,6 +25,7 @@
 //! FlowChart::new(&frame).render(Rect::new(0, 0, 25, 11), &mut buffer);
 //! Picture(&frame.cells).render(Rect::new(26, 0, 20, 10), &mut buffer);
 //! assert_eq!(buffer[(3, 0)].symbol(), "O"); // of " 1 OBJECTS"
+//! # Ok::<(), ray13::solid::AssemblyError>(())
 //! ```
 
 mod chart;

@@ -1,0 +1,55 @@
+//! How the space of a picture is cut.
+
+use std::ops::ControlFlow;
+
+use crate::math::Ray;
+
+use super::{Lattice, Step, SubLattice, SubLattices, Tree};
+
+/// How the space of a picture is cut. Every structure leads to the same hits.
+#[derive(Clone, Copy, Debug)]
+pub enum Structure<'a> {
+    /// Not at all: every ray is tested against every object, and composite objects as a whole.
+    None,
+    /// The paper's lattice, with sub-lattices in composite objects.
+    Lattice(&'a Lattice, &'a SubLattices),
+    /// Lattices within lattices, with sub-lattices in composite objects.
+    Tree(&'a Tree, &'a SubLattices),
+}
+
+impl<'a> Structure<'a> {
+    /// Calls `visit` with the objects of each cell that the ray passes between `from` and `to`, in order, until it
+    /// breaks. Without a structure there are no cells.
+    pub fn walk<B>(
+        &self,
+        ray: &Ray,
+        from: f64,
+        to: f64,
+        cells_visited: &mut u64,
+        visit: impl FnMut(&[u32], Step) -> ControlFlow<B>,
+    ) -> Option<B> {
+        match self {
+            Self::None => None,
+            Self::Lattice(lattice, _) => lattice.walk(ray, from, to, cells_visited, visit),
+            Self::Tree(tree, _) => tree.walk(ray, from, to, cells_visited, visit),
+        }
+    }
+
+    /// The sub-lattice of an object, where it has one.
+    #[inline]
+    pub fn sub(&self, object: u32) -> Option<&'a SubLattice> {
+        match self {
+            Self::None => None,
+            Self::Lattice(_, subs) | Self::Tree(_, subs) => subs.of(object),
+        }
+    }
+
+    /// The name on the command line.
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Lattice(..) => "lattice",
+            Self::Tree(..) => "tree",
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! Rays through the tree, nearest cells first.
+
+use std::ops::ControlFlow;
+
+use crate::math::{DVec3, Ray};
+
+use super::super::planes::Step;
+use super::{Cell, Node, SIDE, Tree};
+
+/// How far apart in the mask the neighbours along each axis are.
+const STRIDE: [u32; 3] = [1, SIDE as u32, (SIDE * SIDE) as u32];
+
+/// What stays the same for all nodes on a ray's way.
+struct Walk<'a, 'v, V> {
+    tree: &'a Tree,
+    ray: &'a Ray,
+    /// 1 / d; infinite where the ray runs along an axis' planes.
+    inverse: DVec3,
+    visit: &'v mut V,
+    cells_visited: &'v mut u64,
+}
+
+impl Tree {
+    /// Calls `visit` with the objects of each full cell that the ray passes between `from` and `to`, and of each
+    /// node when it is entered, in order, until it breaks.
+    pub fn walk<B>(
+        &self,
+        ray: &Ray,
+        from: f64,
+        to: f64,
+        cells_visited: &mut u64,
+        mut visit: impl FnMut(&[u32], Step) -> ControlFlow<B>,
+    ) -> Option<B> {
+        let inverse = ray.d.recip();
+        let mut walk = Walk { tree: self, ray, inverse, visit: &mut visit, cells_visited };
+        // The root is the first node, for it is made before its cells.
+        match walk.node(&self.nodes[0], from, to) {
+            ControlFlow::Break(value) => Some(value),
+            ControlFlow::Continue(()) => None,
+        }
+    }
+}
+
+impl<B, V: FnMut(&[u32], Step) -> ControlFlow<B>> Walk<'_, '_, V> {
+    fn node(&mut self, node: &Node, from: f64, to: f64) -> ControlFlow<B> {
+        *self.cells_visited += 1;
+        if node.own.count > 0 {
+            (self.visit)(self.tree.list(node.own), Step { cell: 0, from, to })?;
+        }
+        if node.full == 0 {
+            return ControlFlow::Continue(());
+        }
+        let start = self.ray.at(from);
+        let mut at = [0_u8; 3];
+        let mut next = [f64::INFINITY; 3];
+        let mut bit = 0;
+        for axis in 0..3 {
+            let planes = &node.planes[axis][..node.cuts[axis] as usize];
+            at[axis] = planes.iter().filter(|&&p| p <= start[axis]).count() as u8;
+            bit += u32::from(at[axis]) * STRIDE[axis];
+            next[axis] = self.leaves_at(node, axis, at[axis]);
+        }
+        let mut now = from;
+        loop {
+            let axis = if next[0] <= next[1] && next[0] <= next[2] {
+                0
+            } else if next[1] <= next[2] {
+                1
+            } else {
+                2
+            };
+            // Rounding may put the next plane a little behind the start.
+            let end = next[axis].max(now).min(to);
+            if node.full >> bit & 1 == 1 {
+                let before = (node.full & ((1 << bit) - 1)).count_ones();
+                match self.tree.cells[(node.first_cell + before) as usize] {
+                    Cell::Objects(list) => {
+                        *self.cells_visited += 1;
+                        (self.visit)(self.tree.list(list), Step { cell: bit as usize, from: now, to: end })?;
+                    }
+                    Cell::Node(index) => self.node(&self.tree.nodes[index as usize], now, end)?,
+                }
+            }
+            if next[axis] >= to {
+                return ControlFlow::Continue(());
+            }
+            now = end;
+            if self.ray.d[axis] > 0.0 {
+                at[axis] += 1;
+                bit += STRIDE[axis];
+            } else {
+                at[axis] -= 1;
+                bit -= STRIDE[axis];
+            }
+            next[axis] = self.leaves_at(node, axis, at[axis]);
+        }
+    }
+
+    /// Where the ray leaves a slab; infinite where it leaves the node first.
+    #[inline]
+    fn leaves_at(&self, node: &Node, axis: usize, slab: u8) -> f64 {
+        let d = self.ray.d[axis];
+        let cuts = node.cuts[axis];
+        let plane = if d > 0.0 && slab < cuts {
+            slab
+        } else if d < 0.0 && slab > 0 {
+            slab - 1
+        } else {
+            return f64::INFINITY;
+        };
+        (node.planes[axis][plane as usize] - self.ray.o[axis]) * self.inverse[axis]
+    }
+}

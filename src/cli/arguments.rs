@@ -65,9 +65,9 @@ pub struct RenderArguments {
     /// How the picture is written [default: by the ending of -o; else ans on a terminal, txt elsewhere]
     #[arg(long, value_enum)]
     pub format: Option<Format>,
-    /// What the values of a pfm are
-    #[arg(long, value_enum, default_value = "light")]
-    pub channel: Channel,
+    /// Raw values in place of levels: light in png, pgm, ppm and pfm, all others in pfm only [default: light in pfm]
+    #[arg(long, value_enum)]
+    pub channel: Option<Channel>,
     /// Write to this file [default: standard output]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
@@ -162,8 +162,12 @@ pub enum Format {
     Ans,
     /// One character per dot, 0 to 9 and A to C: the form to keep in a test
     Levels,
-    /// One pixel per dot, at its level's gray
+    /// One pixel per dot, at its level's gray, or in colour with --palette color
     Png,
+    /// One pixel per dot, at its level's gray, as a portable gray map
+    Pgm,
+    /// The same as png, as a portable pixel map
+    Ppm,
     /// Raw values of --channel, as floats
     Pfm,
 }
@@ -171,7 +175,7 @@ pub enum Format {
 /// Raw values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Channel {
-    /// Linear light
+    /// Linear light; its three primaries with --palette color
     Light,
     /// Distance from the eye, infinite where nothing is hit
     Depth,

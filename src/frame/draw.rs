@@ -25,9 +25,10 @@ impl Studio {
         let picture = Picture { dots: request.dots, dot_aspect: request.dot_aspect };
         let lens = Lens::new(&request.camera, &picture);
         let plan = Plan::new(self.scene(), &self.assembly, &lens, &request.options);
+        let viewed = Instant::now();
         let (structure, over_budget) = self.structure(plan.structure);
         let engine = Exact::new(&self.assembly, structure);
-        let viewed = Instant::now();
+        let tracing = Instant::now();
 
         let workers = self.workers(request.options.threads);
         let work = || match plan.channels {
@@ -35,7 +36,7 @@ impl Studio {
             Channels::Three => self.trace::<DVec3>(&engine, &plan, &lens, request),
         };
         let traced = workers.as_ref().map_or_else(work, |pool| pool.install(work));
-        let trace = viewed.elapsed();
+        let trace = tracing.elapsed();
 
         let Traced { light, depth, normal, object, counts, times } = traced;
         let dithering = Instant::now();

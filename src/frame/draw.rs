@@ -27,9 +27,10 @@ impl Studio {
         let wants_color = request.options.color || request.palette.is_color();
         let options = Options { color: wants_color, ..request.options };
         let plan = Plan::new(self.scene(), &self.assembly, &lens, &options);
+        let viewed = Instant::now();
         let (structure, over_budget) = self.structure(plan.structure);
         let engine = Exact::new(&self.assembly, structure);
-        let viewed = Instant::now();
+        let tracing = Instant::now();
 
         let workers = self.workers(request.options.threads);
         let work = || match plan.channels {
@@ -37,7 +38,7 @@ impl Studio {
             Channels::Three => self.trace::<DVec3>(&engine, &plan, &lens, request.dots),
         };
         let traced = workers.as_ref().map_or_else(work, |pool| pool.install(work));
-        let trace = viewed.elapsed();
+        let trace = tracing.elapsed();
 
         let Traced { light, color, depth, normal, object, counts, times } = traced;
         let color = Some(color).filter(|_| wants_color);

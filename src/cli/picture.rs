@@ -6,7 +6,7 @@ use crate::frame::{Request, Studio};
 use crate::glyph::{ColorDepth, GlyphMode, Palette};
 use crate::math::Size;
 use crate::plan::{Options, Shading, StructureChoice};
-use crate::scene::{Camera, Scene};
+use crate::scene::{Camera, FieldSpan, Scene};
 use crate::tone::Tone;
 
 use super::arguments::{CameraArguments, PictureArguments};
@@ -208,6 +208,7 @@ impl CameraArguments {
             target: self.target.unwrap_or(base.target),
             up: self.up.unwrap_or(base.up),
             field: self.field.unwrap_or(base.field),
+            span: if self.field.is_some() { FieldSpan::Edges } else { base.span },
             zoom: self.zoom.unwrap_or(base.zoom),
             ..base
         };

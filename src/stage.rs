@@ -166,7 +166,7 @@ pub trait Probe {
 pub struct Silent;
 
 impl Probe for Silent {
-    #[inline(always)]
+    #[inline]
     fn at(&mut self, _: Stage) {}
 }
 
@@ -215,7 +215,7 @@ impl<P: Probe> Meter<P> {
     }
 
     /// The work from here on belongs to `stage`.
-    #[inline(always)]
+    #[inline]
     pub fn at(&mut self, stage: Stage) {
         self.probe.at(stage);
     }

@@ -108,6 +108,7 @@ const fn name(shading: Shading) -> &'static str {
         Shading::Lambert => "diffuse",
         Shading::Depth => "depth",
         Shading::Phong => "highlight",
+        Shading::Whitted => "mirror, glass",
     }
 }
 
@@ -178,7 +179,7 @@ fn without_sign_of_zero(text: String) -> String {
 }
 
 fn milliseconds(ms: f64) -> String {
-    if ms < 99.95 { format!("{ms:.1} ms") } else { format!("{ms:.0} ms") }
+    if ms < 9.95 { format!("{ms:.1} ms") } else { format!("{ms:.0} ms") }
 }
 
 /// Pictures per second if they followed each other without a pause.
@@ -203,7 +204,7 @@ mod tests {
     use super::*;
     use crate::app::model::Window;
     use crate::app::{Painter, Settings, keys::Action};
-    use crate::frame::Request;
+    use crate::frame::{Request, Space};
     use crate::glyph::{self, Paint, Palette};
     use crate::math::{self, Grid};
     use crate::scene::{Camera, Scene};
@@ -272,7 +273,7 @@ mod tests {
             },
             times,
             objects: 9,
-            lattice: Some([4, 3, 5]),
+            space: Space::Lattice([4, 3, 5]),
             field: model.field(),
             total: Duration::from_millis(5),
             ..Frame::blank(math::Size::new(0, 0), cells)

@@ -1,5 +1,6 @@
 //! What can go wrong, and the exit code that says so.
 
+use std::io::Write;
 use std::process::ExitCode;
 
 use crate::app::AppError;
@@ -30,9 +31,13 @@ impl CliError {
         }
     }
 
-    /// Says it on standard error. Where even that fails there is nobody to tell.
+    /// Says it on standard error.
     pub fn report(&self) {
-        use std::io::Write;
-        let _ = writeln!(std::io::stderr(), "{self}");
+        tell(&self.to_string());
     }
+}
+
+/// Says a line on standard error. Where even that fails, as after a hang-up, there is nobody to tell.
+pub fn tell(line: &str) {
+    let _ = writeln!(std::io::stderr(), "{line}");
 }

@@ -68,9 +68,7 @@ fn view(arguments: &ViewerArguments) -> Result<(), CliError> {
         tone: picture.tone.into(),
     };
     app::run(studio, settings)?;
-    for note in notes {
-        eprintln!("ray13: {note}");
-    }
+    input::say(&notes);
     Ok(())
 }
 

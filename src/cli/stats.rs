@@ -8,13 +8,14 @@ use crate::frame::{Built, Frame, Space};
 use crate::stage::Stage;
 
 use super::arguments::StatsFormat;
+use super::error::tell;
 
 /// Says the figures on standard error.
 pub fn say(frame: &Frame, built: &Built, form: StatsFormat) {
     let figures = figures(frame, built);
     match form {
-        StatsFormat::Json => eprintln!("{}", Value::Object(figures)),
-        StatsFormat::Text => eprint!("{}", lines(&figures)),
+        StatsFormat::Json => tell(&Value::Object(figures).to_string()),
+        StatsFormat::Text => tell(lines(&figures).trim_end()),
     }
 }
 

@@ -4,6 +4,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 use crate::lattice::{Lattice, OverBudget, Structure, SubLattices, Tree};
+use crate::math::DVec3;
 use crate::plan::StructureChoice;
 use crate::scene::{Camera, Scene};
 use crate::solid::{Assembly, AssemblyError};
@@ -74,6 +75,10 @@ impl Studio {
 
     /// A camera that sees the whole scene.
     pub fn framed(&self, aspect: f64) -> Camera {
+        if self.assembly.objects.is_empty() {
+            // Nothing to see, from anywhere: as if a unit ball stood at the origin.
+            return framed(DVec3::length, aspect);
+        }
         framed(|v| self.assembly.support(v), aspect)
     }
 

@@ -9,5 +9,5 @@ mod ray;
 pub use bounds::Bounds;
 pub use glam::{DAffine3, DMat3, DVec2, DVec3};
 pub use grid::{Grid, Size};
-pub use placement::Placement;
+pub use placement::{Placement, is_singular};
 pub use ray::Ray;

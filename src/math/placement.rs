@@ -1,5 +1,7 @@
 //! The inverse of an affine map, at any scale.
 
+use robust::{Coord3D, orient3d};
+
 use super::{DAffine3, DMat3, DVec3};
 
 /// Where a unit shape stands: `world = linear · unit + center`, and back.
@@ -17,28 +19,46 @@ impl Placement {
     /// The placement of a map; `None` where the map is singular or not finite.
     ///
     /// Rows and columns are brought to magnitudes near 1 by powers of two before the inversion and back after
-    /// it: both are exact, so no scale overflows and a singular map is one whose columns really are dependent
-    /// within rounding, however small it is.
+    /// it: both are exact, so no scale overflows.
     pub fn new(map: &DAffine3) -> Option<Self> {
         let linear = map.matrix3;
+        if !map.is_finite() || is_singular(&linear) {
+            return None;
+        }
         let columns = power_of_two_near(column_sizes(&linear))?;
         let scaled = linear * DMat3::from_diagonal(columns.recip());
         let rows = power_of_two_near(column_sizes(&scaled.transpose()))?;
         let even = DMat3::from_diagonal(rows.recip()) * scaled;
-        // The determinant of a matrix whose entries are at most 2 is a sum of six products: rounding leaves up
-        // to 6 · 8 · 3 ulps of 1 where the exact value is 0.
-        let determinant = even.determinant();
-        if determinant.is_nan() || determinant.abs() <= 144.0 * f64::EPSILON {
-            return None;
-        }
         let inverse =
             DMat3::from_diagonal(columns.recip()) * even.inverse() * DMat3::from_diagonal(rows.recip());
-        (inverse.is_finite() && map.translation.is_finite()).then_some(Self {
-            linear,
-            inverse,
-            center: map.translation,
-        })
+        inverse.is_finite().then_some(Self { linear, inverse, center: map.translation })
     }
+}
+
+/// Whether the determinant is 0, decided exactly.
+///
+/// Columns and then rows are scaled by powers of two until their largest entries are in `1..2`: that neither
+/// rounds nor changes the sign, and keeps every product far from overflow. Shewchuk's adaptive predicate then
+/// gives the sign of the determinant without rounding.
+pub fn is_singular(matrix: &DMat3) -> bool {
+    let mut matrix = *matrix;
+    for _ in 0..2 {
+        for axis in 0..3 {
+            let largest = matrix.col(axis).abs().max_element();
+            if largest == 0.0 {
+                return true;
+            }
+            let exponent = libm::ilogb(largest);
+            let scaled = matrix.col(axis).to_array().map(|entry| libm::scalbn(entry, -exponent));
+            *matrix.col_mut(axis) = DVec3::from_array(scaled);
+        }
+        matrix = matrix.transpose();
+    }
+    let [a, b, c] = [0, 1, 2].map(|axis| {
+        let DVec3 { x, y, z } = matrix.col(axis);
+        Coord3D { x, y, z }
+    });
+    orient3d(a, b, c, Coord3D { x: 0.0, y: 0.0, z: 0.0 }) == 0.0
 }
 
 fn column_sizes(m: &DMat3) -> DVec3 {
@@ -82,8 +102,19 @@ mod tests {
             let flat =
                 DMat3::from_cols(DVec3::X * s, DVec3::new(0.3, 0.7, 0.0) * s, DVec3::new(0.1, 0.9, 0.0) * s);
             assert!(Placement::new(&DAffine3::from_mat3(flat)).is_none());
-            let twice = DMat3::from_cols(DVec3::splat(0.1 * s), DVec3::splat(0.3 * s), DVec3::Z * s);
-            assert!(Placement::new(&DAffine3::from_mat3(twice)).is_none());
         }
+    }
+
+    #[test]
+    fn singular_means_exactly_so() {
+        let flat = DMat3::from_cols_array(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]);
+        assert!(is_singular(&flat));
+        assert!(is_singular(&(flat * libm::scalbn(1.0, -500))));
+        let nearly = DMat3::from_cols_array(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0 + 2e-15]);
+        assert!(!is_singular(&nearly));
+        for scale in [1e-300, 1e-150, 1.0, 1e150, 1e300] {
+            assert!(!is_singular(&DMat3::from_diagonal(DVec3::new(scale, 1.0, scale))), "{scale}");
+        }
+        assert!(is_singular(&DMat3::from_diagonal(DVec3::new(1.0, 0.0, 1.0))));
     }
 }

@@ -53,7 +53,7 @@ impl Diagnostic {
     }
 }
 
-/// Why an input could not be read: at least one error, in the order found.
+/// Why an input could not be read: at least one error, in the order of their places.
 ///
 /// Its [`Display`](fmt::Display) is plain text, `file:line:column: error: …` and the advice, a line each.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -62,7 +62,7 @@ pub struct Diagnostics {
     pub source_name: String,
     /// The text that the spans are of; empty where the input is no text.
     pub source: Arc<str>,
-    /// What was found, at most [`MAX_ERRORS`] errors.
+    /// What was found: at most 20 errors, and as many notes.
     pub list: Vec<Diagnostic>,
     /// Whether reading stopped early because there were too many errors.
     pub stopped: bool,
@@ -172,7 +172,8 @@ impl Sink {
         let stopped = self.is_full();
         if !self.errors.is_empty() {
             let source_name = source_name.to_owned();
-            let list = self.errors.into_iter().chain(self.notes).collect();
+            let mut list: Vec<_> = self.errors.into_iter().chain(self.notes).collect();
+            list.sort_by_key(|diagnostic| diagnostic.span.start);
             return Err(Diagnostics { source_name, source: Arc::from(source), list, stopped });
         }
         let mut notes: Vec<String> = self

@@ -287,7 +287,7 @@ impl Camera {
     pub fn check(&self) -> Result<(), CameraError> {
         let finite = self.eye.is_finite() && self.target.is_finite() && self.up.is_finite();
         let angles = self.field.iter().all(|&a| a > 0.0 && a < 180.0);
-        if !finite || !angles || !(self.zoom > 0.0 && self.zoom.is_finite()) {
+        if !(finite && angles && self.zoom > 0.0 && self.zoom.is_finite()) {
             return Err(CameraError::OutOfRange);
         }
         let sight = self.target - self.eye;

@@ -8,6 +8,7 @@ mod crossing;
 mod expression;
 mod face;
 mod facets;
+mod inside;
 mod mesh;
 mod patch;
 mod primitive;

@@ -44,7 +44,7 @@ fn first(solid: &scene::Solid, o: [f64; 3], d: [f64; 3]) -> Option<(f64, u32, bo
         ..scene::Scene::default()
     };
     let assembly = Assembly::new(&scene).unwrap();
-    let Some(object) = assembly.objects.first() else { return None };
+    let object = assembly.objects.first()?;
     let ray = assembly.ray(&Ray::new(DVec3::from(o), DVec3::from(d).normalize()));
     let mut meter = Meter::new(Silent);
     let found = match &object.body {

@@ -2,7 +2,7 @@
 //!
 //! The cost of a way through a node is the steps from cell to cell and the tests in them. Along one axis the
 //! expected tests of a slab are its share of the node's surface times the objects that reach into it; over three
-//! axes the shares are taken as independent. (MacDonald and Booth: Heuristics for ray tracing using space
+//! axes the shares are taken as independent. (J. D. `MacDonald` and K. S. Booth: Heuristics for ray tracing using space
 //! subdivision, 1990.)
 
 use crate::math::Bounds;

@@ -223,7 +223,9 @@ impl<'a> Parser<'a, '_> {
                 let token = self.take();
                 Value::Number(self.finite(number, token)?)
             }
-            _ if negative.is_some() => return Err(self.expected("a number after the sign")),
+            _ if negative.is_some() && !matches!(self.token.text, "inf" | "nan") => {
+                return Err(self.expected("a number after the sign"));
+            }
             TokenKind::NumberWithUnit => return Err(self.unit()),
             TokenKind::Text => Value::Text(unescaped(self.take().text)),
             TokenKind::Word => self.word_value()?,

@@ -89,7 +89,8 @@ impl Value<'_> {
         match self {
             Value::Undef => "undef".into(),
             Value::Flag(flag) => flag.to_string(),
-            Value::Number(number) => format!("the number {number:?}"),
+            Value::Number(number) => format!("the number {}", short(*number)),
+            Value::Text(text) if text.is_empty() => "an empty text".into(),
             Value::Text(_) => "a text".into(),
             Value::List(items) if items.is_empty() => "an empty list".into(),
             Value::List(items) if items.iter().all(|item| matches!(item.value, Value::Number(_))) => {
@@ -98,4 +99,12 @@ impl Value<'_> {
             Value::List(_) => "a list".into(),
         }
     }
+}
+
+/// A number as a person would write it: with an exponent where it has very many digits.
+pub fn short(number: f64) -> String {
+    // An f64 has up to 17 significant digits; a sign, a point and some zeros may come with them.
+    const LONGEST: usize = 21;
+    let plain = number.to_string();
+    if plain.len() <= LONGEST { plain } else { format!("{number:e}") }
 }

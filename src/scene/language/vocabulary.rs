@@ -109,7 +109,7 @@ pub enum Takes {
     Offset,
     /// A number or `[x, y, z]`, above 0.
     Size,
-    /// A number or `[x, y, z]`, not 0.
+    /// A number or `[x, y, z]` or `[x, y]`, not 0.
     Factor,
     /// A number or `[x, y, z]` or `[x, y]`.
     Angles,
@@ -133,22 +133,22 @@ impl Takes {
     /// For messages and the documentation.
     pub fn describe(self) -> &'static str {
         match self {
-            Self::Positive => "number above 0",
-            Self::NotNegative => "number, 0 or more",
-            Self::Share => "number from 0 to 1",
+            Self::Positive => "a number above 0",
+            Self::NotNegative => "a number, 0 or more",
+            Self::Share => "a number from 0 to 1",
             Self::Flag => "true or false",
-            Self::Text => "text in double quotes",
+            Self::Text => "a text in double quotes",
             Self::Point => "[x, y, z]",
             Self::Offset => "[x, y, z] or [x, y]",
-            Self::Size => "number or [x, y, z], above 0",
-            Self::Factor => "number or [x, y, z], not 0",
-            Self::Angles => "number or [x, y, z] or [x, y]",
+            Self::Size => "a number or [x, y, z], above 0",
+            Self::Factor => "a number or [x, y, z] or [x, y], not 0",
+            Self::Angles => "a number or [x, y, z] or [x, y]",
             Self::Field => "[across, down], each above 0 and below 180",
             Self::Color => "[r, g, b] from 0 to 1, or a colour's name",
-            Self::Glow => "number or [r, g, b], 0 or more",
+            Self::Glow => "a number or [r, g, b], 0 or more",
             Self::Matrix => "4 or 3 rows of 4 numbers",
-            Self::Points => "list of [x, y, z]",
-            Self::Faces => "list of lists of indices",
+            Self::Points => "a list of [x, y, z]",
+            Self::Faces => "a list of lists of indices",
             Self::Ignored => "anything",
         }
     }

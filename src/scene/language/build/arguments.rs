@@ -82,7 +82,7 @@ impl<'c, 'a> Arguments<'c, 'a> {
     fn unplaced(&self, argument: &Argument<'_>) -> Diagnostic {
         let names: Vec<_> = self.word.arguments.iter().map(|parameter| parameter.name).collect();
         let takes = match names.as_slice() {
-            [] => format!("`{}` takes none", self.word.name),
+            [] => format!("`{}` takes no arguments", self.word.name),
             _ => format!("`{}` takes {}", self.word.name, names.join(", ")),
         };
         let Some(name) = argument.name else {
@@ -130,11 +130,25 @@ impl<'c, 'a> Arguments<'c, 'a> {
     }
 
     fn wrong(&self, parameter: &Parameter, value: &Spanned<'_>, sink: &mut Sink) -> Reported {
-        let (name, takes) = (parameter.name, parameter.takes.describe());
-        let message = format!("`{name}` of `{}` takes {takes}", self.word.name);
-        sink.report(
-            Diagnostic::error(value.span, message).label(format!("this is {}", value.value.describe())),
-        )
+        let takes = parameter.takes;
+        let message = format!("`{}` of `{}` takes {}", parameter.name, self.word.name, takes.describe());
+        // Of a list with one number out of range, that number is what is wrong.
+        let out_of_range = |item: &&Spanned<'_>| match item.value {
+            Value::Number(number) => !in_range(number, takes),
+            _ => false,
+        };
+        let wrong = match &value.value {
+            Value::List(items) => items.iter().find(out_of_range).unwrap_or(value),
+            _ => value,
+        };
+        let error =
+            Diagnostic::error(wrong.span, message).label(format!("this is {}", wrong.value.describe()));
+        sink.report(match wrong.value {
+            Value::Number(number) if takes == Takes::Color && number > 1.0 => {
+                error.help("of 0 to 255 take the 255th part")
+            }
+            _ => error,
+        })
     }
 
     /// A number, in the range that the parameter takes.
@@ -175,7 +189,7 @@ impl<'c, 'a> Arguments<'c, 'a> {
             }
             other => match numbers(other).as_deref() {
                 Some(&[x, y, z]) => Some(DVec3::new(x, y, z)),
-                Some(&[x, y]) if matches!(takes, Takes::Offset | Takes::Angles) => {
+                Some(&[x, y]) if matches!(takes, Takes::Offset | Takes::Angles | Takes::Factor) => {
                     Some(DVec3::new(x, y, rest))
                 }
                 _ => None,
@@ -193,7 +207,7 @@ impl<'c, 'a> Arguments<'c, 'a> {
     pub fn field(&self, name: &str, sink: &mut Sink) -> Result<Option<[f64; 2]>, Reported> {
         let Some((parameter, value)) = self.get(name) else { return Ok(None) };
         match numbers(&value.value).as_deref() {
-            Some(&[across, down]) if [across, down].iter().all(|&angle| 0.0 < angle && angle < 180.0) => {
+            Some(&[across, down]) if [across, down].iter().all(|&angle| in_range(angle, Takes::Field)) => {
                 Ok(Some([across, down]))
             }
             _ => Err(self.wrong(parameter, value, sink)),
@@ -210,7 +224,7 @@ impl<'c, 'a> Arguments<'c, 'a> {
             },
             other => match numbers(other).as_deref() {
                 Some(rgb @ ([_, _, _] | [_, _, _, _]))
-                    if rgb.iter().all(|share| (0.0..=1.0).contains(share)) =>
+                    if rgb.iter().all(|&share| in_range(share, Takes::Color)) =>
                 {
                     Ok(Some((DVec3::new(rgb[0], rgb[1], rgb[2]), rgb.get(3).copied())))
                 }
@@ -266,7 +280,8 @@ fn in_range(number: f64, takes: Takes) -> bool {
     match takes {
         Takes::Positive | Takes::Size => number > 0.0,
         Takes::NotNegative | Takes::Glow => number >= 0.0,
-        Takes::Share => (0.0..=1.0).contains(&number),
+        Takes::Share | Takes::Color => (0.0..=1.0).contains(&number),
+        Takes::Field => 0.0 < number && number < 180.0,
         Takes::Factor => number != 0.0,
         _ => true,
     }

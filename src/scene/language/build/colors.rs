@@ -69,6 +69,6 @@ mod tests {
     #[test]
     fn the_middle_gray_of_the_screen_is_a_fifth_of_its_light() {
         let (gray, _) = by_name("gray").expect("a CSS name");
-        assert!((gray.x - 0.2158605).abs() < 1e-6, "{gray}");
+        assert!((gray.x - 0.215_860_5).abs() < 1e-6, "{gray}");
     }
 }

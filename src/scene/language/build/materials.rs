@@ -5,7 +5,7 @@
 
 use std::collections::HashMap;
 
-use super::arguments::Arguments;
+use super::arguments::{Arguments, numbers};
 use crate::math::DVec3;
 use crate::scene::diagnostic::{Reported, Sink};
 use crate::scene::language::nearest::{nearest, quoted};
@@ -117,6 +117,12 @@ impl Surfaces {
 
 /// The surface under a `color`.
 pub fn tinted(above: Surface, arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<Surface, Reported> {
+    // OpenSCAD writes a `color` that names no colour this way, and it has no effect there.
+    const NO_COLOR: [f64; 3] = [-1.0; 3];
+    let rgba = arguments.value("c").and_then(|value| numbers(&value.value));
+    if rgba.is_some_and(|rgba| rgba.starts_with(&NO_COLOR)) {
+        return Ok(above);
+    }
     let (color, own_alpha) = arguments.color("c", sink)?.ok_or_else(|| arguments.missing("c", sink))?;
     let alpha = arguments.number("alpha", sink)?.or(own_alpha).unwrap_or(1.0);
     Ok(Surface { tint: above.tint.or(Some((color, alpha))), ..above })

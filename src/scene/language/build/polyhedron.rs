@@ -9,7 +9,7 @@ use super::arguments::{Arguments, numbers};
 use super::maps::unit;
 use crate::math::{Bounds, DVec2, DVec3};
 use crate::scene::diagnostic::{Reported, Sink};
-use crate::scene::language::syntax::{Span, Spanned, Value};
+use crate::scene::language::syntax::{Span, Spanned, Value, short};
 use crate::scene::{Diagnostic, Mesh, Shape};
 
 /// Cuts faces that are not convex, as far as its budget goes.
@@ -73,9 +73,12 @@ pub fn polyhedron(
         return Err(sink.report(error));
     }
     if let Some((edge, place)) = open_edge(&triangles) {
-        let [a, b] = edge.map(|index| corners.points[index as usize].to_array());
+        let [a, b] = edge.map(|index| {
+            let [x, y, z] = corners.points[index as usize].to_array().map(short);
+            format!("[{x}, {y}, {z}]")
+        });
         let error = Diagnostic::error(place, "the polyhedron is not closed")
-            .label(format!("nothing meets its edge from {a:?} to {b:?}"));
+            .label(format!("nothing meets its edge from {a} to {b}"));
         return Err(
             sink.report(error.help("every edge must belong to two faces: add the face that is missing"))
         );

@@ -39,8 +39,8 @@ fn any_face() -> impl Strategy<Value = Shape> {
 
 /// A triangle whose corners' normals lean.
 fn any_patch() -> impl Strategy<Value = Shape> {
-    let lean = || (-1.0..1.0, -1.0..1.0);
-    (0.2..2.0, 0.2..2.0, [lean(), lean(), lean()], any::<bool>()).prop_map(|(a, b, leans, flipped)| {
+    let lean = || (-1.0..1.0_f64, -1.0..1.0_f64);
+    (0.2..2.0_f64, 0.2..2.0_f64, [lean(), lean(), lean()], any::<bool>()).prop_map(|(a, b, leans, flipped)| {
         let places = [DVec3::new(-a, -0.7, 0.0), DVec3::new(b, -0.9, 0.0), DVec3::new(0.1, 1.4, 0.0)];
         let corner = |i: usize| {
             let (x, y) = leans[i];

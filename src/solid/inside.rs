@@ -11,7 +11,7 @@ const PROBE: DVec3 = DVec3::new(0.48, 0.6, 0.64);
 
 impl Assembly {
     /// Whether a point of the assembly is inside an object: a ray from there leaves it before it enters it. A point
-    /// on its surface is on the side to which the ray goes.
+    /// on its surface is on the side to which the ray goes. No point is inside a surface that bounds no solid.
     pub fn contains(&self, object: u32, p: DVec3) -> bool {
         let object = &self.objects[object as usize];
         if !(p.cmpge(object.bounds.lo).all() && p.cmple(object.bounds.hi).all()) {
@@ -28,6 +28,7 @@ impl Assembly {
                 let primitives = &self.primitives;
                 first_of_expression(&ray, whole, primitives, None, Reach::ALL, &mut scratch, &mut meter)
             }
+            Body::Surface(_) => return false,
         };
         first.is_some_and(|crossing| !crossing.entering)
     }
@@ -35,7 +36,7 @@ impl Assembly {
     /// The primitives of an object, in file order.
     pub fn primitives_of(&self, object: u32) -> Vec<u32> {
         match &self.objects[object as usize].body {
-            Body::Single(index) => vec![*index],
+            Body::Single(index) | Body::Surface(index) => vec![*index],
             Body::Composite { tree, .. } => tree.leaves(),
         }
     }

@@ -40,15 +40,17 @@ fn any_face() -> impl Strategy<Value = Shape> {
 /// A triangle whose corners' normals lean.
 fn any_patch() -> impl Strategy<Value = Shape> {
     let lean = || (-1.0..1.0_f64, -1.0..1.0_f64);
-    (0.2..2.0_f64, 0.2..2.0_f64, [lean(), lean(), lean()], any::<bool>()).prop_map(|(a, b, leans, flipped)| {
-        let places = [DVec3::new(-a, -0.7, 0.0), DVec3::new(b, -0.9, 0.0), DVec3::new(0.1, 1.4, 0.0)];
-        let corner = |i: usize| {
-            let (x, y) = leans[i];
-            let normal = DVec3::new(x, y, if flipped { -1.0 } else { 1.0 });
-            Corner { place: places[i], normal }
-        };
-        Shape::Patch(Arc::new([0, 1, 2].map(corner)))
-    })
+    (0.2..2.0_f64, 0.2..2.0_f64, [lean(), lean(), lean()], any::<bool>()).prop_map(
+        |(a, b, leans, flipped)| {
+            let places = [DVec3::new(-a, -0.7, 0.0), DVec3::new(b, -0.9, 0.0), DVec3::new(0.1, 1.4, 0.0)];
+            let corner = |i: usize| {
+                let (x, y) = leans[i];
+                let normal = DVec3::new(x, y, if flipped { -1.0 } else { 1.0 });
+                Corner { place: places[i], normal }
+            };
+            Shape::Patch(Arc::new([0, 1, 2].map(corner)))
+        },
+    )
 }
 
 fn any_part() -> impl Strategy<Value = Solid> {

@@ -126,7 +126,7 @@ fn each_fault_has_its_place_and_its_words() {
         ),
         (
             "pp 3 0 0 0 0 0 1 1 0 0 0 0 1 0 1 0 0 x 1",
-            "1:40: error: y of the normal of corner 3 of 3 of `pp` is no number: this is `x`",
+            "1:38: error: y of the normal of corner 3 of 3 of `pp` is no number: this is `x`",
         ),
         ("c 0 0 0 1 0 0 0 1", "1:1: error: `c`: base and apex are the same point"),
         ("c 0 0 0 0 0 0 1 0", "1:9: error: `c`: one of the radii is above 0: this is 0"),
@@ -157,7 +157,7 @@ fn each_fault_has_its_place_and_its_words() {
 
 #[test]
 fn reading_goes_on_with_the_next_entity() {
-    let found = read("s 0 0 x 1 junk 5\np 2 1 1 1\ns 0 0 0 -2\nq 1 2 3\ns 0 0 0 1").unwrap_err();
+    let found = read("s 0 0 x 1 junk 5\np 2 1 1 1\ns 0 0 0 -2\ns 0 0 0 1 q 1 2 3\ns 0 0 0 1").unwrap_err();
     assert_eq!(found.list.len(), 4, "{found}");
     let many = read(&"s 0 0 0 0\n".repeat(100)).unwrap_err();
     assert!(many.stopped);

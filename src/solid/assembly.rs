@@ -181,10 +181,9 @@ impl Assembly {
     /// The normal of a primitive's surface at a point of the assembly, turned to the side that a ray along `d`
     /// comes from, of length 1.
     ///
-    /// On a patch the sides are those of its plane, and the interpolated normal is turned to the nearer one: so two
-    /// patches that share an edge, and corners' normals, agree along it. Where it then still turns away from the
-    /// ray, as it does along an outline of coarse patches, it is the normal nearest to it that does not: across the
-    /// ray.
+    /// The normal of a patch is interpolated, and turned to the side of the patch's plane that the ray comes from.
+    /// Where it still turns away from the ray, as it does at the rim of what coarse patches stand for, the nearest
+    /// normal that does not is taken: the one across the ray. So light does not jump there.
     pub fn turned_normal(&self, primitive: u32, surface: u32, p: DVec3, d: DVec3) -> DVec3 {
         let form = &self.primitives[primitive as usize].form;
         let own = form.normal(p, surface).normalize_or(-d);

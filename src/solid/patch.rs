@@ -33,7 +33,7 @@ impl Patch {
     ///
     /// Between three corners it is their mean by areas; between more, their mean by mean value coordinates, which is
     /// the same for a triangle (Floater: Mean value coordinates, CAGD 2003; for concave outlines Hormann and Floater:
-    /// Mean value coordinates for arbitrary planar polygons, ACM ToG 2006).
+    /// Mean value coordinates for arbitrary planar polygons, ACM TOG 2006).
     pub fn normal(&self, p: DVec3) -> DVec3 {
         self.interpolated(p).normalize_or(self.face.normal())
     }

@@ -179,7 +179,7 @@ mod tests {
     fn a_face_of_many_corners_is_a_disc_with_teeth() {
         let corner = |i: u32| {
             let (sin, cos) = libm::sincos(f64::from(i) * std::f64::consts::TAU / 10_000.0);
-            DVec3::new(cos, sin, 0.0) * if i % 2 == 0 { 1.0 } else { 0.9 }
+            DVec3::new(cos, sin, 0.0) * if i.is_multiple_of(2) { 1.0 } else { 0.9 }
         };
         let gear: Vec<DVec3> = (0..10_000).map(corner).collect();
         let assembly = Assembly::new(&scene(part(Shape::Face(Arc::from(&gear[..]))))).unwrap();
@@ -191,7 +191,7 @@ mod tests {
             let direction = corner(i).normalize();
             let (inside, tooth) = (direction * 0.89, direction * 0.95);
             assert!(meets(inside.x, inside.y));
-            assert_eq!(meets(tooth.x, tooth.y), i % 2 == 0, "{i}");
+            assert_eq!(meets(tooth.x, tooth.y), i.is_multiple_of(2), "{i}");
             assert!(!meets(1.01 * direction.x, 1.01 * direction.y));
         }
     }

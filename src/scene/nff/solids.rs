@@ -31,6 +31,9 @@ impl Solids {
         let center = entity.vector(|| "the centre".to_owned())?;
         let [radius] = entity.numbers(["the radius"])?;
         entity.check(radius, radius.value > 0.0, "the radius is above 0")?;
+        // What has no reciprocal has no inverse map; the general question costs more than the rest of a sphere.
+        let large_enough = radius.value.recip().is_finite();
+        entity.check(radius, large_enough, "it is smaller than a 64-bit float holds")?;
         let map = DAffine3::from_mat3_translation(DMat3::from_diagonal(DVec3::splat(radius.value)), center);
         self.placed(entity, Shape::Sphere, map, fills.current())
     }
@@ -54,6 +57,9 @@ impl Solids {
         let (x, y) = (half / size).normalize_or(DVec3::Z).any_orthonormal_pair();
         let linear = DMat3::from_cols(x * largest, y * largest, half);
         let map = DAffine3::from_mat3_translation(linear, 0.5 * base + 0.5 * apex);
+        if Placement::new(&map).is_none() {
+            return Err(entity.wrong(entity.keyword, "it is smaller than a 64-bit float holds"));
+        }
         let shape = Shape::Tube { bottom: bottom.value / largest, top: top.value / largest };
         self.placed(entity, shape, map, fills.current())
     }
@@ -108,9 +114,6 @@ impl Solids {
         let bounds = shape.bounds().mapped(&map);
         if !(bounds.lo.is_finite() && bounds.hi.is_finite()) {
             return Err(entity.wrong(entity.keyword, "it reaches farther than a 64-bit float holds"));
-        }
-        if Placement::new(&map).is_none() {
-            return Err(entity.wrong(entity.keyword, "it is smaller than a 64-bit float holds"));
         }
         self.objects.push(Object { name: None, solid: Solid::Primitive(Primitive { shape, map, material }) });
         Ok(())

@@ -106,7 +106,7 @@ fn each_fault_has_its_place_and_its_words() {
         ("s 0 0 0 0", "1:9: error: `s`: the radius is above 0: this is 0"),
         ("s 0 0 0 -1", "1:9: error: `s`: the radius is above 0: this is -1"),
         ("s 1e308 0 0 1e308", "1:1: error: `s`: it reaches farther than a 64-bit float holds"),
-        ("s 0 0 0 1e-320", "1:1: error: `s`: it is smaller than a 64-bit float holds"),
+        ("s 0 0 0 1e-320", "1:9: error: `s`: it is smaller than a 64-bit float holds: this is 1e-320"),
         ("s 0 0 0 1 2", "1:11: error: a number stands where an entity begins: this is `2`"),
         ("sphere 0 0 0 1", "1:1: error: NFF has no such entity: this is `sphere`"),
         ("p 2 0 0 0 1 1 1", "1:3: error: `p`: the number of corners is a whole number, 3 or more: this is 2"),

@@ -29,13 +29,7 @@ fn lit(n: [f64; 3], ambient: f64, kd: f64, ks: f64) -> f64 {
 
 /// Round and flat shading, soft light, thin and curved parts.
 pub fn pictures() -> Vec<Picture> {
-    vec![
-        picture(spheres),
-        picture(boxes),
-        picture(glow),
-        picture(columns),
-        picture(rings),
-    ]
+    vec![picture(spheres), picture(boxes), picture(glow), picture(columns), picture(rings)]
 }
 
 fn spheres(x: f64, y: f64) -> f64 {

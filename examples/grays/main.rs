@@ -28,7 +28,7 @@ struct Row {
     rays: u32,
 }
 
-/// `shade` in four grays stands before the rows that are compared with it.
+/// `shade` in four grays, or in ink alone, stands before the rows that are compared with it.
 const ROWS: [Row; 20] = {
     use GlyphMode::{Blocks, Braille, Cp437, Half, Quadrant, Shade};
     use Palette::{Dos, Mono};
@@ -80,7 +80,11 @@ fn table(out: &mut impl Write) -> io::Result<()> {
         .map(|column| column.pictures.iter().map(|picture| picture.reference(SCREEN)).collect())
         .collect();
     let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
-    writeln!(out, "| glyphs | palette | rays per dot | {} | scenes | better than shade |", names.join(" | "))?;
+    writeln!(
+        out,
+        "| glyphs | palette | rays per dot | {} | scenes | better than shade |",
+        names.join(" | ")
+    )?;
     writeln!(out, "|---|---|---|{}---|---|", "---|".repeat(names.len()))?;
     let mut shade = Vec::new();
     for Row { mode, palette, rays } in ROWS {
@@ -105,7 +109,7 @@ fn table(out: &mut impl Write) -> io::Result<()> {
         }
         let scenes = &found[..found.len() - 1];
         write!(out, " {:.2} |", mean(scenes.iter().map(|views| mean(views.concat().into_iter()))))?;
-        if (mode, palette) == (GlyphMode::Shade, Palette::Dos) {
+        if mode == GlyphMode::Shade && matches!(palette, Palette::Dos | Palette::Mono) {
             writeln!(out, " |")?;
             shade = found;
             continue;

@@ -442,7 +442,7 @@ proptest! {
         scene.materials = materials;
         let eye = DVec3::new(f64::from(eye.0), f64::from(eye.1), f64::from(eye.2)) * 0.5;
         let camera = Camera { name: None, eye, target: eye + DVec3::new(-1.0, 3.0, -0.5), up: DVec3::Z,
-            field: [120.0, 120.0], zoom: 1.0 };
+            field: [120.0, 120.0], span: ray13::scene::FieldSpan::Edges, zoom: 1.0 };
         let mut request = request(camera, Size::new(16, 16));
         request.options = Options { depth: 6, ..all_rays() };
         let frame = Studio::new(scene).unwrap().draw(&request);

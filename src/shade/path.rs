@@ -80,7 +80,11 @@ impl<E: Engine, C: Channel> Shader<'_, E, C> {
         let passages = self.engine.together(engine).iter().filter_map(|&(object, crossing)| {
             let finish = self.finish_of(crossing.primitive);
             let filling = Filling { object, index: finish.index };
-            (finish.kt > 0.0).then_some(Passage { filling, entering: crossing.entering, solid: true })
+            (finish.kt > 0.0).then_some(Passage {
+                filling,
+                entering: crossing.entering,
+                solid: self.assembly.is_solid(object),
+            })
         });
         media.change(inside, passages)
     }

@@ -15,7 +15,7 @@ use super::path::Sent;
 #[derive(Debug)]
 pub struct Shader<'a, E, C> {
     pub(super) engine: &'a E,
-    assembly: &'a Assembly,
+    pub(super) assembly: &'a Assembly,
     finishes: Vec<Finish<C>>,
     lamps: Vec<Lamp<C>>,
     pub(super) ambient: C,

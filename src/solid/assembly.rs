@@ -105,7 +105,9 @@ pub enum AssemblyError {
         primitive: usize,
     },
     /// A surface, which has no inside, among the operands of an operator.
-    #[error("object {object} has a surface (number {primitive} in it) inside an operation, which is for solids only")]
+    #[error(
+        "object {object} has a surface (number {primitive} in it) inside an operation, which is for solids only"
+    )]
     SurfaceInOperation {
         /// The object's number in the scene, from 1.
         object: usize,

@@ -116,7 +116,8 @@ fn newell(outline: &[DVec3]) -> DVec3 {
     let first = outline[0];
     let size = outline.iter().map(|&p| (p - first).abs().max_element()).fold(0.0, f64::max);
     let from_first = |p: DVec3| (p - first) / size;
-    let sum =
-        outline.windows(2).fold(DVec3::ZERO, |sum, edge| sum + from_first(edge[0]).cross(from_first(edge[1])));
+    let sum = outline
+        .windows(2)
+        .fold(DVec3::ZERO, |sum, edge| sum + from_first(edge[0]).cross(from_first(edge[1])));
     sum.normalize_or(DVec3::Z)
 }

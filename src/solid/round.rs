@@ -255,10 +255,7 @@ fn frustum_span(ray: &Centred, middle: f64, slope: f64) -> Option<Span> {
         }
     }
     let side = side_span(ray, middle, slope)?;
-    span.clip(
-        end(side.enter.t, side.enter.error, SIDE),
-        end(side.leave.t, side.leave.error, SIDE),
-    );
+    span.clip(end(side.enter.t, side.enter.error, SIDE), end(side.leave.t, side.leave.error, SIDE));
     span.if_any()
 }
 

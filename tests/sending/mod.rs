@@ -22,7 +22,15 @@ pub fn scene(text: &str) -> Scene {
 /// A camera whose middle looks along `d`.
 pub fn camera(eye: DVec3, d: DVec3) -> Camera {
     let up = d.any_orthonormal_vector();
-    Camera { name: None, eye, target: eye + d, up, field: [1.0, 1.0], zoom: 1.0 }
+    Camera {
+        name: None,
+        eye,
+        target: eye + d,
+        up,
+        field: [1.0, 1.0],
+        span: ray13::scene::FieldSpan::Edges,
+        zoom: 1.0,
+    }
 }
 
 /// What all rays are sent, and followed for as many generations as may be asked for.

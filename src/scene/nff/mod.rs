@@ -73,8 +73,7 @@ impl Reader {
             "NFF has no such entity"
         };
         let known: Vec<String> = ENTITIES.iter().map(|(word, what)| format!("`{word}` ({what})")).collect();
-        let error =
-            Diagnostic::error(token.span(), message).label(format!("this is `{}`", token.shown()));
+        let error = Diagnostic::error(token.span(), message).label(format!("this is `{}`", token.shown()));
         self.sink.report(error.help(format!("its entities are {}", known.join(", "))))
     }
 
@@ -85,7 +84,9 @@ impl Reader {
         self.lamps.finish(&mut scene);
         if scene.objects.is_empty() && self.sink.is_clean() {
             let error = Diagnostic::error(0..0, "the scene is empty: there is nothing to see in it");
-            self.sink.report(error.help("a file of NFF shows spheres `s`, cones `c`, polygons `p` and patches `pp`"));
+            self.sink.report(
+                error.help("a file of NFF shows spheres `s`, cones `c`, polygons `p` and patches `pp`"),
+            );
         }
         scene.notes = self.sink.finish(name, text)?;
         Ok(scene)

@@ -43,9 +43,8 @@ pub fn camera(entity: &mut Entity) -> Result<Camera, Reported> {
         Camera { name: None, eye, target, up, field: [angle; 2], span: FieldSpan::Centers, zoom: 1.0 };
     match camera.check() {
         Ok(()) => Ok(camera),
-        Err(CameraError::NoSight) => {
-            Err(entity.wrong(entity.keyword, "`from` and `at` are the same point: there is no direction to look in"))
-        }
+        Err(CameraError::NoSight) => Err(entity
+            .wrong(entity.keyword, "`from` and `at` are the same point: there is no direction to look in")),
         Err(error) => Err(entity.wrong(entity.keyword, &error.to_string())),
     }
 }

@@ -34,7 +34,15 @@ impl Builder<'_> {
             let error = Diagnostic::error(arguments.place_of("name"), message).label("the second one");
             return Err(sink.report(error.help("give it another name")));
         }
-        self.scene.views.push(Camera { name: name.map(str::to_owned), eye, target, up, field, span: FieldSpan::Edges, zoom });
+        self.scene.views.push(Camera {
+            name: name.map(str::to_owned),
+            eye,
+            target,
+            up,
+            field,
+            span: FieldSpan::Edges,
+            zoom,
+        });
         Ok(())
     }
 

@@ -1,7 +1,7 @@
 //! Mirror and Snell rays: eq. (4) (Whitted: An improved illumination model for shaded display, CACM 1980).
 
 use crate::math::{DVec3, Ray};
-use crate::solid::Departure;
+use crate::solid::{Crossing, Departure};
 use crate::stage::{Meter, Probe, Stage};
 use crate::trace::{Engine, Hit};
 
@@ -64,7 +64,8 @@ impl<E: Engine, C: Channel> Shader<'_, E, C> {
         if together.len() < 2 || self.finish(&hit).kt == 0.0 {
             return hit;
         }
-        let opaque = together.iter().filter(|(_, c)| c.entering && self.finish_of(c.primitive).kt == 0.0);
+        let begins = |c: &Crossing| c.entering || self.is_surface(c.primitive);
+        let opaque = together.iter().filter(|(_, c)| begins(c) && self.finish_of(c.primitive).kt == 0.0);
         opaque.min_by_key(|(object, _)| *object).map_or(hit, |&(object, c)| Hit {
             object,
             primitive: c.primitive,
@@ -80,11 +81,8 @@ impl<E: Engine, C: Channel> Shader<'_, E, C> {
         let passages = self.engine.together(engine).iter().filter_map(|&(object, crossing)| {
             let finish = self.finish_of(crossing.primitive);
             let filling = Filling { object, index: finish.index };
-            (finish.kt > 0.0).then_some(Passage {
-                filling,
-                entering: crossing.entering,
-                solid: self.assembly.is_solid(object),
-            })
+            let solid = !self.is_surface(crossing.primitive);
+            (finish.kt > 0.0).then_some(Passage { filling, entering: crossing.entering, solid })
         });
         media.change(inside, passages)
     }

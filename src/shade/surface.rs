@@ -220,6 +220,11 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
         &self.finishes[self.assembly.material(primitive).0 as usize]
     }
 
+    /// Whether a primitive is a surface that bounds no solid: it has no inside to be in.
+    pub(super) fn is_surface(&self, primitive: u32) -> bool {
+        self.assembly.primitives[primitive as usize].form.is_surface()
+    }
+
     /// The surface that a ray leaves to the side to which `toward` points.
     pub(super) fn departure(&self, hit: &Hit, p: DVec3, toward: DVec3) -> Departure {
         let form: &Form = &self.assembly.primitives[hit.primitive as usize].form;

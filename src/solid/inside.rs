@@ -11,7 +11,7 @@ const PROBE: DVec3 = DVec3::new(0.48, 0.6, 0.64);
 
 impl Assembly {
     /// Whether a point of the assembly is inside an object: a ray from there leaves it before it enters it. A point
-    /// on its surface is on the side to which the ray goes.
+    /// on its surface is on the side to which the ray goes. No point is inside a surface that bounds no solid.
     pub fn contains(&self, object: u32, p: DVec3) -> bool {
         let object = &self.objects[object as usize];
         if !(p.cmpge(object.bounds.lo).all() && p.cmple(object.bounds.hi).all()) {
@@ -23,20 +23,15 @@ impl Assembly {
             Body::Single(index) => {
                 first_of_span(&ray, &self.primitives[*index as usize], *index, None, &mut meter)
             }
-            // A surface has sides, but no inside.
-            Body::Surface(_) => None,
             Body::Composite { whole, .. } => {
                 let mut scratch = Scratch::default();
                 let primitives = &self.primitives;
                 first_of_expression(&ray, whole, primitives, None, Reach::ALL, &mut scratch, &mut meter)
             }
+            // A surface has sides, but no inside.
+            Body::Surface(_) => return false,
         };
         first.is_some_and(|crossing| !crossing.entering)
-    }
-
-    /// Whether an object has an inside.
-    pub fn is_solid(&self, object: u32) -> bool {
-        !matches!(self.objects[object as usize].body, Body::Surface(_))
     }
 
     /// The primitives of an object, in file order.

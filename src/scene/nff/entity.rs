@@ -91,10 +91,12 @@ impl<'a> Entity<'_, 'a> {
         if holds { Ok(()) } else { Err(self.wrong(number.token, rule)) }
     }
 
-    /// Reports a word that breaks a rule.
+    /// Reports a number that breaks a rule, or the whole entity by its keyword.
     pub fn wrong(&mut self, token: Token, rule: &str) -> Reported {
         let error = Diagnostic::error(token.span(), format!("`{}`: {rule}", self.keyword.word));
-        self.sink.report(error.label(format!("this is {}", token.shown())))
+        let is_number = token != self.keyword;
+        let label = if is_number { format!("this is {}", token.shown()) } else { String::new() };
+        self.sink.report(error.label(label))
     }
 
     /// Reports that the file ends before the entity does.

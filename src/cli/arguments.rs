@@ -11,6 +11,8 @@ use super::picture::{Glyphs, PaletteName, StructureName, ToneName};
 use super::values;
 
 /// Shows solid models in a terminal: ray traced, in 13 gray levels of block characters.
+///
+/// Without a command it opens the viewer, where F1 shows the keys; where output is no terminal it prints a still.
 #[derive(Debug, Parser)]
 #[command(version, args_conflicts_with_subcommands = true, max_term_width = 100)]
 pub struct Arguments {
@@ -65,9 +67,9 @@ pub struct RenderArguments {
     /// How the picture is written [default: by the ending of -o; else ans on a terminal, txt elsewhere]
     #[arg(long, value_enum)]
     pub format: Option<Format>,
-    /// What the values of a pfm are
-    #[arg(long, value_enum, default_value = "light")]
-    pub channel: Channel,
+    /// Raw values in place of levels: light in png, pgm, ppm and pfm, all others in pfm only [default: light in pfm]
+    #[arg(long, value_enum)]
+    pub channel: Option<Channel>,
     /// Write to this file [default: standard output]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
@@ -90,15 +92,15 @@ pub struct BenchArguments {
 /// What decides the picture.
 #[derive(Debug, Args)]
 pub struct PictureArguments {
-    /// Size in character cells [default: the terminal's, else 80x25]
+    /// Size of a still in character cells; the viewer fills its terminal [default: the terminal's, else 80x25]
     #[arg(long, value_name = "WxH", value_parser = values::size)]
     pub cells: Option<Size>,
-    /// Size in traced dots, which are then square
+    /// Size of a still in traced dots, which are then square
     #[arg(long, value_name = "WxH", value_parser = values::size, conflicts_with = "cells")]
     pub dots: Option<Size>,
     #[command(flatten)]
     pub camera: CameraArguments,
-    /// The paper's illumination model: 1 diffuse, 2 with depth, 3 with highlights, 4 with mirrors and glass
+    /// The paper's illumination model: 1 diffuse, 2 with depth (in a scene with `world(k = …)`), 3 with highlights, 4 with mirrors and glass
     #[arg(long, value_name = "1..4", default_value = "4", value_parser = clap::value_parser!(u8).range(1..=4))]
     pub shading: u8,
     /// Follow mirror and Snell rays for so many generations
@@ -162,8 +164,12 @@ pub enum Format {
     Ans,
     /// One character per dot, 0 to 9 and A to C: the form to keep in a test
     Levels,
-    /// One pixel per dot, at its level's gray
+    /// One pixel per dot, at its level's gray, or in colour with --palette color
     Png,
+    /// One pixel per dot, at its level's gray, as a portable gray map
+    Pgm,
+    /// The same as png, as a portable pixel map
+    Ppm,
     /// Raw values of --channel, as floats
     Pfm,
 }
@@ -171,7 +177,7 @@ pub enum Format {
 /// Raw values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Channel {
-    /// Linear light
+    /// Linear light; its three primaries with --palette color
     Light,
     /// Distance from the eye, infinite where nothing is hit
     Depth,

@@ -26,8 +26,9 @@ pub struct Plan {
     pub glass: bool,
     /// Whether lights are tested for what stands before them.
     pub shadows: bool,
-    /// Whether lights have colours: if not, light is one gray channel, which is exact, for a gray light on a
-    /// coloured surface is as bright as on a gray one of the same luminance.
+    /// Three where lights have colours, or surfaces have and the colours are wanted. Else light is one gray
+    /// channel, which is exact: a gray light on a coloured surface is as bright as on a gray one of the same
+    /// luminance.
     pub channels: Channels,
     /// The lights, where they stand for this view, in the scene's coordinates. Those of no intensity are left out.
     pub lamps: Vec<Lamp>,
@@ -97,10 +98,11 @@ impl Plan {
         } else {
             scene.lights.iter().filter(|l| l.intensity > 0.0).map(|light| lamp(light, lens)).collect()
         };
-        let grays =
+        let lights =
             [scene.world.ambient, scene.world.background].into_iter().chain(lamps.iter().map(|l| l.light));
+        let surfaces = scene.materials.iter().map(|m| m.color).filter(|_| options.color);
         let gray = |c: DVec3| c.x == c.y && c.y == c.z;
-        let channels = if grays.into_iter().all(gray) { Channels::Gray } else { Channels::Three };
+        let channels = if lights.chain(surfaces).all(gray) { Channels::Gray } else { Channels::Three };
         let sends = |m: &Material| m.kr > 0.0 || m.kt > 0.0;
         let secondary = (options.shading >= Shading::Whitted && scene.materials.iter().any(sends))
             .then(|| Secondary::new(scene, assembly, lens, options, &lamps));

@@ -24,6 +24,9 @@ pub struct Options {
     pub structure: StructureChoice,
     /// Rays per dot along each axis; 1 or more. The light of a dot is their mean.
     pub samples: u32,
+    /// Whether the light of each dot is wanted by its three primaries, and not its luminance only. A `color`
+    /// palette wants it by itself.
+    pub color: bool,
     /// Worker threads; 0 takes one per processor.
     pub threads: usize,
 }
@@ -37,6 +40,7 @@ impl Default for Options {
             shadows: true,
             structure: StructureChoice::Auto,
             samples: 1,
+            color: false,
             threads: 0,
         }
     }

@@ -87,12 +87,16 @@ impl Onward {
 impl<E: Engine, C: Channel> Shader<'_, E, C> {
     /// Of a glass surface and opaque solids that begin in the same place, the opaque shows: behind the glass there
     /// is nothing that a ray could go on through. To be asked before the memory is used again.
-    pub(super) fn shown(&self, hit: Hit, memory: &Memory<E>) -> Hit {
+    /// `kt` is what a material lets through.
+    pub(super) fn shown(&self, hit: Hit, kt: impl Fn(&Finish<C>) -> f64, memory: &Memory<E>) -> Hit {
         let together = self.engine.together(&memory.engine);
-        if together.len() < 2 || self.finish(&hit).kt == 0.0 {
+        if together.len() < 2 || kt(self.finish(&hit)) == 0.0 {
             return hit;
         }
-        let opaque = together.iter().filter(|(_, c)| c.entering && self.finish_of(c.primitive).kt == 0.0);
+        // A surface that bounds no solid shows on both sides.
+        let opaque = together.iter().filter(|(object, c)| {
+            kt(self.finish_of(c.primitive)) == 0.0 && (c.entering || !self.assembly.is_solid(*object))
+        });
         opaque.min_by_key(|(object, _)| *object).map_or(hit, |&(object, c)| Hit {
             object,
             primitive: c.primitive,
@@ -108,7 +112,11 @@ impl<E: Engine, C: Channel> Shader<'_, E, C> {
         let passages = self.engine.together(engine).iter().filter_map(|&(object, crossing)| {
             let finish = self.finish_of(crossing.primitive);
             let filling = Filling { object, index: finish.index };
-            (finish.kt > 0.0).then_some(Passage { filling, entering: crossing.entering, solid: true })
+            (finish.kt > 0.0).then_some(Passage {
+                filling,
+                entering: crossing.entering,
+                solid: self.assembly.is_solid(object),
+            })
         });
         media.change(inside, passages)
     }

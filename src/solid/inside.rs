@@ -23,6 +23,8 @@ impl Assembly {
             Body::Single(index) => {
                 first_of_span(&ray, &self.primitives[*index as usize], *index, None, &mut meter)
             }
+            // A surface has sides, but no inside.
+            Body::Surface(_) => None,
             Body::Composite { whole, .. } => {
                 let mut scratch = Scratch::default();
                 let primitives = &self.primitives;
@@ -32,10 +34,15 @@ impl Assembly {
         first.is_some_and(|crossing| !crossing.entering)
     }
 
+    /// Whether an object has an inside.
+    pub fn is_solid(&self, object: u32) -> bool {
+        !matches!(self.objects[object as usize].body, Body::Surface(_))
+    }
+
     /// The primitives of an object, in file order.
     pub fn primitives_of(&self, object: u32) -> Vec<u32> {
         match &self.objects[object as usize].body {
-            Body::Single(index) => vec![*index],
+            Body::Single(index) | Body::Surface(index) => vec![*index],
             Body::Composite { tree, .. } => tree.leaves(),
         }
     }

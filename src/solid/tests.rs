@@ -51,6 +51,7 @@ fn first(solid: &scene::Solid, o: [f64; 3], d: [f64; 3]) -> Option<(f64, u32, bo
         Body::Single(index) => {
             first_of_span(&ray, &assembly.primitives[*index as usize], *index, None, &mut meter)
         }
+        Body::Surface(_) => None,
         Body::Composite { whole, .. } => first_of_expression(
             &ray,
             whole,

@@ -4,7 +4,9 @@ use std::ops::ControlFlow;
 
 use crate::lattice::{self, SLACK, Structure};
 use crate::math::{Bounds, DVec3, Ray};
-use crate::solid::{self, Assembly, Body, Crossing, Departure, Reach, first_of_expression, first_of_span};
+use crate::solid::{
+    self, Assembly, Body, Crossing, Departure, Reach, first_of_expression, first_of_span, first_of_surface,
+};
 use crate::stage::{Meter, Probe, Stage};
 
 use super::{Engine, Hit};
@@ -103,6 +105,10 @@ impl<'a> Exact<'a> {
             Body::Single(index) => {
                 let primitive = &self.assembly.primitives[*index as usize];
                 first_of_span(ray, primitive, *index, departure, meter)
+            }
+            Body::Surface(index) => {
+                let primitive = &self.assembly.primitives[*index as usize];
+                first_of_surface(ray, primitive, *index, departure, meter)
             }
             Body::Composite { whole, .. } => {
                 let primitives = &self.assembly.primitives;

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use ray13::frame::Studio;
 use ray13::math::{DVec3, Size};
 use ray13::plan::Options;
-use ray13::scene::{Camera, Material, MaterialId, Solid};
+use ray13::scene::{Camera, FieldSpan, Material, MaterialId, Solid};
 
 use crate::request::request;
 use crate::sending::{all_rays, scene};
@@ -46,7 +46,7 @@ proptest! {
         scene.materials = materials;
         let eye = DVec3::new(f64::from(eye.0), f64::from(eye.1), f64::from(eye.2)) * 0.5;
         let camera = Camera { name: None, eye, target: eye + DVec3::new(-1.0, 3.0, -0.5), up: DVec3::Z,
-            field: [120.0, 120.0], zoom: 1.0 };
+            field: [120.0, 120.0], span: FieldSpan::Edges, zoom: 1.0 };
         let mut request = request(camera, Size::new(16, 16));
         request.options = Options { depth: 6, ..all_rays() };
         let frame = Studio::new(scene).unwrap().draw(&request);

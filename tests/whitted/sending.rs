@@ -4,7 +4,7 @@ use ray13::frame::Studio;
 use ray13::lattice::Structure;
 use ray13::math::{DVec3, Ray, Size};
 use ray13::plan::{Options, Plan};
-use ray13::scene::{Camera, ReadOptions, Scene, read};
+use ray13::scene::{Camera, FieldSpan, ReadOptions, Scene, read};
 use ray13::shade::{Kind, Leg, Shader};
 use ray13::solid::Assembly;
 use ray13::stage::{Counts, Meter, Silent};
@@ -35,7 +35,7 @@ pub fn scene(text: &str) -> Scene {
 /// A camera whose middle looks along `d`.
 pub fn camera(eye: DVec3, d: DVec3) -> Camera {
     let up = d.any_orthonormal_vector();
-    Camera { name: None, eye, target: eye + d, up, field: [1.0, 1.0], zoom: 1.0 }
+    Camera { name: None, eye, target: eye + d, up, field: [1.0, 1.0], span: FieldSpan::Edges, zoom: 1.0 }
 }
 
 /// What all rays are sent, and followed for as many generations as may be asked for.

@@ -228,6 +228,22 @@ mod a_still {
         assert_eq!(fs::read(out).unwrap(), printed);
     }
 
+    #[test]
+    fn takes_its_format_from_the_ending_of_its_file() {
+        let (folder, file) = scene("ending", BALL);
+        let written = |name: &str| {
+            let out = folder.join(name);
+            done(&run(&["render", &file, "--cells", "9x5", "-o", out.to_str().unwrap()]));
+            fs::read(out).unwrap()
+        };
+        assert!(written("a.png").starts_with(b"\x89PNG"));
+        assert_eq!(written("a"), written("a.txt"));
+        let out = folder.join("a.jpg");
+        let message = fails(&run(&["render", &file, "-o", out.to_str().unwrap()]), 2);
+        assert!(message.contains("png") && message.contains("--format"), "{message}");
+        assert!(!out.exists());
+    }
+
     /// A scene in which every term of the light shows: nine, divided by the way of about eight and k, is about 1.
     const SHINING: &str = "world(k = 1); light(at = [5, -9, 9], intensity = 9);\n\
         material(kd = 0.6, ks = 0.6, n = 6) cube(2, center = true);\n\
@@ -263,7 +279,7 @@ mod a_still {
             assert!(picture != plain, "{option:?} changes nothing");
         }
         for option in
-            [["--structure", "none"], ["--structure", "lattice"], ["--threads", "3"], ["--shading", "3"]]
+            [["--structure", "none"], ["--structure", "lattice"], ["--threads", "3"], ["--shading", "4"]]
         {
             let picture =
                 done(
@@ -351,6 +367,8 @@ mod bad_input {
         let (folder, _) = scene("no_file", BALL);
         fails(&run(&["check", folder.join("nothing.scene").to_str().unwrap()]), 2);
         fails(&run(&["check", folder.to_str().unwrap()]), 2);
+        let message = fails(&run(&["check", "hanjang"]), 2);
+        assert!(message.contains("hanyang"), "the embedded scenes are not named: {message}");
         let bytes = folder.join("bytes.scene");
         fs::write(&bytes, b"sphere(1);\xff\xfe").unwrap();
         fails(&run(&["check", bytes.to_str().unwrap()]), 2);
@@ -397,6 +415,9 @@ mod bad_arguments {
             &["render", &file, "--zoom", "inf"],
             &["render", &file, "--samples", "0"],
             &["render", &file, "--shading", "7"],
+            &["render", &file, "--depth", "65"],
+            &["render", &file, "--cutoff", "-0.1"],
+            &["render", &file, "--cutoff", "nan"],
             &["render", &file, "--format", "jpeg"],
             &["render", &file, "--glyphs", "block"],
             &["render", &file, "--palette", "cga"],

@@ -5,11 +5,14 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::math::{DVec3, Size};
+use crate::plan::{CUTOFF, DEPTH};
 
 use super::picture::{Glyphs, PaletteName, StructureName, ToneName};
 use super::values;
 
 /// Shows solid models in a terminal: ray traced, in 13 gray levels of block characters.
+///
+/// Without a command it opens the viewer, where F1 shows the keys; where output is no terminal it prints a still.
 #[derive(Debug, Parser)]
 #[command(version, args_conflicts_with_subcommands = true, max_term_width = 100)]
 pub struct Arguments {
@@ -89,17 +92,23 @@ pub struct BenchArguments {
 /// What decides the picture.
 #[derive(Debug, Args)]
 pub struct PictureArguments {
-    /// Size in character cells [default: the terminal's, else 80x25]
+    /// Size of a still in character cells; the viewer fills its terminal [default: the terminal's, else 80x25]
     #[arg(long, value_name = "WxH", value_parser = values::size)]
     pub cells: Option<Size>,
-    /// Size in traced dots, which are then square
+    /// Size of a still in traced dots, which are then square
     #[arg(long, value_name = "WxH", value_parser = values::size, conflicts_with = "cells")]
     pub dots: Option<Size>,
     #[command(flatten)]
     pub camera: CameraArguments,
-    /// The paper's illumination model: 1 diffuse, 2 with depth, 3 with highlights
-    #[arg(long, value_name = "1..3", default_value = "3", value_parser = clap::value_parser!(u8).range(1..=3))]
+    /// The paper's illumination model: 1 diffuse, 2 with depth (in a scene with `world(k = …)`), 3 with highlights, 4 with mirrors and glass
+    #[arg(long, value_name = "1..4", default_value = "4", value_parser = clap::value_parser!(u8).range(1..=4))]
     pub shading: u8,
+    /// Follow mirror and Snell rays for so many generations
+    #[arg(long, value_name = "N", default_value_t = DEPTH, value_parser = clap::value_parser!(u32).range(0..=64))]
+    pub depth: u32,
+    /// Follow a mirror or Snell ray only while it can still change the light of its dot by so much; 0 follows all
+    #[arg(long, value_name = "F", default_value_t = CUTOFF, value_parser = values::not_negative)]
+    pub cutoff: f64,
     /// Lights shine through everything
     #[arg(long)]
     pub no_shadows: bool,

@@ -27,13 +27,22 @@ pub fn read(file: &str, skip_unsupported: bool) -> Result<Scene, CliError> {
             Some(inside) => {
                 scene::read(inside.name, inside.text.as_bytes(), &options).map_err(|e| rendered(&e))
             }
-            None => Err(CliError::Scene(error.to_string())),
+            None => Err(CliError::Scene(format!("{error}{}", no_such_scene(file)))),
         },
     }
 }
 
 fn named(name: &str) -> Option<&'static EmbeddedScene> {
     embedded().iter().find(|s| s.name == name)
+}
+
+/// What to try instead of a file that is not there, where its name could have been meant for an embedded scene.
+fn no_such_scene(file: &str) -> String {
+    if Path::new(file).exists() || file.contains(['.', '/', '\\']) {
+        return String::new();
+    }
+    let names: Vec<&str> = embedded().iter().map(|s| s.name).collect();
+    format!("\nhelp: nor is it an embedded scene; there are {}", names.join(", "))
 }
 
 fn rendered(diagnostics: &Diagnostics) -> CliError {

@@ -6,7 +6,7 @@ use crate::frame::{Request, Studio};
 use crate::glyph::{ColorDepth, GlyphMode, Palette};
 use crate::math::Size;
 use crate::plan::{Options, Shading, StructureChoice};
-use crate::scene::{Camera, Scene};
+use crate::scene::{Camera, FieldSpan, Scene};
 use crate::tone::Tone;
 
 use super::arguments::{CameraArguments, PictureArguments};
@@ -100,7 +100,9 @@ impl PictureArguments {
     pub fn options(&self) -> Options {
         let shading = Shading::ALL.into_iter().find(|s| s.number() == self.shading);
         Options {
-            shading: shading.unwrap_or(Shading::Phong),
+            shading: shading.unwrap_or(Shading::Whitted),
+            depth: self.depth,
+            cutoff: self.cutoff,
             shadows: !self.no_shadows,
             structure: match self.structure {
                 StructureName::Auto => StructureChoice::Auto,
@@ -206,6 +208,7 @@ impl CameraArguments {
             target: self.target.unwrap_or(base.target),
             up: self.up.unwrap_or(base.up),
             field: self.field.unwrap_or(base.field),
+            span: if self.field.is_some() { FieldSpan::Edges } else { base.span },
             zoom: self.zoom.unwrap_or(base.zoom),
             ..base
         };

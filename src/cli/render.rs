@@ -5,6 +5,8 @@ use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 use std::time::Instant;
 
+use clap::ValueEnum;
+
 use crate::frame::{Frame, Request};
 use crate::glyph::Palette;
 use crate::math::Grid;
@@ -17,7 +19,7 @@ use super::{input, print, stats};
 
 /// Draws one still and writes it.
 pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
-    let format = arguments.format.unwrap_or_else(|| format_of(arguments.output.as_deref()));
+    let format = arguments.format.map_or_else(|| format_of(arguments.output.as_deref()), Ok)?;
     check(format, arguments.channel)?;
     let reading = Instant::now();
     let scene = input::read(&arguments.scene.file, arguments.scene.skip_unsupported)?;
@@ -69,19 +71,24 @@ fn palette(picture: &PictureArguments, format: Format) -> Palette {
     if format == Format::Txt { Palette::Mono } else { picture.palette() }
 }
 
-fn format_of(path: Option<&Path>) -> Format {
+/// The format that a file's ending names. A file without one holds text; an ending that names no format is an error,
+/// since text in a `.jpg` would be found out late.
+fn format_of(path: Option<&Path>) -> Result<Format, CliError> {
     let Some(path) = path else {
-        return if io::stdout().is_terminal() { Format::Ans } else { Format::Txt };
+        return Ok(if io::stdout().is_terminal() { Format::Ans } else { Format::Txt });
     };
-    match path.extension().and_then(|e| e.to_str()) {
-        Some("ans") => Format::Ans,
-        Some("levels") => Format::Levels,
-        Some("png") => Format::Png,
-        Some("pgm") => Format::Pgm,
-        Some("ppm") => Format::Ppm,
-        Some("pfm") => Format::Pfm,
-        _ => Format::Txt,
-    }
+    let Some(ending) = path.extension() else { return Ok(Format::Txt) };
+    Format::from_str(&ending.to_string_lossy(), true).map_err(|_| {
+        let known: Vec<String> = Format::value_variants()
+            .iter()
+            .filter_map(|format| Some(format.to_possible_value()?.get_name().to_owned()))
+            .collect();
+        CliError::Input(format!(
+            "{}: its ending is that of no format ({}): --format says which is meant",
+            path.display(),
+            known.join(", ")
+        ))
+    })
 }
 
 /// The whole still in memory, so that an error leaves nothing half-written.

@@ -7,9 +7,9 @@ use rayon::prelude::*;
 use crate::glyph::{self, Palette};
 use crate::math::{DVec3, Grid, Size};
 use crate::plan::{Channels, Options, Plan};
-use crate::shade::{Channel, Shader, View};
+use crate::shade::{Channel, Memory, Shader, View};
 use crate::stage::{Counts, Meter, Probe, Silent, Stage, StageTimes, Stopwatch};
-use crate::trace::{Engine, Exact};
+use crate::trace::Exact;
 use crate::view::{Lens, Picture, TILE, Tile, tiles};
 
 use super::{Frame, Request, Space, Studio};
@@ -27,9 +27,10 @@ impl Studio {
         let wants_color = request.options.color || request.palette.is_color();
         let options = Options { color: wants_color, ..request.options };
         let plan = Plan::new(self.scene(), &self.assembly, &lens, &options);
+        let viewed = Instant::now();
         let (structure, over_budget) = self.structure(plan.structure);
         let engine = Exact::new(&self.assembly, structure);
-        let viewed = Instant::now();
+        let tracing = Instant::now();
 
         let workers = self.workers(request.options.threads);
         let work = || match plan.channels {
@@ -37,7 +38,7 @@ impl Studio {
             Channels::Three => self.trace::<DVec3>(&engine, &plan, &lens, request.dots),
         };
         let traced = workers.as_ref().map_or_else(work, |pool| pool.install(work));
-        let trace = viewed.elapsed();
+        let trace = tracing.elapsed();
 
         let Traced { light, color, depth, normal, object, counts, times } = traced;
         let color = Some(color).filter(|_| wants_color);
@@ -80,7 +81,7 @@ impl Studio {
         let drawn: Vec<Drawn> = tiles
             .par_iter()
             .map_init(
-                || engine.memory(),
+                || shader.memory(),
                 |memory, tile| {
                     if tile.number % TIMED == 0 {
                         let mut meter = Meter::new(Stopwatch::start(Stage::Ray));
@@ -135,12 +136,7 @@ struct Sampler<'a, 'b, C> {
 }
 
 impl<'b, C: Channel> Sampler<'_, 'b, C> {
-    fn tile(
-        &self,
-        tile: &Tile,
-        memory: &mut <Exact<'b> as Engine>::Memory,
-        meter: &mut Meter<impl Probe>,
-    ) -> Vec<Dot> {
+    fn tile(&self, tile: &Tile, memory: &mut Memory<Exact<'b>>, meter: &mut Meter<impl Probe>) -> Vec<Dot> {
         let mut dots = Vec::with_capacity((TILE * TILE) as usize);
         for (i, j) in tile.dots() {
             let (x, y) = (f64::from(i) + 0.5, f64::from(j) + 0.5);
@@ -176,7 +172,7 @@ impl<'b, C: Channel> Sampler<'_, 'b, C> {
         &self,
         x: f64,
         y: f64,
-        memory: &mut <Exact<'b> as Engine>::Memory,
+        memory: &mut Memory<Exact<'b>>,
         meter: &mut Meter<impl Probe>,
     ) -> View<C> {
         meter.at(Stage::Ray);

@@ -92,7 +92,10 @@ impl FlowChart {
             Stage::Lattice => match self.space {
                 Space::Whole => Line::idle(),
                 Space::Tree(nodes) => {
-                    Line { count: format!("{} nod", figures::count(nodes as u64)), busy: true }
+                    let number = figures::count(nodes as u64);
+                    let named = format!("{number} node{}", if nodes == 1 { "" } else { "s" });
+                    let fits = named.chars().count() <= COUNT_COLUMNS.into();
+                    Line { count: if fits { named } else { number }, busy: true }
                 }
                 Space::Lattice([x, y, z]) => {
                     let sides = format!("{x}×{y}×{z}");
@@ -242,6 +245,14 @@ mod tests {
     fn a_large_lattice_shows_its_cells() {
         let chart = FlowChart::new(&Frame { space: Space::Lattice([128, 128, 100]), ..frame() });
         assert!(drawn(&chart, 24, 2).1[1].contains(" 1.6 M"));
+    }
+
+    #[test]
+    fn a_tree_shows_its_nodes() {
+        for (nodes, shown) in [(1, "   1 node "), (34, "34 nodes "), (345, "     345 ")] {
+            let chart = FlowChart::new(&Frame { space: Space::Tree(nodes), ..frame() });
+            assert!(drawn(&chart, 24, 2).1[1].contains(shown), "{nodes}");
+        }
     }
 
     #[test]

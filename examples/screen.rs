@@ -1,0 +1,44 @@
+//! Writes a PNG of how a terminal of 16 colours shows a scene, 8 × 16 pixels to a cell, its shades as even grays:
+//! `cargo run --release --example screen -- hanyang docs/pictures/hanyang.png`.
+
+use std::error::Error;
+use std::fs::File;
+use std::io::BufWriter;
+
+use ray13::frame::{Request, Studio};
+use ray13::glyph::{GlyphMode, Palette, appearance};
+use ray13::math::Size;
+use ray13::output::{self, Pixels};
+use ray13::plan::Options;
+use ray13::scene::{self, ReadOptions, embedded};
+use ray13::tone::Tone;
+
+/// The screen, in cells.
+const SCREEN: Size = Size::new(100, 30);
+/// Pixels of a cell, as VGA drew text.
+const PIXELS: Size = Size::new(8, 16);
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut arguments = std::env::args().skip(1);
+    let (Some(name), Some(path)) = (arguments.next(), arguments.next()) else {
+        return Err("expected the name of an embedded scene and a file to write".into());
+    };
+    let inside = embedded().iter().find(|scene| scene.name == name).ok_or("no such embedded scene")?;
+    let studio = Studio::new(scene::read(inside.name, inside.text.as_bytes(), &ReadOptions::default())?)?;
+
+    let glyphs = GlyphMode::Blocks;
+    let per_cell = glyphs.dots_per_cell();
+    let cell_aspect = f64::from(PIXELS.width) / f64::from(PIXELS.height);
+    let frame = studio.draw(&Request {
+        camera: studio.camera(0, cell_aspect * f64::from(SCREEN.width) / f64::from(SCREEN.height)),
+        dots: Size::new(SCREEN.width * per_cell.width, SCREEN.height * per_cell.height),
+        dot_aspect: cell_aspect * f64::from(per_cell.height) / f64::from(per_cell.width),
+        options: Options { samples: 2, ..Options::default() },
+        glyphs,
+        palette: Palette::Dos,
+        tone: Tone::Lightness,
+    });
+    let screen = appearance(&frame.cells, PIXELS).map(|&light| Tone::Lightness.level(light).srgb());
+    output::png(&Pixels::Gray(screen), &mut BufWriter::new(File::create(path)?))?;
+    Ok(())
+}

@@ -15,7 +15,7 @@ use super::path::Sent;
 #[derive(Debug)]
 pub struct Shader<'a, E, C> {
     pub(super) engine: &'a E,
-    assembly: &'a Assembly,
+    pub(super) assembly: &'a Assembly,
     finishes: Vec<Finish<C>>,
     lamps: Vec<Lamp<C>>,
     pub(super) ambient: C,
@@ -145,7 +145,7 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
 
     /// The surface of the last hit.
     pub(super) fn met(&self, ray: &Ray, hit: Hit, memory: &Memory<E>) -> Met {
-        let hit = self.shown(hit, memory);
+        let hit = self.shown(hit, |finish| finish.kt, memory);
         let p = ray.at(hit.t);
         Met { hit, p, normal: self.assembly.turned_normal(hit.primitive, hit.surface, p, ray.d) }
     }

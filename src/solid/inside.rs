@@ -28,6 +28,7 @@ impl Assembly {
                 let primitives = &self.primitives;
                 first_of_expression(&ray, whole, primitives, None, Reach::ALL, &mut scratch, &mut meter)
             }
+            // A surface has sides, but no inside.
             Body::Surface(_) => return false,
         };
         first.is_some_and(|crossing| !crossing.entering)

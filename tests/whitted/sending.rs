@@ -14,6 +14,19 @@ use ray13::view::{Lens, Picture};
 use crate::glass::Bend;
 use crate::request::request;
 
+/// Glass that shows nothing but what comes through it.
+const CLEAR: &str = "material(name = \"glass\", kd = 0, ks = 0, kt = 1, index = 1.5, color = [0, 0, 0]);
+    material(name = \"dense\", kd = 0, ks = 0, kt = 1, index = 1.8, color = [0, 0, 0]);
+    material(name = \"air\", kd = 0, ks = 0, kt = 1, index = 1, color = [0, 0, 0]);
+    material(name = \"water\", kd = 0, ks = 0, kt = 1, index = 1.33, color = [0, 0, 0]);
+    material(name = \"wall\", kd = 0, ks = 0, color = [0.5, 0.5, 0.5]);
+    world(ambient = 1, background = 0);";
+
+/// A scene of such glass.
+pub fn clear(text: &str) -> String {
+    format!("{CLEAR}{text}")
+}
+
 /// A scene from its text.
 pub fn scene(text: &str) -> Scene {
     read("test", text.as_bytes(), &ReadOptions::default()).unwrap_or_else(|e| panic!("{text}: {e}"))

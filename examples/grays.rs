@@ -3,9 +3,12 @@
 
 use std::io::{self, Write};
 
+use ray13::frame::{Request, Studio};
 use ray13::glyph::{Cell, GlyphMode, Palette, appearance, compose};
 use ray13::math::{Grid, Size};
 use ray13::output;
+use ray13::plan::Options;
+use ray13::scene::{ReadOptions, embedded, read};
 use ray13::tone::{Tone, lightness};
 
 /// The screen that is measured, in cells: square, as cells are twice as high as wide.
@@ -17,7 +20,7 @@ const EYES: [f64; 2] = [0.25, 0.5];
 
 /// A picture that can be drawn at any size: linear light, one ray through the middle of each dot.
 struct Picture {
-    name: &'static str,
+    name: String,
     light: Box<dyn Fn(Size) -> Grid<f64>>,
 }
 
@@ -106,7 +109,7 @@ fn table(out: &mut impl Write) -> io::Result<()> {
         .iter()
         .map(|picture| (picture.light)(times(SCREEN, SAMPLES)).map(|light| light.clamp(0.0, 1.0)))
         .collect();
-    let names: Vec<&str> = pictures.iter().map(|picture| picture.name).collect();
+    let names: Vec<&str> = pictures.iter().map(|picture| picture.name.as_str()).collect();
     writeln!(out, "| glyphs | palette | rays per dot | {} | mean | better than shade |", names.join(" | "))?;
     writeln!(out, "|---|---|---|{}---|---|", "---|".repeat(names.len()))?;
     let mut shade = Vec::new();
@@ -161,7 +164,7 @@ fn small_pictures(out: &mut impl Write) -> io::Result<()> {
 /// A picture from its light at (x, y), each from −1 to 1, x to the right and y up.
 fn picture(name: &'static str, light: impl Fn(f64, f64) -> f64 + 'static) -> Picture {
     Picture {
-        name,
+        name: name.to_owned(),
         light: Box::new(move |size| {
             Grid::from_fn(size, |column, row| {
                 let along = |k: u32, n: u32| (2.0 * f64::from(k) + 1.0) / f64::from(n) - 1.0;
@@ -186,13 +189,40 @@ fn lit(n: [f64; 3], ambient: f64, kd: f64, ks: f64) -> f64 {
 
 /// Pictures that need no scene: round and flat shading, shadow edges, soft light, thin and curved parts.
 fn pictures() -> Vec<Picture> {
-    vec![
+    let mut all = Vec::new();
+    for scene in embedded() {
+        let scene_read = read(scene.name, scene.text.as_bytes(), &ReadOptions::default()).expect("embedded");
+        let studio = std::rc::Rc::new(Studio::new(scene_read).expect("embedded"));
+        for index in 0..studio.scene().views.len() {
+            let studio = studio.clone();
+            let camera = studio.camera(index, 1.0);
+            let name = format!("{}-{}", scene.name, camera.name.clone().unwrap_or_default());
+            all.push(Picture {
+                name,
+                light: Box::new(move |size| {
+                    studio
+                        .draw(&Request {
+                            camera: camera.clone(),
+                            dots: size,
+                            dot_aspect: 1.0 * f64::from(size.height) / f64::from(size.width),
+                            options: Options::default(),
+                            glyphs: GlyphMode::Shade,
+                            palette: Palette::Mono,
+                            tone: Tone::default(),
+                        })
+                        .light
+                }),
+            });
+        }
+    }
+    all.extend([
         picture("spheres", spheres),
         picture("boxes", boxes),
         picture("glow", glow),
         picture("columns", columns),
         picture("rings", rings),
-    ]
+    ]);
+    all
 }
 
 fn spheres(x: f64, y: f64) -> f64 {

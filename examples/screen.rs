@@ -8,7 +8,7 @@ use std::io::BufWriter;
 use ray13::frame::{Request, Studio};
 use ray13::glyph::{GlyphMode, Palette, appearance};
 use ray13::math::Size;
-use ray13::output;
+use ray13::output::{self, Pixels};
 use ray13::plan::Options;
 use ray13::scene::{self, ReadOptions, embedded};
 use ray13::tone::Tone;
@@ -38,7 +38,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         palette: Palette::Dos,
         tone: Tone::Lightness,
     });
-    let screen = appearance(&frame.cells, PIXELS).map(|&light| Tone::Lightness.level(light));
-    output::png(&screen, &mut BufWriter::new(File::create(path)?))?;
+    let screen = appearance(&frame.cells, PIXELS).map(|&light| Tone::Lightness.level(light).srgb());
+    output::png(&Pixels::Gray(screen), &mut BufWriter::new(File::create(path)?))?;
     Ok(())
 }

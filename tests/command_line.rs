@@ -204,7 +204,7 @@ mod a_still {
             assert!(picture != plain, "{option:?} changes nothing");
         }
         for option in
-            [["--structure", "none"], ["--structure", "lattice"], ["--threads", "3"], ["--shading", "3"]]
+            [["--structure", "none"], ["--structure", "lattice"], ["--threads", "3"], ["--shading", "4"]]
         {
             let picture =
                 done(
@@ -323,7 +323,7 @@ mod bad_arguments {
     #[test]
     fn have_exit_code_2() {
         let (_, file) = scene("arguments", BALL);
-        let cases: [&[&str]; 19] = [
+        let cases: [&[&str]; 22] = [
             &["render"],
             &["rendre", &file],
             &["--cels", "80x25", &file],
@@ -340,6 +340,9 @@ mod bad_arguments {
             &["render", &file, "--zoom", "inf"],
             &["render", &file, "--samples", "0"],
             &["render", &file, "--shading", "7"],
+            &["render", &file, "--depth", "65"],
+            &["render", &file, "--cutoff", "-0.1"],
+            &["render", &file, "--cutoff", "nan"],
             &["render", &file, "--format", "jpeg"],
             &["render", &file, "--glyphs", "block"],
             &["render", &file, "--structure", "octree"],

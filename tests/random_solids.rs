@@ -15,7 +15,7 @@ use proptest::test_runner::RngSeed;
 use ray13::frame::Studio;
 use ray13::math::{Bounds, DAffine3, DMat3, DVec3, Size};
 use ray13::scene::{
-    Camera, Facets, HalfSpace, Material, MaterialId, Mesh, Object, Primitive, Scene, Shape, Solid,
+    Camera, Facets, FieldSpan, HalfSpace, Material, MaterialId, Mesh, Object, Primitive, Scene, Shape, Solid,
 };
 
 const DOTS: Size = Size::new(24, 24);
@@ -118,7 +118,15 @@ fn scene(solids: &[Solid], by: &DAffine3) -> Scene {
 fn camera(eye: DVec3, zoom: f64, by: &DAffine3) -> Camera {
     let eye = by.transform_point3(eye);
     let target = by.transform_point3(DVec3::new(0.1, 0.05, -0.07));
-    Camera { name: None, eye, target, up: DVec3::new(0.1, 0.2, 1.0), field: [40.0, 40.0], zoom }
+    Camera {
+        name: None,
+        eye,
+        target,
+        up: DVec3::new(0.1, 0.2, 1.0),
+        field: [40.0, 40.0],
+        span: FieldSpan::Edges,
+        zoom,
+    }
 }
 
 /// Far enough away to see all that can be on the grid.

@@ -6,7 +6,7 @@ mod scenery;
 use ray13::frame::{Frame, Space, Studio};
 use ray13::math::{Bounds, DVec3, Size};
 use ray13::plan::StructureChoice;
-use ray13::scene::{Camera, Scene, Solid};
+use ray13::scene::{Camera, FieldSpan, Scene, Solid};
 use ray13::tone::{Level, Tone};
 use request::request;
 use scenery::embedded_scenes;
@@ -28,7 +28,7 @@ fn bounds(solid: &Solid) -> Bounds {
 fn camera(eye: DVec3, target: DVec3) -> Camera {
     let along_z = (target - eye).normalize().z.abs() > 0.99;
     let up = if along_z { DVec3::Y } else { DVec3::Z };
-    Camera { name: None, eye, target, up, field: [60.0, 45.0], zoom: 1.0 }
+    Camera { name: None, eye, target, up, field: [60.0, 45.0], span: FieldSpan::Edges, zoom: 1.0 }
 }
 
 /// Three views from outside the world, two from inside, and those that a walk from cell to cell finds hardest: along

@@ -117,6 +117,7 @@ mod tests {
             target: DVec3::ZERO,
             up: DVec3::Z,
             field: [40.0, 25.0],
+            span: crate::scene::FieldSpan::Edges,
             zoom: 1.0,
         }
     }

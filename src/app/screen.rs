@@ -108,6 +108,7 @@ const fn name(shading: Shading) -> &'static str {
         Shading::Lambert => "diffuse",
         Shading::Depth => "depth",
         Shading::Phong => "highlight",
+        Shading::Whitted => "mirror, glass",
     }
 }
 
@@ -231,6 +232,7 @@ mod tests {
             target: DVec3::ZERO,
             up: DVec3::Z,
             field: [40.0, 25.0],
+            span: crate::scene::FieldSpan::Edges,
             zoom: 1.0,
         };
         let notes = vec!["line 12: hull() is left out".to_owned(), "line 14: text() is left out".to_owned()];

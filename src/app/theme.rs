@@ -21,7 +21,7 @@ impl Theme {
     /// The styles that go with a picture's palette.
     pub const fn of(palette: Palette) -> Self {
         match palette {
-            Palette::Dos => {
+            Palette::Dos | Palette::Gray(_) | Palette::Color(_) => {
                 let text = Style::new().fg(Color::Gray).bg(Color::Black);
                 Self {
                     text,

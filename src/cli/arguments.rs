@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::math::{DVec3, Size};
+use crate::plan::{CUTOFF, DEPTH};
 
 use super::picture::{Glyphs, PaletteName, StructureName, ToneName};
 use super::values;
@@ -66,9 +67,9 @@ pub struct RenderArguments {
     /// How the picture is written [default: by the ending of -o; else ans on a terminal, txt elsewhere]
     #[arg(long, value_enum)]
     pub format: Option<Format>,
-    /// What the values of a pfm are
-    #[arg(long, value_enum, default_value = "light")]
-    pub channel: Channel,
+    /// Raw values in place of levels: light in png, pgm, ppm and pfm, all others in pfm only [default: light in pfm]
+    #[arg(long, value_enum)]
+    pub channel: Option<Channel>,
     /// Write to this file [default: standard output]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
@@ -99,9 +100,15 @@ pub struct PictureArguments {
     pub dots: Option<Size>,
     #[command(flatten)]
     pub camera: CameraArguments,
-    /// The paper's illumination model: 1 diffuse, 2 with depth (in a scene with `world(k = …)`), 3 with highlights
-    #[arg(long, value_name = "1..3", default_value = "3", value_parser = clap::value_parser!(u8).range(1..=3))]
+    /// The paper's illumination model: 1 diffuse, 2 with depth (in a scene with `world(k = …)`), 3 with highlights, 4 with mirrors and glass
+    #[arg(long, value_name = "1..4", default_value = "4", value_parser = clap::value_parser!(u8).range(1..=4))]
     pub shading: u8,
+    /// Follow mirror and Snell rays for so many generations
+    #[arg(long, value_name = "N", default_value_t = DEPTH, value_parser = clap::value_parser!(u32).range(0..=64))]
+    pub depth: u32,
+    /// Follow a mirror or Snell ray only while it can still change the light of its dot by so much; 0 follows all
+    #[arg(long, value_name = "F", default_value_t = CUTOFF, value_parser = values::not_negative)]
+    pub cutoff: f64,
     /// Lights shine through everything
     #[arg(long)]
     pub no_shadows: bool,
@@ -157,8 +164,12 @@ pub enum Format {
     Ans,
     /// One character per dot, 0 to 9 and A to C: the form to keep in a test
     Levels,
-    /// One pixel per dot, at its level's gray
+    /// One pixel per dot, at its level's gray, or in colour with --palette color
     Png,
+    /// One pixel per dot, at its level's gray, as a portable gray map
+    Pgm,
+    /// The same as png, as a portable pixel map
+    Ppm,
     /// Raw values of --channel, as floats
     Pfm,
 }
@@ -166,7 +177,7 @@ pub enum Format {
 /// Raw values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Channel {
-    /// Linear light
+    /// Linear light; its three primaries with --palette color
     Light,
     /// Distance from the eye, infinite where nothing is hit
     Depth,

@@ -3,10 +3,10 @@
 use clap::ValueEnum;
 
 use crate::frame::{Request, Studio};
-use crate::glyph::{GlyphMode, Palette};
+use crate::glyph::{ColorDepth, GlyphMode, Palette};
 use crate::math::Size;
 use crate::plan::{Options, Shading, StructureChoice};
-use crate::scene::{Camera, Scene};
+use crate::scene::{Camera, FieldSpan, Scene};
 use crate::tone::Tone;
 
 use super::arguments::{CameraArguments, PictureArguments};
@@ -25,8 +25,14 @@ pub enum Glyphs {
     Blocks,
     /// The same with the DOS set only
     Cp437,
+    /// 2 x 2 dots per cell
+    Quadrant,
+    /// Two dots per cell, one above the other
+    Half,
     /// One shade per cell
     Shade,
+    /// Dots of ink only, 2 x 4 per cell
+    Braille,
     /// ASCII only
     Ascii,
 }
@@ -36,7 +42,10 @@ impl From<Glyphs> for GlyphMode {
         match name {
             Glyphs::Blocks => Self::Blocks,
             Glyphs::Cp437 => Self::Cp437,
+            Glyphs::Quadrant => Self::Quadrant,
+            Glyphs::Half => Self::Half,
             Glyphs::Shade => Self::Shade,
+            Glyphs::Braille => Self::Braille,
             Glyphs::Ascii => Self::Ascii,
         }
     }
@@ -47,8 +56,12 @@ impl From<Glyphs> for GlyphMode {
 pub enum PaletteName {
     /// The four grays of 16-colour attributes
     Dos,
+    /// The 13 levels themselves as ink and paper, on terminals of 256 or more colours
+    Gray,
     /// The terminal's own ink and paper
     Mono,
+    /// Any colour as ink and paper, on terminals of 256 or more colours
+    Color,
 }
 
 /// The tones by name.
@@ -87,7 +100,9 @@ impl PictureArguments {
     pub fn options(&self) -> Options {
         let shading = Shading::ALL.into_iter().find(|s| s.number() == self.shading);
         Options {
-            shading: shading.unwrap_or(Shading::Phong),
+            shading: shading.unwrap_or(Shading::Whitted),
+            depth: self.depth,
+            cutoff: self.cutoff,
             shadows: !self.no_shadows,
             structure: match self.structure {
                 StructureName::Auto => StructureChoice::Auto,
@@ -96,6 +111,7 @@ impl PictureArguments {
                 StructureName::Tree => StructureChoice::Tree,
             },
             samples: self.samples,
+            color: false,
             threads: self.threads.map_or(0, usize::from),
         }
     }
@@ -103,8 +119,14 @@ impl PictureArguments {
     /// The palette asked for; else what `NO_COLOR` (<https://no-color.org>) leaves.
     pub fn palette(&self) -> Palette {
         let forbidden = || std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
-        let mono = self.palette.map_or_else(forbidden, |name| name == PaletteName::Mono);
-        if mono { Palette::Mono } else { Palette::Dos }
+        match self.palette {
+            Some(PaletteName::Dos) => Palette::Dos,
+            Some(PaletteName::Gray) => Palette::Gray(color_depth()),
+            Some(PaletteName::Mono) => Palette::Mono,
+            Some(PaletteName::Color) => Palette::Color(color_depth()),
+            None if forbidden() => Palette::Mono,
+            None => Palette::Dos,
+        }
     }
 
     /// The request for one picture.
@@ -129,6 +151,15 @@ impl PictureArguments {
             palette,
             tone: self.tone.into(),
         })
+    }
+}
+
+/// What terminals say of themselves: those that take colours of 24 bits set `COLORTERM` to `truecolor` or `24bit`
+/// (<https://github.com/termstandard/colors>). All others that have more than 16 take a number of 256.
+fn color_depth() -> ColorDepth {
+    match std::env::var("COLORTERM").as_deref() {
+        Ok("truecolor" | "24bit") => ColorDepth::Direct,
+        _ => ColorDepth::Indexed,
     }
 }
 
@@ -177,6 +208,7 @@ impl CameraArguments {
             target: self.target.unwrap_or(base.target),
             up: self.up.unwrap_or(base.up),
             field: self.field.unwrap_or(base.field),
+            span: if self.field.is_some() { FieldSpan::Edges } else { base.span },
             zoom: self.zoom.unwrap_or(base.zoom),
             ..base
         };

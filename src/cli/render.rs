@@ -9,7 +9,9 @@ use clap::ValueEnum;
 
 use crate::frame::{Frame, Request};
 use crate::glyph::Palette;
-use crate::output;
+use crate::math::Grid;
+use crate::output::{self, Pixels};
+use crate::tone::Tone;
 
 use super::arguments::{Channel, Format, PictureArguments, RenderArguments};
 use super::error::CliError;
@@ -18,11 +20,7 @@ use super::{input, print, stats};
 /// Draws one still and writes it.
 pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
     let format = arguments.format.map_or_else(|| format_of(arguments.output.as_deref()), Ok)?;
-    if arguments.channel != Channel::Light && format != Format::Pfm {
-        return Err(CliError::Input(
-            "--channel needs --format pfm: the other formats hold the picture itself".into(),
-        ));
-    }
+    check(format, arguments.channel)?;
     let reading = Instant::now();
     let scene = input::read(&arguments.scene.file, arguments.scene.skip_unsupported)?;
     input::say(&scene.notes);
@@ -54,7 +52,18 @@ pub fn still(file: &str, skip_unsupported: bool, picture: &PictureArguments) -> 
     let studio = input::studio(scene)?;
     let request = picture.request(&studio, palette(picture, Format::Txt))?;
     let frame = studio.draw(&request);
-    print(&encoded(&frame, &request, Format::Txt, Channel::Light)?)
+    print(&encoded(&frame, &request, Format::Txt, None)?)
+}
+
+/// Refuses a channel that the format does not hold.
+fn check(format: Format, channel: Option<Channel>) -> Result<(), CliError> {
+    let message = match (format, channel) {
+        (_, None) | (Format::Pfm, _) => return Ok(()),
+        (Format::Png | Format::Pgm | Format::Ppm, Some(Channel::Light)) => return Ok(()),
+        (_, Some(Channel::Light)) => "--channel light needs --format png, pgm, ppm or pfm",
+        (_, Some(_)) => "this --channel needs --format pfm: the other formats hold the picture itself",
+    };
+    Err(CliError::Input(message.into()))
 }
 
 /// Text has no colours to lose: its shades are ink.
@@ -83,18 +92,28 @@ fn format_of(path: Option<&Path>) -> Result<Format, CliError> {
 }
 
 /// The whole still in memory, so that an error leaves nothing half-written.
-fn encoded(frame: &Frame, request: &Request, format: Format, channel: Channel) -> Result<Vec<u8>, CliError> {
+fn encoded(
+    frame: &Frame,
+    request: &Request,
+    format: Format,
+    channel: Option<Channel>,
+) -> Result<Vec<u8>, CliError> {
     let mut out = Vec::new();
     let done = match format {
         Format::Txt => output::text(&frame.cells, &mut out),
         Format::Ans => output::ansi(&frame.cells, &mut out),
         Format::Levels => output::levels(&frame.levels(request.tone), &mut out),
         Format::Png => {
-            let drawn = output::png(&frame.levels(request.tone), &mut out);
+            let drawn = output::png(&pixels(frame, request, channel), &mut out);
             drawn.map_err(|e| io::Error::other(e.to_string()))
         }
-        Format::Pfm => match channel {
-            Channel::Light => output::pfm_gray(&frame.light, &mut out),
+        Format::Pgm => output::pgm(&grays(frame, request, channel), &mut out),
+        Format::Ppm => output::ppm(&pixels(frame, request, channel), &mut out),
+        Format::Pfm => match channel.unwrap_or(Channel::Light) {
+            Channel::Light => match &frame.color {
+                Some(color) => output::pfm_vectors(color, &mut out),
+                None => output::pfm_gray(&frame.light, &mut out),
+            },
             Channel::Depth => output::pfm_gray(&frame.depth, &mut out),
             Channel::Normal => output::pfm_vectors(&frame.normal, &mut out),
             Channel::Object => output::pfm_gray(&frame.object.map(|&n| f64::from(n)), &mut out),
@@ -102,6 +121,23 @@ fn encoded(frame: &Frame, request: &Request, format: Format, channel: Channel) -
     };
     done.map_err(|e| CliError::Output(format!("the picture could not be encoded: {e}")))?;
     Ok(out)
+}
+
+/// Colours where they are wanted, as the tone shows them or as they are; else grays.
+fn pixels(frame: &Frame, request: &Request, channel: Option<Channel>) -> Pixels {
+    let tone = if channel.is_some() { Tone::Lightness } else { request.tone };
+    match &frame.color {
+        Some(color) => Pixels::of_colors(color, tone),
+        None => Pixels::Gray(grays(frame, request, channel)),
+    }
+}
+
+/// The levels' grays, or the light itself where it is asked for.
+fn grays(frame: &Frame, request: &Request, channel: Option<Channel>) -> Grid<u8> {
+    match channel {
+        Some(_) => output::grays_of_light(&frame.light),
+        None => output::grays_of_levels(&frame.levels(request.tone)),
+    }
 }
 
 /// Writes beside the place and moves there at the end, so that the file is whole or as it was. What is no plain

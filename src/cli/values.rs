@@ -48,6 +48,14 @@ pub fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A number of 0 or more.
+pub fn not_negative(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x >= 0.0 && x.is_finite() => Ok(x),
+        _ => Err("expected a finite number, 0 or more".into()),
+    }
+}
+
 fn pair<T: FromStr>(text: &str) -> Option<[T; 2]> {
     let (a, b) = text.split_once(['x', '×'])?;
     Some([a.trim().parse().ok()?, b.trim().parse().ok()?])

@@ -4,12 +4,12 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use crate::glyph;
-use crate::math::{DVec3, Grid};
-use crate::plan::{Channels, Plan};
-use crate::shade::{Channel, Shader, View};
+use crate::glyph::{self, Palette};
+use crate::math::{DVec3, Grid, Size};
+use crate::plan::{Channels, Options, Plan};
+use crate::shade::{Channel, Memory, Shader, View};
 use crate::stage::{Counts, Meter, Probe, Silent, Stage, StageTimes, Stopwatch};
-use crate::trace::{Engine, Exact};
+use crate::trace::Exact;
 use crate::view::{Lens, Picture, TILE, Tile, tiles};
 
 use super::{Frame, Request, Space, Studio};
@@ -24,7 +24,9 @@ impl Studio {
         let start = Instant::now();
         let picture = Picture { dots: request.dots, dot_aspect: request.dot_aspect };
         let lens = Lens::new(&request.camera, &picture);
-        let plan = Plan::new(self.scene(), &self.assembly, &lens, &request.options);
+        let wants_color = request.options.color || request.palette.is_color();
+        let options = Options { color: wants_color, ..request.options };
+        let plan = Plan::new(self.scene(), &self.assembly, &lens, &options);
         let viewed = Instant::now();
         let (structure, over_budget) = self.structure(plan.structure);
         let engine = Exact::new(&self.assembly, structure);
@@ -32,15 +34,21 @@ impl Studio {
 
         let workers = self.workers(request.options.threads);
         let work = || match plan.channels {
-            Channels::Gray => self.trace::<f64>(&engine, &plan, &lens, request),
-            Channels::Three => self.trace::<DVec3>(&engine, &plan, &lens, request),
+            Channels::Gray => self.trace::<f64>(&engine, &plan, &lens, request.dots),
+            Channels::Three => self.trace::<DVec3>(&engine, &plan, &lens, request.dots),
         };
         let traced = workers.as_ref().map_or_else(work, |pool| pool.install(work));
         let trace = tracing.elapsed();
 
-        let Traced { light, depth, normal, object, counts, times } = traced;
+        let Traced { light, color, depth, normal, object, counts, times } = traced;
+        let color = Some(color).filter(|_| wants_color);
         let dithering = Instant::now();
-        let cells = glyph::compose(&light, request.glyphs, request.palette, request.tone);
+        let cells = match (&color, request.palette) {
+            (Some(color), Palette::Color(depth)) => {
+                glyph::compose_color(color, request.glyphs, depth, request.tone)
+            }
+            _ => glyph::compose(&light, request.glyphs, request.palette, request.tone),
+        };
         let mut times = shared_out(&times, trace);
         times[Stage::Objects] = self.built().assembling;
         times[Stage::Lattice] = self.built().cutting;
@@ -48,6 +56,7 @@ impl Studio {
         times[Stage::Dither] = dithering.elapsed();
         Frame {
             light,
+            color,
             depth,
             normal,
             object,
@@ -65,14 +74,14 @@ impl Studio {
         }
     }
 
-    fn trace<C: Channel>(&self, engine: &Exact, plan: &Plan, lens: &Lens, request: &Request) -> Traced {
+    fn trace<C: Channel>(&self, engine: &Exact, plan: &Plan, lens: &Lens, dots: Size) -> Traced {
         let shader = Shader::<_, C>::new(self.scene(), &self.assembly, plan, engine);
         let sampler = Sampler { studio: self, shader: &shader, lens, samples: plan.samples };
-        let tiles = tiles(request.dots);
+        let tiles = tiles(dots);
         let drawn: Vec<Drawn> = tiles
             .par_iter()
             .map_init(
-                || engine.memory(),
+                || shader.memory(),
                 |memory, tile| {
                     if tile.number % TIMED == 0 {
                         let mut meter = Meter::new(Stopwatch::start(Stage::Ray));
@@ -86,7 +95,7 @@ impl Studio {
                 },
             )
             .collect();
-        Traced::gathered(request.dots, &tiles, &drawn)
+        Traced::gathered(dots, &tiles, &drawn)
     }
 }
 
@@ -106,6 +115,7 @@ fn shared_out(sampled: &StageTimes, trace: std::time::Duration) -> StageTimes {
 #[derive(Clone, Copy, Debug)]
 struct Dot {
     light: f64,
+    color: DVec3,
     depth: f64,
     normal: DVec3,
     object: u32,
@@ -126,12 +136,7 @@ struct Sampler<'a, 'b, C> {
 }
 
 impl<'b, C: Channel> Sampler<'_, 'b, C> {
-    fn tile(
-        &self,
-        tile: &Tile,
-        memory: &mut <Exact<'b> as Engine>::Memory,
-        meter: &mut Meter<impl Probe>,
-    ) -> Vec<Dot> {
+    fn tile(&self, tile: &Tile, memory: &mut Memory<Exact<'b>>, meter: &mut Meter<impl Probe>) -> Vec<Dot> {
         let mut dots = Vec::with_capacity((TILE * TILE) as usize);
         for (i, j) in tile.dots() {
             let (x, y) = (f64::from(i) + 0.5, f64::from(j) + 0.5);
@@ -148,10 +153,12 @@ impl<'b, C: Channel> Sampler<'_, 'b, C> {
                 sum * (step * step)
             };
             let assembly = &self.studio.assembly;
+            let (light, color) = (light.gray(), light.rgb());
             dots.push(middle.seen.map_or(
-                Dot { light: light.gray(), depth: f64::INFINITY, normal: DVec3::ZERO, object: 0 },
+                Dot { light, color, depth: f64::INFINITY, normal: DVec3::ZERO, object: 0 },
                 |seen| Dot {
-                    light: light.gray(),
+                    light,
+                    color,
                     depth: seen.t * assembly.datum.unit,
                     normal: seen.normal,
                     object: assembly.objects[seen.object as usize].number + 1,
@@ -165,7 +172,7 @@ impl<'b, C: Channel> Sampler<'_, 'b, C> {
         &self,
         x: f64,
         y: f64,
-        memory: &mut <Exact<'b> as Engine>::Memory,
+        memory: &mut Memory<Exact<'b>>,
         meter: &mut Meter<impl Probe>,
     ) -> View<C> {
         meter.at(Stage::Ray);
@@ -179,6 +186,7 @@ impl<'b, C: Channel> Sampler<'_, 'b, C> {
 /// The dots of all tiles.
 struct Traced {
     light: Grid<f64>,
+    color: Grid<DVec3>,
     depth: Grid<f64>,
     normal: Grid<DVec3>,
     object: Grid<u32>,
@@ -188,9 +196,10 @@ struct Traced {
 }
 
 impl Traced {
-    fn gathered(size: crate::math::Size, tiles: &[Tile], drawn: &[Drawn]) -> Self {
+    fn gathered(size: Size, tiles: &[Tile], drawn: &[Drawn]) -> Self {
         let mut all = Self {
             light: Grid::filled(size, 0.0),
+            color: Grid::filled(size, DVec3::ZERO),
             depth: Grid::filled(size, f64::INFINITY),
             normal: Grid::filled(size, DVec3::ZERO),
             object: Grid::filled(size, 0),
@@ -204,6 +213,7 @@ impl Traced {
             }
             for (place, dot) in tile.dots().zip(&done.dots) {
                 all.light[place] = dot.light;
+                all.color[place] = dot.color;
                 all.depth[place] = dot.depth;
                 all.normal[place] = dot.normal;
                 all.object[place] = dot.object;

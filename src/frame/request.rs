@@ -23,7 +23,7 @@ pub struct Request {
     pub options: Options,
     /// Characters.
     pub glyphs: GlyphMode,
-    /// Colours.
+    /// Colours. [`Palette::Color`] has the light of each primary computed, whatever the options say.
     pub palette: Palette,
     /// Light to level.
     pub tone: Tone,
@@ -34,6 +34,8 @@ pub struct Request {
 pub struct Frame {
     /// The light of each dot, a gray in linear light, 0 or more, not clamped.
     pub light: Grid<f64>,
+    /// The same by its three linear primaries (sRGB, Rec. 709), where colours were wanted.
+    pub color: Option<Grid<DVec3>>,
     /// The distance from the eye to what the middle of each dot sees, in the scene's unit; infinite where it
     /// sees nothing.
     pub depth: Grid<f64>,
@@ -103,6 +105,7 @@ impl Frame {
     pub fn blank(dots: Size, cells: Grid<Cell>) -> Self {
         Self {
             light: Grid::filled(dots, 0.0),
+            color: None,
             depth: Grid::filled(dots, f64::INFINITY),
             normal: Grid::filled(dots, DVec3::ZERO),
             object: Grid::filled(dots, 0),

@@ -1,7 +1,7 @@
-//! A character cell and the choices that decide what may stand in it.
+//! A character cell.
 
-use crate::math::Size;
-use crate::tone::GRAYS;
+use super::paint::{ColorDepth, Paint};
+use super::shape::{Shape, complement};
 
 /// One character of the screen with its two colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -14,35 +14,34 @@ pub struct Cell {
     pub paper: Paint,
 }
 
-/// A colour of ink or paper.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Paint {
-    /// Whatever the terminal uses when nothing is asked for.
-    Terminal,
-    /// Attribute 0.
-    Black,
-    /// Attribute 8.
-    DarkGray,
-    /// Attribute 7.
-    LightGray,
-    /// Attribute 15.
-    White,
-}
+impl Cell {
+    /// A cell of one colour. The attributes are written as the levels that they are, with a paper that every
+    /// terminal has.
+    pub const fn flat(paint: Paint) -> Self {
+        let (glyph, ink, paper) = match paint {
+            Paint::Black => (' ', Paint::DarkGray, Paint::Black),
+            Paint::DarkGray => ('█', paint, Paint::Black),
+            Paint::LightGray => ('█', paint, paint),
+            Paint::White => ('█', paint, Paint::LightGray),
+            // The terminal's own colour, where nothing is said about ink, is that of its paper.
+            Paint::Terminal | Paint::Indexed(_) | Paint::Rgb(_) => (' ', paint, paint),
+        };
+        Self { glyph, ink, paper }
+    }
 
-impl Paint {
-    /// The linear light, 0 to 1, of one of the four grays; `None` for the terminal's own colours, which nothing knows.
-    pub const fn light(self) -> Option<f64> {
-        match self {
-            Self::Terminal => None,
-            Self::Black => Some(GRAYS[0]),
-            Self::DarkGray => Some(GRAYS[1]),
-            Self::LightGray => Some(GRAYS[2]),
-            Self::White => Some(GRAYS[3]),
+    /// A cell of two colours; with ink and paper in each other's place where that spares a bright paper.
+    pub fn pair(shape: Shape, ink: Paint, paper: Paint) -> Self {
+        if ink == paper {
+            return Self::flat(ink);
+        }
+        match complement(shape) {
+            Some(other) if paper.is_bright() && !ink.is_bright() => {
+                Self { glyph: other.glyph, ink: paper, paper: ink }
+            }
+            _ => Self { glyph: shape.glyph, ink, paper },
         }
     }
-}
 
-impl Cell {
     /// The light of the ink. The terminal's own ink counts as white.
     pub fn ink_light(self) -> f64 {
         self.ink.light().unwrap_or(1.0)
@@ -52,82 +51,10 @@ impl Cell {
     pub fn paper_light(self) -> f64 {
         self.paper.light().unwrap_or(0.0)
     }
-}
 
-/// Which characters draw the picture.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum GlyphMode {
-    /// Shades, half blocks and quadrants, whichever fits the cell best.
-    #[default]
-    Blocks,
-    /// The same with the DOS set only, paper black or light gray.
-    Cp437,
-    /// One shade per cell: one of the 13 levels exactly.
-    Shade,
-    /// A ramp of 13 ASCII characters.
-    Ascii,
-}
-
-impl GlyphMode {
-    /// All modes, in the order the viewer steps through.
-    pub const ALL: [Self; 4] = [Self::Blocks, Self::Cp437, Self::Shade, Self::Ascii];
-
-    /// Traced dots per cell.
-    pub const fn dots_per_cell(self) -> Size {
-        match self {
-            Self::Blocks | Self::Cp437 => Size::new(2, 4),
-            Self::Shade | Self::Ascii => Size::new(1, 1),
-        }
-    }
-
-    /// The name on the command line.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Blocks => "blocks",
-            Self::Cp437 => "cp437",
-            Self::Shade => "shade",
-            Self::Ascii => "ascii",
-        }
-    }
-}
-
-/// Which colours draw the picture.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Palette {
-    /// The four grays of 16-colour attributes.
-    #[default]
-    Dos,
-    /// The terminal's own ink and paper only.
-    Mono,
-}
-
-impl Palette {
-    /// The inks.
-    pub const fn inks(self) -> &'static [Paint] {
-        match self {
-            Self::Dos => &[Paint::Black, Paint::LightGray, Paint::DarkGray, Paint::White],
-            Self::Mono => &[Paint::Terminal],
-        }
-    }
-
-    /// The papers, those first that every terminal has: a Linux console has no bright ones.
-    pub const fn papers(self) -> &'static [Paint] {
-        self.inks()
-    }
-
-    /// The papers that every terminal has.
-    pub const fn dim_papers(self) -> &'static [Paint] {
-        match self {
-            Self::Dos => &[Paint::Black, Paint::LightGray],
-            Self::Mono => &[Paint::Terminal],
-        }
-    }
-
-    /// The name on the command line.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Dos => "dos",
-            Self::Mono => "mono",
-        }
+    /// The same for a terminal of that depth.
+    #[must_use]
+    pub fn at(self, depth: ColorDepth) -> Self {
+        Self { ink: self.ink.at(depth), paper: self.paper.at(depth), ..self }
     }
 }

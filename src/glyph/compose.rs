@@ -1,10 +1,15 @@
 //! A picture's light as character cells.
 
-use super::cell::{Cell, GlyphMode, Palette};
+use super::cell::Cell;
+use super::choice::{GlyphMode, Palette};
+use super::dots::{braille, half, half_in_color, quadrant, quadrant_in_color};
 use super::fit::BestFit;
+use super::paint::{ColorDepth, Paint};
+use super::pair::{Grays, PairFit, paint};
 use super::shade::{ascii, shade};
-use super::shape::{BLOCKS, HALVES};
-use crate::math::Grid;
+use super::shape::{BLOCKS, DOT_COUNT, DOTS, HALVES};
+use crate::math::{DVec3, Grid};
+use crate::shade::luminance;
 use crate::tone::Tone;
 
 /// The cells that show `light`, a gray in linear light per traced dot, with [`GlyphMode::dots_per_cell`] dots to a
@@ -24,26 +29,82 @@ use crate::tone::Tone;
 /// assert_eq!(cells[(0, 0)].glyph, '▌');
 /// ```
 pub fn compose(light: &Grid<f64>, mode: GlyphMode, palette: Palette, tone: Tone) -> Grid<Cell> {
-    match mode {
+    if let Palette::Color(depth) = palette {
+        return compose_color(&light.map(|&light| DVec3::splat(light)), mode, depth, tone);
+    }
+    let cells = match mode {
         GlyphMode::Shade => Grid::from_fn(light.size(), |column, row| {
             shade(tone.level(light[(column, row)]), palette, column, row)
         }),
         GlyphMode::Ascii => light.map(|&light| ascii(tone.level(light))),
-        GlyphMode::Blocks => BestFit::new(BLOCKS, palette.papers(), palette).compose(light, tone),
-        GlyphMode::Cp437 => BestFit::new(HALVES, palette.dim_papers(), palette).compose(light, tone),
-    }
+        GlyphMode::Half => half(light, palette, tone),
+        GlyphMode::Quadrant => quadrant(light, palette, tone),
+        GlyphMode::Braille => braille(light, tone, |_, _| Paint::Terminal),
+        GlyphMode::Blocks | GlyphMode::Cp437 => {
+            let shapes = if mode == GlyphMode::Blocks { BLOCKS } else { HALVES };
+            let papers = if mode == GlyphMode::Blocks { palette.papers() } else { palette.dim_papers() };
+            match palette {
+                Palette::Gray(_) => PairFit::new(shapes).compose_grays(light, &Grays::levels(), tone),
+                _ => BestFit::new(shapes, papers, palette).compose(light, tone),
+            }
+        }
+    };
+    at(palette.depth(), cells)
+}
+
+/// The cells that show `color`, three linear primaries per traced dot, as [`compose`] does, in any colours. There
+/// are no levels: `tone` changes luminance, nothing is rounded but to the terminal's depth. Where a cell can have one
+/// colour only beside the terminal's own (`ascii`, `braille`), its ink carries lightness and its colour the hue.
+pub fn compose_color(color: &Grid<DVec3>, mode: GlyphMode, depth: ColorDepth, tone: Tone) -> Grid<Cell> {
+    let light = || color.map(|&color| luminance(color));
+    let cells = match mode {
+        GlyphMode::Shade => color.map(|&color| Cell::flat(paint(tone.shown_color(color)))),
+        GlyphMode::Ascii => {
+            color.map(|&color| Cell { ink: hue(color), ..ascii(tone.level(luminance(color))) })
+        }
+        GlyphMode::Half => half_in_color(color, tone),
+        GlyphMode::Quadrant => quadrant_in_color(color, tone),
+        GlyphMode::Braille => braille(&light(), tone, |column, row| {
+            let dots = (0..DOT_COUNT as u32).map(|dot| {
+                let (x, y) = (dot % DOTS.width, dot / DOTS.width);
+                color[(column * DOTS.width + x, row * DOTS.height + y)]
+            });
+            hue(dots.sum())
+        }),
+        GlyphMode::Blocks => PairFit::new(BLOCKS).compose_colors(color, tone),
+        GlyphMode::Cp437 => PairFit::new(HALVES).compose_colors(color, tone),
+    };
+    at(depth, cells)
+}
+
+/// A colour at its brightest; white for no light.
+fn hue(color: DVec3) -> Paint {
+    let most = color.max_element();
+    paint(if most > 0.0 { color / most } else { DVec3::ONE })
+}
+
+fn at(depth: ColorDepth, cells: Grid<Cell>) -> Grid<Cell> {
+    if depth == ColorDepth::Direct { cells } else { cells.map(|cell| cell.at(depth)) }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::cell::Paint;
     use super::super::shape::coverage;
     use super::*;
     use crate::math::Size;
     use crate::tone::Level;
     use proptest::prelude::*;
 
-    const PALETTES: [Palette; 2] = [Palette::Dos, Palette::Mono];
+    /// With levels or the terminal's own ink.
+    const LEVELLED: [Palette; 3] = [Palette::Dos, Palette::Gray(ColorDepth::Direct), Palette::Mono];
+    const PALETTES: [Palette; 6] = [
+        Palette::Dos,
+        Palette::Gray(ColorDepth::Direct),
+        Palette::Gray(ColorDepth::Indexed),
+        Palette::Mono,
+        Palette::Color(ColorDepth::Direct),
+        Palette::Color(ColorDepth::Indexed),
+    ];
     const TONES: [Tone; 2] = [Tone::Lightness, Tone::Even];
 
     /// A screen of 5 × 3 cells of one light.
@@ -56,7 +117,7 @@ mod tests {
     fn flat_light_is_its_level_in_every_mode() {
         for k in 0..=240 {
             let light = f64::from(k) / 240.0;
-            for (palette, tone) in PALETTES.into_iter().flat_map(|p| TONES.map(|t| (p, t))) {
+            for (palette, tone) in LEVELLED.into_iter().flat_map(|p| TONES.map(|t| (p, t))) {
                 let cells = |mode| compose(&flat(mode, light), mode, palette, tone);
                 let shades = cells(GlyphMode::Shade);
                 assert_eq!(shades[(3, 2)], shade(tone.level(light), palette, 3, 2));
@@ -65,6 +126,41 @@ mod tests {
                 assert_eq!(cells(GlyphMode::Ascii)[(3, 2)], ascii(tone.level(light)));
             }
         }
+    }
+
+    #[test]
+    fn flat_light_is_one_gray_in_the_gray_palette() {
+        for level in Level::all() {
+            for mode in [GlyphMode::Blocks, GlyphMode::Cp437, GlyphMode::Quadrant, GlyphMode::Half] {
+                let palette = Palette::Gray(ColorDepth::Direct);
+                let cells = compose(&flat(mode, level.light()), mode, palette, Tone::Lightness);
+                let meant = Cell::flat(Paint::of_level(level));
+                assert!(cells.values().iter().all(|cell| *cell == meant), "{mode:?} {level:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn flat_colour_is_that_colour() {
+        let colour = DVec3::new(0.9, 0.3, 0.01);
+        for mode in GlyphMode::ALL {
+            let dots = flat(mode, 0.0).map(|_| colour);
+            let cells = compose_color(&dots, mode, ColorDepth::Direct, Tone::Lightness);
+            match mode {
+                GlyphMode::Ascii | GlyphMode::Braille => assert_eq!(cells[(1, 1)].ink, paint(colour / 0.9)),
+                _ => assert_eq!(cells[(1, 1)], Cell::flat(paint(colour))),
+            }
+            let indexed = compose_color(&dots, mode, ColorDepth::Indexed, Tone::Lightness);
+            assert_eq!(indexed[(1, 1)], cells[(1, 1)].at(ColorDepth::Indexed));
+        }
+    }
+
+    #[test]
+    fn the_even_tone_shows_luminance_and_keeps_hue() {
+        let colour = DVec3::new(0.4, 0.5, 0.5);
+        let shown = Tone::Even.shown_color(colour);
+        assert!((luminance(shown) - Tone::Even.shown(luminance(colour))).abs() < 1e-12);
+        assert!((shown.x / shown.y - 0.8).abs() < 1e-12);
     }
 
     #[test]
@@ -123,6 +219,12 @@ mod tests {
                 prop_assert!(" ░▒▓█▀▄▌▐".contains(cell.glyph));
                 prop_assert!(matches!(cell.paper, Paint::Black | Paint::LightGray));
             }
+            let levels: Vec<Paint> = Level::all().map(Paint::of_level).collect();
+            for mode in [GlyphMode::Blocks, GlyphMode::Quadrant, GlyphMode::Half, GlyphMode::Shade] {
+                for cell in compose(&light, mode, Palette::Gray(ColorDepth::Direct), tone).values() {
+                    prop_assert!(levels.contains(&cell.ink) && levels.contains(&cell.paper));
+                }
+            }
             for mode in GlyphMode::ALL {
                 for cell in compose(&light, mode, Palette::Mono, tone).values() {
                     prop_assert_eq!((cell.ink, cell.paper), (Paint::Terminal, Paint::Terminal));
@@ -133,7 +235,7 @@ mod tests {
 
         #[test]
         fn a_cell_depends_on_its_own_dots_only(light in any_light(), other in any_light()) {
-            for mode in [GlyphMode::Blocks, GlyphMode::Cp437] {
+            for mode in [GlyphMode::Blocks, GlyphMode::Cp437, GlyphMode::Braille] {
                 for palette in PALETTES {
                     // The middle cell of the upper row is kept, all around it is changed.
                     let mixed = Grid::from_fn(light.size(), |x, y| {

@@ -8,7 +8,10 @@
 //! What a cell can show is a fixed table of candidates c, so `eᵀ K e = lᵀ K l − 2 (K c)ᵀ l + cᵀ K c` costs one
 //! product of eight dots for each: `lᵀ K l` is the same for all, and the rest is known beforehand.
 
-use super::cell::{Cell, Paint, Palette};
+use super::cell::Cell;
+use super::choice::Palette;
+use super::eye::{Dots, overlaps};
+use super::paint::Paint;
 use super::shade::shade;
 use super::shape::{DOT_COUNT, DOTS, Shape};
 use crate::math::{Grid, Size};
@@ -17,13 +20,6 @@ use crate::tone::{Level, Tone, lightness};
 /// Candidates whose costs are computed side by side. Sums go along the dots, so that they are the same at any
 /// width of the machine's vectors.
 const LANES: usize = 8;
-
-/// The eye's filters that a fit is good for, from near and from far: standard deviations of a quarter and of half
-/// a cell's width, in dots.
-const EYES: [f64; 2] = [0.5, 1.0];
-
-/// A value for each dot of a cell, in scan order.
-type Dots = [f64; DOT_COUNT];
 
 /// What a candidate puts into the cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -133,32 +129,6 @@ impl Lanes {
         }
         costs
     }
-}
-
-/// K: for each two dots, the product of their light after the eye's filter, over the whole screen; the mean of the
-/// [`EYES`]. Dots are square, as a cell of 2 × 4 is twice as high as wide.
-fn overlaps() -> [Dots; DOT_COUNT] {
-    let apart = |a: usize, b: usize| (a % 2).abs_diff(b % 2) as f64;
-    let below = |a: usize, b: usize| (a / 2).abs_diff(b / 2) as f64;
-    std::array::from_fn(|a| {
-        std::array::from_fn(|b| {
-            let seen = EYES.map(|eye| overlap(apart(a, b), eye) * overlap(below(a, b), eye));
-            seen.iter().sum::<f64>() / EYES.len() as f64
-        })
-    })
-}
-
-/// Along one axis, the overlap of two dots of width 1 that stand `apart`, each seen through a Gaussian of
-/// standard deviation `eye`: the second difference of ∬ of the Gaussian of variance 2 eye².
-fn overlap(apart: f64, eye: f64) -> f64 {
-    let sigma = eye * std::f64::consts::SQRT_2;
-    let twice_integrated = |x: f64| {
-        let z = x / sigma;
-        let density = libm::exp(-z * z / 2.0) / std::f64::consts::TAU.sqrt();
-        let below = f64::midpoint(1.0, libm::erf(z / std::f64::consts::SQRT_2));
-        sigma * (z * below + density)
-    };
-    twice_integrated(apart + 1.0) - 2.0 * twice_integrated(apart) + twice_integrated(apart - 1.0)
 }
 
 #[cfg(test)]

@@ -4,27 +4,6 @@ use super::*;
 use crate::glyph::shape::{BLOCKS, HALVES};
 use proptest::prelude::*;
 
-/// The light of dots seen through Gaussians, without the closed form: K is compared with sums over fine squares.
-#[test]
-fn the_overlap_is_the_integral_of_two_seen_dots() {
-    const FINE: i32 = 200;
-    for eye in EYES {
-        for apart in 0..4 {
-            let sigma = eye * std::f64::consts::SQRT_2;
-            let mut sum = 0.0;
-            for i in 0..FINE {
-                for j in 0..FINE {
-                    let away = f64::from(apart) + f64::from(i - j) / f64::from(FINE);
-                    let z = away / sigma;
-                    sum += libm::exp(-z * z / 2.0) / (sigma * std::f64::consts::TAU.sqrt());
-                }
-            }
-            let integral = sum / f64::from(FINE * FINE);
-            assert!((overlap(f64::from(apart), eye) - integral).abs() < 1e-5);
-        }
-    }
-}
-
 #[test]
 fn even_light_is_its_level() {
     let fit = BestFit::new(BLOCKS, Palette::Dos.papers(), Palette::Dos);

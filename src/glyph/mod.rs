@@ -2,12 +2,19 @@
 
 mod appearance;
 mod cell;
+mod choice;
 mod compose;
+mod dots;
+mod eye;
 mod fit;
+mod paint;
+mod pair;
 mod shade;
 mod shape;
 
 pub use appearance::appearance;
-pub use cell::{Cell, GlyphMode, Paint, Palette};
-pub use compose::compose;
+pub use cell::Cell;
+pub use choice::{GlyphMode, Palette};
+pub use compose::{compose, compose_color};
+pub use paint::{ColorDepth, Paint};
 pub use shape::{Coverage, coverage};

@@ -1,6 +1,8 @@
 //! A level as one cell: by a shade of the four grays, by the terminal's own ink alone, or by an ASCII character.
 
-use super::cell::{Cell, Paint, Palette};
+use super::cell::Cell;
+use super::choice::Palette;
+use super::paint::Paint;
 use super::shape::{RAMP, SHADES};
 use crate::tone::{INK_ONLY, Level};
 
@@ -9,6 +11,7 @@ pub fn shade(level: Level, palette: Palette, column: u32, row: u32) -> Cell {
     match palette {
         Palette::Dos => DOS[usize::from(level.get())],
         Palette::Mono => ink_only(level.light(), column, row),
+        Palette::Gray(_) | Palette::Color(_) => Cell::flat(Paint::of_level(level)),
     }
 }
 
@@ -62,6 +65,15 @@ mod tests {
             let light = cell.ink_light() * ink + cell.paper_light() * (1.0 - ink);
             assert!((light - level.light()).abs() < 1e-15, "level {}", level.get());
             assert!(matches!(cell.paper, Paint::Black | Paint::LightGray));
+        }
+    }
+
+    #[test]
+    fn the_grays_are_written_as_flat_cells_are() {
+        for (k, paint) in
+            [Paint::Black, Paint::DarkGray, Paint::LightGray, Paint::White].into_iter().enumerate()
+        {
+            assert_eq!(DOS[4 * k], Cell::flat(paint));
         }
     }
 

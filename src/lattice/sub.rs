@@ -20,7 +20,7 @@ impl SubLattices {
     /// Cuts every composite object of an assembly.
     pub fn new(assembly: &Assembly) -> Self {
         let of = |object: &Object| match &object.body {
-            Body::Single(_) => None,
+            Body::Single(_) | Body::Surface(_) => None,
             Body::Composite { tree, .. } => SubLattice::new(tree, &assembly.primitives, &object.bounds),
         };
         let all: Vec<_> = assembly.objects.iter().map(of).collect();

@@ -1,5 +1,6 @@
 //! A screen of cells as text, with and without its colours.
 
+use std::fmt::Write as _;
 use std::io::{self, Write};
 
 use crate::glyph::{Cell, Paint};
@@ -18,8 +19,8 @@ pub fn text(cells: &Grid<Cell>, out: &mut impl Write) -> io::Result<()> {
     Ok(())
 }
 
-/// The cells with the SGR sequences of 16-colour terminals (ECMA-48, and the bright colours of aixterm), one line
-/// per row. Only the colour that changes is sent, and none for the ink of a blank. Each line ends in the terminal's
+/// The cells with SGR sequences: those of 16-colour terminals for the attributes (ECMA-48, and the bright colours of
+/// aixterm), those of xterm for colours by number, one line per row. Only the colour that changes is sent, and none for the ink of a blank. Each line ends in the terminal's
 /// own colours, so that nothing beyond the picture is painted.
 pub fn ansi(cells: &Grid<Cell>, out: &mut impl Write) -> io::Result<()> {
     let mut line = String::new();
@@ -53,39 +54,48 @@ impl Colours {
         match (self.ink == next.ink, self.paper == next.paper) {
             (true, true) => {}
             _ if next == Self::TERMINAL => line.push_str("\x1b[m"),
-            (false, true) => sequence(line, &[ink_code(next.ink)]),
-            (true, false) => sequence(line, &[paper_code(next.paper)]),
-            (false, false) => sequence(line, &[ink_code(next.ink), paper_code(next.paper)]),
+            (false, true) => sequence(line, &[(next.ink, Ground::Ink)]),
+            (true, false) => sequence(line, &[(next.paper, Ground::Paper)]),
+            (false, false) => sequence(line, &[(next.ink, Ground::Ink), (next.paper, Ground::Paper)]),
         }
         next
     }
 }
 
-fn sequence(line: &mut String, codes: &[&str]) {
+/// What a colour is set for, with what is added to the SGR parameters of an ink.
+#[derive(Clone, Copy)]
+enum Ground {
+    Ink = 0,
+    Paper = 10,
+}
+
+fn sequence(line: &mut String, colours: &[(Paint, Ground)]) {
     line.push_str("\x1b[");
-    line.push_str(&codes.join(";"));
+    for (place, &(paint, ground)) in colours.iter().enumerate() {
+        if place > 0 {
+            line.push(';');
+        }
+        parameters(line, paint, ground);
+    }
     line.push('m');
 }
 
-/// The SGR parameter of an ink: 30 + colour, 90 + colour for a bright one, 39 for the terminal's own.
-const fn ink_code(ink: Paint) -> &'static str {
-    match ink {
-        Paint::Terminal => "39",
-        Paint::Black => "30",
-        Paint::DarkGray => "90",
-        Paint::LightGray => "37",
-        Paint::White => "97",
-    }
-}
-
-/// The SGR parameter of a paper: 10 more than the ink's.
-const fn paper_code(paper: Paint) -> &'static str {
-    match paper {
-        Paint::Terminal => "49",
-        Paint::Black => "40",
-        Paint::DarkGray => "100",
-        Paint::LightGray => "47",
-        Paint::White => "107",
+/// The SGR parameters of a colour: 30 + colour, 90 + colour for a bright one, 39 for the terminal's own; 38;5 and a
+/// number, or 38;2 and three bytes (with semicolons as xterm had them first, which every terminal reads).
+fn parameters(line: &mut String, paint: Paint, ground: Ground) {
+    let add = ground as u8;
+    let mut put = |code: std::fmt::Arguments| {
+        // A string takes every character.
+        let _ = line.write_fmt(code);
+    };
+    match paint {
+        Paint::Terminal => put(format_args!("{}", 39 + add)),
+        Paint::Black => put(format_args!("{}", 30 + add)),
+        Paint::DarkGray => put(format_args!("{}", 90 + add)),
+        Paint::LightGray => put(format_args!("{}", 37 + add)),
+        Paint::White => put(format_args!("{}", 97 + add)),
+        Paint::Indexed(index) => put(format_args!("{};5;{index}", 38 + add)),
+        Paint::Rgb([r, g, b]) => put(format_args!("{};2;{r};{g};{b}", 38 + add)),
     }
 }
 
@@ -96,8 +106,17 @@ mod tests {
     use proptest::prelude::*;
     use std::num::NonZeroU16;
 
-    const PAINTS: [Paint; 5] =
-        [Paint::Terminal, Paint::Black, Paint::DarkGray, Paint::LightGray, Paint::White];
+    const PAINTS: [Paint; 9] = [
+        Paint::Terminal,
+        Paint::Black,
+        Paint::DarkGray,
+        Paint::LightGray,
+        Paint::White,
+        Paint::Indexed(16),
+        Paint::Indexed(255),
+        Paint::Rgb([0, 128, 255]),
+        Paint::Rgb([42; 3]),
+    ];
 
     fn row(cells: &[(char, Paint, Paint)]) -> Grid<Cell> {
         let cells: Vec<Cell> = cells.iter().map(|&(glyph, ink, paper)| Cell { glyph, ink, paper }).collect();
@@ -126,6 +145,16 @@ mod tests {
     }
 
     #[test]
+    fn colours_by_number_have_their_own_parameters() {
+        let cells = row(&[
+            ('▀', Paint::Rgb([1, 2, 3]), Paint::Rgb([4, 5, 6])),
+            ('▀', Paint::Rgb([1, 2, 3]), Paint::Indexed(250)),
+            ('▀', Paint::Indexed(17), Paint::Indexed(250)),
+        ]);
+        assert_eq!(written(&cells), "\x1b[38;2;1;2;3;48;2;4;5;6m▀\x1b[48;5;250m▀\x1b[38;5;17m▀\x1b[m\n");
+    }
+
+    #[test]
     fn text_keeps_the_full_width() {
         let cells = row(&[('a', Paint::White, Paint::Black), (' ', Paint::White, Paint::White)]);
         let mut out = Vec::new();
@@ -141,11 +170,13 @@ mod tests {
             Paint::DarkGray => vt100::Color::Idx(8),
             Paint::LightGray => vt100::Color::Idx(7),
             Paint::White => vt100::Color::Idx(15),
+            Paint::Indexed(index) => vt100::Color::Idx(index),
+            Paint::Rgb([r, g, b]) => vt100::Color::Rgb(r, g, b),
         }
     }
 
     fn any_cell() -> impl Strategy<Value = Cell> {
-        let glyphs = prop::sample::select(" ░▒▓█▀▄▌▐▘▝▖▗▙▟▛▜▚▞▂▆.-,:;*=xo$#@".chars().collect::<Vec<_>>());
+        let glyphs = prop::sample::select(" ░▒▓█▀▄▌▐▘▝▖▗▙▟▛▜▚▞▂▆.-,:;*=xo$#@⠁⢈⣿".chars().collect::<Vec<_>>());
         let paint = prop::sample::select(PAINTS.to_vec());
         (glyphs, paint.clone(), paint).prop_map(|(glyph, ink, paper)| Cell { glyph, ink, paper })
     }

@@ -6,4 +6,4 @@ mod cells;
 mod pictures;
 
 pub use cells::{ansi, text};
-pub use pictures::{levels, pfm_gray, pfm_vectors, png};
+pub use pictures::{Pixels, grays_of_levels, grays_of_light, levels, pfm_gray, pfm_vectors, pgm, png, ppm};

@@ -3,10 +3,10 @@
 
 mod options;
 
-pub use options::{Options, Shading, StructureChoice};
+pub use options::{CUTOFF, DEPTH, Options, Shading, StructureChoice};
 
 use crate::math::DVec3;
-use crate::scene::{Anchor, Light, Scene};
+use crate::scene::{Anchor, Light, Material, Scene};
 use crate::solid::{Assembly, Body};
 use crate::view::Lens;
 
@@ -20,15 +20,54 @@ pub struct Plan {
     pub depth: Option<f64>,
     /// Whether any surface has a highlight that this shading model shows.
     pub highlight: bool,
+    /// Mirror and Snell rays; absent where no surface sends any or the shading model has none.
+    pub secondary: Option<Secondary>,
+    /// Whether any solid lets light through: if not, a light is hidden by whatever stands before it.
+    pub glass: bool,
     /// Whether lights are tested for what stands before them.
     pub shadows: bool,
-    /// Whether lights have colours: if not, light is one gray channel, which is exact, for a gray light on a
-    /// coloured surface is as bright as on a gray one of the same luminance.
+    /// Three where lights have colours, or surfaces have and the colours are wanted. Else light is one gray
+    /// channel, which is exact: a gray light on a coloured surface is as bright as on a gray one of the same
+    /// luminance.
     pub channels: Channels,
     /// The lights, where they stand for this view, in the scene's coordinates. Those of no intensity are left out.
     pub lamps: Vec<Lamp>,
     /// Rays per dot along each axis.
     pub samples: u32,
+}
+
+/// What decides how far mirror and Snell rays are followed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Secondary {
+    /// Generations after the rays from the eye.
+    pub generations: u32,
+    /// A ray whose light counts less than this is not followed.
+    pub least_weight: f64,
+    /// The glass objects that the eye is in, by their index in the assembly, in file order, with their index of
+    /// refraction.
+    pub around_eye: Vec<(u32, f64)>,
+}
+
+impl Secondary {
+    fn new(scene: &Scene, assembly: &Assembly, lens: &Lens, options: &Options, lamps: &[Lamp]) -> Self {
+        // A ray of weight w changes its dot by w at most, unless something in the scene is brighter than white.
+        let sources =
+            [scene.world.ambient, scene.world.background].into_iter().chain(lamps.iter().map(|l| l.light));
+        let brightest = sources.map(DVec3::max_element).fold(1.0, f64::max);
+        let eye = assembly.datum.inward(lens.eye);
+        let kt = |primitive: &u32| scene.materials[assembly.material(*primitive).0 as usize].kt > 0.0;
+        let glass = scene.materials.iter().any(|m| m.kt > 0.0);
+        let objects = if glass { assembly.objects.len() as u32 } else { 0 };
+        let around_eye = (0..objects)
+            .filter(|&object| assembly.contains(object, eye))
+            .filter_map(|object| {
+                // Should its surfaces differ, the one that is crossed on the way out has the last word.
+                let first = assembly.primitives_of(object).into_iter().find(kt)?;
+                Some((object, scene.materials[assembly.material(first).0 as usize].index))
+            })
+            .collect();
+        Self { generations: options.depth, least_weight: options.cutoff / brightest, around_eye }
+    }
 }
 
 /// How many channels of light are computed.
@@ -59,14 +98,20 @@ impl Plan {
         } else {
             scene.lights.iter().filter(|l| l.intensity > 0.0).map(|light| lamp(light, lens)).collect()
         };
-        let grays =
+        let lights =
             [scene.world.ambient, scene.world.background].into_iter().chain(lamps.iter().map(|l| l.light));
+        let surfaces = scene.materials.iter().map(|m| m.color).filter(|_| options.color);
         let gray = |c: DVec3| c.x == c.y && c.y == c.z;
-        let channels = if grays.into_iter().all(gray) { Channels::Gray } else { Channels::Three };
+        let channels = if lights.chain(surfaces).all(gray) { Channels::Gray } else { Channels::Three };
+        let sends = |m: &Material| m.kr > 0.0 || m.kt > 0.0;
+        let secondary = (options.shading >= Shading::Whitted && scene.materials.iter().any(sends))
+            .then(|| Secondary::new(scene, assembly, lens, options, &lamps));
         Self {
             structure: suitable(assembly, options.structure),
             depth,
             highlight: phong && !lamps.is_empty() && scene.materials.iter().any(|m| m.ks > 0.0),
+            secondary,
+            glass: scene.materials.iter().any(|m| m.kt > 0.0),
             shadows: options.shadows && !lamps.is_empty(),
             channels,
             lamps,

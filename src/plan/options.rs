@@ -1,16 +1,32 @@
 //! What the person asked for, beside the scene and the view.
 
+/// Generations of mirror and Snell rays where nothing is asked for: into a glass solid and out of it, into another
+/// one and out of it, and what is seen behind.
+pub const DEPTH: u32 = 5;
+
+/// The change of light that is too small to follow a ray for: half of the smallest step between two levels, which
+/// is a quarter of the light of the darkest gray (0.0908 / 4 / 2 = 0.01136), rounded down to three decimals.
+pub const CUTOFF: f64 = 0.011;
+
 /// Choices that change what is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
     /// The illumination model.
     pub shading: Shading,
+    /// Generations of mirror and Snell rays after the rays from the eye.
+    pub depth: u32,
+    /// A mirror or Snell ray is followed only while it can still change the light of its dot by this much; 0 or
+    /// more.
+    pub cutoff: f64,
     /// Whether lights are tested for what stands before them.
     pub shadows: bool,
     /// How space is cut into cells.
     pub structure: StructureChoice,
     /// Rays per dot along each axis; 1 or more. The light of a dot is their mean.
     pub samples: u32,
+    /// Whether the light of each dot is wanted by its three primaries, and not its luminance only. A `color`
+    /// palette wants it by itself.
+    pub color: bool,
     /// Worker threads; 0 takes one per processor.
     pub threads: usize,
 }
@@ -18,10 +34,13 @@ pub struct Options {
 impl Default for Options {
     fn default() -> Self {
         Self {
-            shading: Shading::Phong,
+            shading: Shading::Whitted,
+            depth: DEPTH,
+            cutoff: CUTOFF,
             shadows: true,
             structure: StructureChoice::Auto,
             samples: 1,
+            color: false,
             threads: 0,
         }
     }
@@ -36,11 +55,13 @@ pub enum Shading {
     Depth = 2,
     /// Eq. (3): the highlight.
     Phong = 3,
+    /// Eq. (4): what mirrors and glass show, on materials with `kr` or `kt`.
+    Whitted = 4,
 }
 
 impl Shading {
     /// All models, in the paper's order.
-    pub const ALL: [Self; 3] = [Self::Lambert, Self::Depth, Self::Phong];
+    pub const ALL: [Self; 4] = [Self::Lambert, Self::Depth, Self::Phong, Self::Whitted];
 
     /// The number of the equation.
     pub const fn number(self) -> u8 {

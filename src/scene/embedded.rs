@@ -34,5 +34,15 @@ pub const fn embedded() -> &'static [EmbeddedScene] {
             title: "a colonnade to walk through",
             text: include_str!("../../scenes/temple.scene"),
         },
+        EmbeddedScene {
+            name: "glass",
+            title: "a lens, a ball, a drilled block and a straw in water, before a chequered wall",
+            text: include_str!("../../scenes/glass.scene"),
+        },
+        EmbeddedScene {
+            name: "mirrors",
+            title: "polished balls and a pawn between two looking-glasses",
+            text: include_str!("../../scenes/mirrors.scene"),
+        },
     ]
 }

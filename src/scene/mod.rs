@@ -4,13 +4,14 @@ mod diagnostic;
 mod embedded;
 mod language;
 mod model;
+mod nff;
 mod read;
 
 pub use diagnostic::{Diagnostic, Diagnostics, Severity};
 pub use embedded::{EmbeddedScene, embedded};
 pub use language::reference;
 pub use model::{
-    Anchor, Camera, CameraError, Facets, HalfSpace, Light, Material, MaterialId, Mesh, Object, Primitive,
-    Scene, Shape, Solid, World,
+    Anchor, Camera, CameraError, Corner, Facets, FieldSpan, HalfSpace, Light, Material, MaterialId, Mesh,
+    Object, Primitive, Scene, Shape, Solid, World,
 };
 pub use read::{Format, MAX_FILE_BYTES, ReadError, ReadOptions, read, read_file};

@@ -66,7 +66,8 @@ pub struct Primitive {
     pub material: MaterialId,
 }
 
-/// A unit solid. Closed sets: the surface belongs to the solid.
+/// A unit solid, or a surface. Solids are closed sets: their surface belongs to them. Surfaces
+/// ([`Shape::is_surface`]) bound nothing; each is an object alone, never an operand of CSG.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// `x² + y² + z² ≤ 1`.
@@ -86,17 +87,48 @@ pub enum Shape {
     /// A closed solid of triangles, not necessarily convex: the points around which an odd number of
     /// surfaces lie.
     Mesh(Arc<Mesh>),
+    /// A surface: a polygon, which may be concave and, by what rounding its corners takes, not quite flat. Three
+    /// corners or more, no two neighbours the same, with an area. Points around which its outline turns an even
+    /// number of times are outside.
+    Face(Arc<[DVec3]>),
+    /// A surface: a polygon whose normal is interpolated between those of its corners.
+    Patch(Arc<[Corner]>),
+    /// A surface: the side of a [`Shape::Frustum`], without its caps.
+    Tube {
+        /// Radius at z = −1.
+        bottom: f64,
+        /// Radius at z = 1.
+        top: f64,
+    },
 }
 
 impl Shape {
+    /// Whether it is a surface, seen and lit from both sides, and not a solid.
+    pub const fn is_surface(&self) -> bool {
+        matches!(self, Self::Face(_) | Self::Patch(_) | Self::Tube { .. })
+    }
+
     /// A box around the shape, in its own coordinates.
     pub fn bounds(&self) -> Bounds {
         match self {
-            Self::Sphere | Self::Frustum { .. } | Self::Cube => Bounds::new(DVec3::NEG_ONE, DVec3::ONE),
+            Self::Sphere | Self::Frustum { .. } | Self::Cube | Self::Tube { .. } => {
+                Bounds::new(DVec3::NEG_ONE, DVec3::ONE)
+            }
             Self::Facets(facets) => facets.bounds,
             Self::Mesh(mesh) => Bounds::around(mesh.points.iter().copied()),
+            Self::Face(corners) => Bounds::around(corners.iter().copied()),
+            Self::Patch(corners) => Bounds::around(corners.iter().map(|corner| corner.place)),
         }
     }
+}
+
+/// A corner of a patch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Corner {
+    /// Where it is.
+    pub place: DVec3,
+    /// The normal of the surface there, of any length; 0 where it is not known.
+    pub normal: DVec3,
 }
 
 /// A bounded convex solid as an intersection of half-spaces.
@@ -141,7 +173,7 @@ pub struct Material {
     pub kd: f64,
     /// Highlight share, in `0..=1`.
     pub ks: f64,
-    /// Highlight exponent, above 0.
+    /// Highlight exponent, 0 or more.
     pub n: f64,
     /// Mirror share, in `0..=1`.
     pub kr: f64,
@@ -202,8 +234,21 @@ pub struct Camera {
     pub up: DVec3,
     /// Full angles across and down, in degrees, each inside `0 < angle < 180`.
     pub field: [f64; 2],
+    /// Between what the angles of `field` are measured.
+    pub span: FieldSpan,
     /// Divides the tangents of both half angles; above 0.
     pub zoom: f64,
+}
+
+/// Between what a camera's angles are measured.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FieldSpan {
+    /// The edges of the picture.
+    #[default]
+    Edges,
+    /// The centres of the first and the last row, or column, of dots: a picture of more dots then sees less beyond
+    /// them.
+    Centers,
 }
 
 /// What belongs to no object.

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use super::{Diagnostic, Diagnostics, Scene, language};
+use super::{Diagnostic, Diagnostics, Scene, language, nff};
 
 /// The largest file that is read: 256 MiB.
 pub const MAX_FILE_BYTES: u64 = 256 << 20;
@@ -15,12 +15,15 @@ pub const MAX_FILE_BYTES: u64 = 256 << 20;
 pub enum Format {
     /// The scene language, and OpenSCAD's `.csg`, which is a part of it.
     Language,
+    /// Eric Haines's Neutral File Format.
+    Nff,
 }
 
 impl Format {
-    /// The format of a file by its name. A name that says nothing means the scene language.
-    pub fn of(_name: &str) -> Self {
-        Self::Language
+    /// The format of a file by the end of its name. A name that says nothing means the scene language.
+    pub fn of(name: &str) -> Self {
+        let extension = Path::new(name).extension();
+        if extension.is_some_and(|e| e.eq_ignore_ascii_case("nff")) { Self::Nff } else { Self::Language }
     }
 }
 
@@ -89,6 +92,7 @@ pub fn read(name: &str, bytes: &[u8], options: &ReadOptions) -> Result<Scene, Di
     let text = text(name, bytes)?;
     match options.format.unwrap_or_else(|| Format::of(name)) {
         Format::Language => language::read(name, text, options),
+        Format::Nff => nff::read(name, text),
     }
 }
 

@@ -24,6 +24,9 @@ pub trait Channel:
 
     /// Its luminance.
     fn gray(self) -> f64;
+
+    /// Its three primaries, equal where only the luminance is known.
+    fn rgb(self) -> DVec3;
 }
 
 impl Channel for f64 {
@@ -37,6 +40,10 @@ impl Channel for f64 {
     fn gray(self) -> f64 {
         self
     }
+
+    fn rgb(self) -> DVec3 {
+        DVec3::splat(self)
+    }
 }
 
 impl Channel for DVec3 {
@@ -48,5 +55,9 @@ impl Channel for DVec3 {
 
     fn gray(self) -> f64 {
         f64::from_rgb(self)
+    }
+
+    fn rgb(self) -> DVec3 {
+        self
     }
 }

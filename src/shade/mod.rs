@@ -1,7 +1,12 @@
-//! Stage 9, SHADE: the illumination equations (1) to (3) at a hit.
+//! Stage 9, SHADE: the illumination equations (1) to (4) at a hit, and the rays that they ask for.
 
 mod channel;
+mod direction;
+mod media;
+mod path;
+mod shadow;
 mod surface;
 
 pub use channel::{Channel, luminance};
-pub use surface::{Seen, Shader, View};
+pub use path::{Kind, Leg};
+pub use surface::{Memory, Seen, Shader, View};

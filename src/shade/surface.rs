@@ -8,28 +8,58 @@ use crate::stage::{Meter, Probe, Stage};
 use crate::trace::{Engine, Hit};
 
 use super::channel::Channel;
+use super::media::{Filling, Media};
+use super::path::Sent;
 
 /// Shades hits of one picture.
 #[derive(Debug)]
 pub struct Shader<'a, E, C> {
-    engine: &'a E,
-    assembly: &'a Assembly,
+    pub(super) engine: &'a E,
+    pub(super) assembly: &'a Assembly,
     finishes: Vec<Finish<C>>,
     lamps: Vec<Lamp<C>>,
-    ambient: C,
-    background: C,
+    pub(super) ambient: C,
+    pub(super) background: C,
     depth: Option<f64>,
-    highlight: bool,
     shadows: bool,
+    /// Whether light can come through anything.
+    pub(super) glass: bool,
+    pub(super) generations: u32,
+    pub(super) least_weight: f64,
+    /// The glass that the eye is in.
+    pub(super) around_eye: Vec<Filling>,
 }
 
-/// A material, ready for the channels that are computed.
+/// Memory of one worker.
+#[derive(Debug)]
+pub struct Memory<E: Engine> {
+    pub(super) engine: E::Memory,
+    pub(super) media: Media,
+    /// The glass objects that the present shadow ray has gone through.
+    pub(super) crossed: Vec<u32>,
+}
+
+/// A material, ready for the channels and the terms that are computed: the shares of all others are 0.
 #[derive(Clone, Copy, Debug)]
-struct Finish<C> {
+pub(super) struct Finish<C> {
     color: C,
     kd: f64,
     ks: f64,
     n: f64,
+    pub kr: f64,
+    pub kt: f64,
+    pub index: f64,
+    /// The material's own `kt`: shadows are a switch of their own, and glass is glass to them by every model.
+    pub lets_through: f64,
+}
+
+/// A surface that a ray met, and how it lies to the ray.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Met {
+    pub hit: Hit,
+    pub p: DVec3,
+    /// Turned to the side that the ray comes from, length 1.
+    pub normal: DVec3,
 }
 
 /// A light in the assembly's coordinates.
@@ -62,14 +92,21 @@ pub struct Seen {
 impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
     /// A shader for a planned picture.
     pub fn new(scene: &Scene, assembly: &'a Assembly, plan: &Plan, engine: &'a E) -> Self {
+        let if_planned = |planned: bool, share: f64| if planned { share } else { 0.0 };
         let finishes = scene.materials.iter().map(|m| Finish {
             color: C::from_rgb(m.color),
             kd: m.kd,
-            ks: m.ks,
+            ks: if_planned(plan.highlight, m.ks),
             n: m.n,
+            kr: if_planned(plan.secondary.is_some(), m.kr),
+            kt: if_planned(plan.secondary.is_some(), m.kt),
+            index: m.index,
+            lets_through: m.kt,
         });
         let lamps =
             plan.lamps.iter().map(|l| Lamp { at: assembly.datum.inward(l.at), light: C::from_rgb(l.light) });
+        let secondary = plan.secondary.as_ref();
+        let around_eye = secondary.iter().flat_map(|s| &s.around_eye);
         Self {
             engine,
             assembly,
@@ -78,37 +115,68 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
             ambient: C::from_rgb(scene.world.ambient),
             background: C::from_rgb(scene.world.background),
             depth: plan.depth.map(|k| k / assembly.datum.unit),
-            highlight: plan.highlight,
             shadows: plan.shadows,
+            glass: plan.glass,
+            generations: secondary.map_or(0, |s| s.generations),
+            least_weight: secondary.map_or(0.0, |s| s.least_weight),
+            around_eye: around_eye.map(|&(object, index)| Filling { object, index }).collect(),
         }
     }
 
+    /// New memory for a worker.
+    pub fn memory(&self) -> Memory<E> {
+        Memory { engine: self.engine.memory(), media: Media::default(), crossed: Vec::new() }
+    }
+
     /// What a ray from the eye sees. `ray` is in the assembly's coordinates.
-    pub fn view(&self, ray: &Ray, memory: &mut E::Memory, meter: &mut Meter<impl Probe>) -> View<C> {
+    pub fn view(&self, ray: &Ray, memory: &mut Memory<E>, meter: &mut Meter<impl Probe>) -> View<C> {
         meter.counts.primary_rays += 1;
-        let Some(hit) = self.engine.first(ray, memory, meter) else {
+        let Some(hit) = self.engine.first(ray, &mut memory.engine, meter) else {
             return View { light: self.background, seen: None };
         };
         meter.counts.primary_hits += 1;
         meter.at(Stage::Shade);
+        let met = self.met(ray, hit, memory);
+        let inside = memory.media.start(&self.around_eye);
+        let sent = Sent { ray: *ray, travelled: 0.0, weight: 1.0, generation: 0, inside };
+        let light = self.light(&sent, &met, memory, meter);
+        View { light, seen: Some(Seen { t: met.hit.t, object: met.hit.object, normal: met.normal }) }
+    }
+
+    /// The surface of the last hit.
+    pub(super) fn met(&self, ray: &Ray, hit: Hit, memory: &Memory<E>) -> Met {
+        let hit = self.shown(hit, memory);
         let p = ray.at(hit.t);
-        let normal = self.assembly.turned_normal(hit.primitive, hit.surface, p, ray.d);
-        let light = self.surface(ray, &hit, p, normal, memory, meter);
-        View { light, seen: Some(Seen { t: hit.t, object: hit.object, normal }) }
+        Met { hit, p, normal: self.assembly.turned_normal(hit.primitive, hit.surface, p, ray.d) }
+    }
+
+    /// The light that a surface sends back along the ray that met it, which is the last one traced.
+    pub(super) fn light(
+        &self,
+        sent: &Sent,
+        met: &Met,
+        memory: &mut Memory<E>,
+        meter: &mut Meter<impl Probe>,
+    ) -> C {
+        let finish = self.finish(&met.hit);
+        if finish.kr > 0.0 || finish.kt > 0.0 {
+            self.sending_surface(sent, met, memory, meter)
+        } else {
+            self.own_light(sent, met, memory, meter)
+        }
     }
 
     /// `Ia·C + Σ Ip · V · (kd·C·(L·N) + ks·cosⁿθ) / (R + k)`.
-    fn surface(
+    pub(super) fn own_light(
         &self,
-        ray: &Ray,
-        hit: &Hit,
-        p: DVec3,
-        normal: DVec3,
-        memory: &mut E::Memory,
+        sent: &Sent,
+        met: &Met,
+        memory: &mut Memory<E>,
         meter: &mut Meter<impl Probe>,
     ) -> C {
-        let finish = &self.finishes[self.assembly.material(hit.primitive).0 as usize];
-        let departure = self.departure(hit, p, normal);
+        let finish = self.finish(&met.hit);
+        let (p, normal) = (met.p, met.normal);
+        let departure = self.departure(&met.hit, p, normal);
         let mut sum = C::DARK;
         for lamp in &self.lamps {
             let way = lamp.at - p;
@@ -120,35 +188,47 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
                 continue;
             }
             let mut share = finish.color * (finish.kd * facing);
-            if self.highlight && finish.ks > 0.0 {
+            if finish.ks > 0.0 {
                 let mirrored = 2.0 * facing * normal - to_light;
-                let cos = -mirrored.dot(ray.d);
+                let cos = -mirrored.dot(sent.ray.d);
                 if cos > 0.0 {
                     share = share + C::from_rgb(DVec3::ONE) * (finish.ks * libm::pow(cos, finish.n));
                 }
             }
             if self.shadows && (finish.kd > 0.0 || finish.ks > 0.0) {
-                meter.counts.shadow_rays += 1;
-                let shadow = Ray::new(p, to_light);
-                let blocked = self.engine.blocked(&shadow, departure, distance, memory, meter);
-                meter.at(Stage::Shade);
-                if blocked {
-                    meter.counts.shadow_hits += 1;
+                let visible = self.visibility(&Ray::new(p, to_light), departure, distance, memory, meter);
+                if visible == 0.0 {
                     continue;
                 }
+                share = share * visible;
             }
             sum = sum + lamp.light * share;
         }
         if let Some(k) = self.depth {
-            sum = sum * (1.0 / (hit.t + k) / self.assembly.datum.unit);
+            sum = sum * (1.0 / (sent.travelled + met.hit.t + k) / self.assembly.datum.unit);
         }
         self.ambient * finish.color + sum
     }
 
-    /// The surface that a ray leaves to the side of the turned normal.
-    fn departure(&self, hit: &Hit, p: DVec3, normal: DVec3) -> Departure {
+    /// The material of the surface that was hit.
+    pub(super) fn finish(&self, hit: &Hit) -> &Finish<C> {
+        self.finish_of(hit.primitive)
+    }
+
+    /// The material of a primitive.
+    pub(super) fn finish_of(&self, primitive: u32) -> &Finish<C> {
+        &self.finishes[self.assembly.material(primitive).0 as usize]
+    }
+
+    /// Whether a primitive is a surface that bounds no solid: it has no inside to be in.
+    pub(super) fn is_surface(&self, primitive: u32) -> bool {
+        self.assembly.primitives[primitive as usize].form.is_surface()
+    }
+
+    /// The surface that a ray leaves to the side to which `toward` points.
+    pub(super) fn departure(&self, hit: &Hit, p: DVec3, toward: DVec3) -> Departure {
         let form: &Form = &self.assembly.primitives[hit.primitive as usize].form;
-        let inward = form.normal(p, hit.surface).dot(normal) < 0.0;
+        let inward = form.normal(p, hit.surface).dot(toward) < 0.0;
         Departure { primitive: hit.primitive, surface: hit.surface, inward }
     }
 }

@@ -38,12 +38,14 @@ pub struct Object {
 pub enum Body {
     /// One convex primitive, by its index.
     Single(u32),
+    /// One surface that bounds no solid, by its index.
+    Surface(u32),
     /// A CSG expression, or a solid that is not convex.
     Composite {
         /// The expression as a tree, to be pruned.
-        tree: Tree,
+        tree: Box<Tree>,
         /// The same laid out for rays.
-        whole: Expression,
+        whole: Box<Expression>,
     },
 }
 
@@ -102,6 +104,16 @@ pub enum AssemblyError {
         /// The primitive's number in the object, from 1.
         primitive: usize,
     },
+    /// A surface, which has no inside, among the operands of an operator.
+    #[error(
+        "object {object} has a surface (number {primitive} in it) inside an operation, which is for solids only"
+    )]
+    SurfaceInOperation {
+        /// The object's number in the scene, from 1.
+        object: usize,
+        /// The surface's number among the primitives of the object, from 1.
+        primitive: usize,
+    },
     /// More primitives than a 32-bit index can name.
     #[error("the scene has more than 2³² − 1 primitives")]
     TooMany,
@@ -133,20 +145,29 @@ impl Assembly {
             if bounds.is_empty() {
                 continue;
             }
+            let form = |index: u32| &primitives[index as usize].form;
             let body = match tree {
-                Tree::Leaf(index) if primitives[index as usize].form.is_convex() => Body::Single(index),
-                tree => Body::Composite { whole: Expression::new(&tree), tree },
+                Tree::Leaf(index) if form(index).is_convex() => Body::Single(index),
+                Tree::Leaf(index) if form(index).is_surface() => Body::Surface(index),
+                tree => Body::Composite { whole: Box::new(Expression::new(&tree)), tree: Box::new(tree) },
             };
+            if let Body::Composite { .. } = body
+                && let Some(place) = primitives[start..].iter().position(|p| p.form.is_surface())
+            {
+                return Err(AssemblyError::SurfaceInOperation { object: number + 1, primitive: place + 1 });
+            }
             limit = limit.join(&bounds);
             objects.push(Object { number: number as u32, bounds, body });
         }
+        primitives.shrink_to_fit();
+        objects.shrink_to_fit();
         Ok(Self { primitives, objects, limit, datum })
     }
 
     /// How far the scene reaches along `v` at most, in its own coordinates: the greatest `p · v` of its points.
     pub fn support(&self, v: DVec3) -> f64 {
         let own = self.objects.iter().map(|object| match &object.body {
-            Body::Single(index) => self.primitives[*index as usize].form.support(v),
+            Body::Single(index) | Body::Surface(index) => self.primitives[*index as usize].form.support(v),
             Body::Composite { tree, .. } => tree.support(&self.primitives, v),
         });
         own.fold(f64::NEG_INFINITY, f64::max) * self.datum.unit + self.datum.origin.dot(v)
@@ -159,9 +180,22 @@ impl Assembly {
 
     /// The normal of a primitive's surface at a point of the assembly, turned to the side that a ray along `d`
     /// comes from, of length 1.
+    ///
+    /// On a patch the sides are those of its plane, and the interpolated normal is turned to the nearer one: so two
+    /// patches that share an edge, and corners' normals, agree along it. Where it then still turns away from the
+    /// ray, as it does along an outline of coarse patches, it is the normal nearest to it that does not: across the
+    /// ray.
     pub fn turned_normal(&self, primitive: u32, surface: u32, p: DVec3, d: DVec3) -> DVec3 {
-        let normal = self.primitives[primitive as usize].form.normal(p, surface).normalize_or(-d);
-        if normal.dot(d) > 0.0 { -normal } else { normal }
+        let form = &self.primitives[primitive as usize].form;
+        let own = form.normal(p, surface).normalize_or(-d);
+        let turned = if own.dot(d) > 0.0 { -own } else { own };
+        if !matches!(form, Form::Patch(_)) {
+            return turned;
+        }
+        let shown = form.shading_normal(p, surface);
+        let shown = if shown.dot(turned) < 0.0 { -shown } else { shown };
+        let away = shown.dot(d);
+        if away > 0.0 { (shown - away * d).normalize_or(turned) } else { shown }
     }
 
     /// A ray of the scene in the assembly; distances along it are divided by [`Datum::unit`].

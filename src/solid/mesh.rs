@@ -1,16 +1,12 @@
 //! Closed surfaces of triangles.
 //!
-//! Whether a ray crosses a triangle is decided in the plane across the ray, by the exact signs of the areas
-//! that the ray's point spans with each edge (Woop, Benthin, Wald: Watertight ray/triangle intersection, JCGT
-//! 2013; signs by Shewchuk's adaptive predicates). A point on an edge counts as moved by an infinitesimal
-//! step, the same for all triangles, so that of the triangles around an edge or a corner exactly as many are
-//! crossed as a ray beside it would cross: a closed surface is always crossed an even number of times.
-
-use robust::{Coord, orient2d};
+//! Whether a ray crosses a triangle is decided exactly, in the plane across the ray ([`super::across`]), so that a
+//! closed surface is always crossed an even number of times.
 
 use crate::math::{Bounds, DVec3, Placement, Ray};
 use crate::scene;
 
+use super::across::{Across, plane_crossing};
 use super::span::{End, ROUNDING};
 
 /// At most this many triangles are tested without looking at a box first.
@@ -78,7 +74,7 @@ impl Mesh {
             }
             for surface in node.first..node.first + node.count {
                 let triangle = &self.triangles[surface as usize];
-                if let Some(end) = across.crossing(ray, triangle, off, surface) {
+                if let Some(end) = triangle.crossing(ray, &across, off, surface) {
                     found(end);
                 }
             }
@@ -148,68 +144,20 @@ fn line_meets(ray: &Ray, b: &Bounds, off: f64) -> bool {
     low <= high + 4.0 * f64::EPSILON * high.abs()
 }
 
-/// The plane across a ray: two axes of the world sheared along it.
-struct Across {
-    axes: [usize; 3],
-    shear: [f64; 2],
-}
-
-impl Across {
-    fn new(ray: &Ray) -> Self {
-        let size = ray.d.abs();
-        let main = if size.x >= size.y && size.x >= size.z {
-            0
-        } else if size.y >= size.z {
-            1
-        } else {
-            2
-        };
-        let axes = [main, (main + 1) % 3, (main + 2) % 3];
-        Self { axes, shear: [ray.d[axes[1]] / ray.d[main], ray.d[axes[2]] / ray.d[main]] }
-    }
-
-    /// The place of a point in the plane, the ray at (0, 0).
-    fn place(&self, ray: &Ray, p: DVec3) -> Coord<f64> {
-        let q = p - ray.o;
-        let along = q[self.axes[0]];
-        Coord { x: q[self.axes[1]] - self.shear[0] * along, y: q[self.axes[2]] - self.shear[1] * along }
-    }
-
-    fn crossing(&self, ray: &Ray, triangle: &Triangle, off: f64, surface: u32) -> Option<End> {
-        let [a, b, c] = triangle.corners.map(|p| self.place(ray, p));
-        let sides = [side(a, b)?, side(b, c)?, side(c, a)?];
-        if sides[0] != sides[1] || sides[1] != sides[2] {
+impl Triangle {
+    fn crossing(&self, ray: &Ray, across: &Across, off: f64, surface: u32) -> Option<End> {
+        if !across.meets_triangle(&self.corners) {
             return None;
         }
-        let towards = triangle.normal.dot(ray.d);
-        // The nearest corner's plane equation has the smallest rounding.
-        let from = triangle.corners.map(|p| p - ray.o);
-        let near = from
-            .into_iter()
-            .fold(from[0], |best, p| if p.length_squared() < best.length_squared() { p } else { best });
-        let t = triangle.normal.dot(near) / towards;
-        let (t, error) = if t.is_finite() {
-            (t, off / towards.abs())
-        } else {
-            // Edge on: anywhere between its corners.
-            let along = from.map(|p| p.dot(ray.d));
-            let (low, high) = along.into_iter().fold((along[0], along[0]), |(l, h), x| (l.min(x), h.max(x)));
-            (0.5 * low + 0.5 * high, 0.5 * high - 0.5 * low + off)
-        };
+        let (t, error) = plane_crossing(ray, &self.corners, self.normal, nearest(ray, &self.corners), off);
         Some(End { t, error, surface })
     }
 }
 
-/// On which side of the directed edge the ray's point lies, itself moved by (ε, ε²); `None` for an edge of no
-/// length across the ray, whose triangle has no area there.
-fn side(p: Coord<f64>, q: Coord<f64>) -> Option<bool> {
-    let area = orient2d(p, q, Coord { x: 0.0, y: 0.0 });
-    if area != 0.0 {
-        return Some(area > 0.0);
-    }
-    // The area's change for a step along x is −(q.y − p.y), along y it is q.x − p.x.
-    if p.y != q.y {
-        return Some(p.y > q.y);
-    }
-    (p.x != q.x).then_some(q.x > p.x)
+/// The corner whose plane equation has the smallest rounding.
+fn nearest(ray: &Ray, corners: &[DVec3; 3]) -> DVec3 {
+    let closer = |a: DVec3, b: DVec3| {
+        if b.distance_squared(ray.o) < a.distance_squared(ray.o) { b } else { a }
+    };
+    corners[1..].iter().fold(corners[0], |best, &p| closer(best, p))
 }

@@ -4,11 +4,14 @@ use crate::math::{Bounds, DAffine3, DMat3, DVec3, Placement, Ray};
 use crate::scene::{MaterialId, Shape};
 
 use super::ball::Ball;
+use super::face::Face;
 use super::facets::Facets;
 use super::mesh::Mesh;
+use super::patch::Patch;
 use super::round::Round;
 use super::slabs::{AxisBox, SkewBox};
 use super::span::{End, ROUNDING, Span};
+use super::tube::Tube;
 
 /// A primitive in the world.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,7 +22,8 @@ pub struct Primitive {
     pub material: MaterialId,
 }
 
-/// The forms, each with its own intersection.
+/// The forms, each with its own intersection. Those of many numbers are boxed, so that a scene of a million spheres
+/// does not pay for them.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Form {
     /// A sphere.
@@ -27,13 +31,19 @@ pub enum Form {
     /// A box along the axes.
     AxisBox(AxisBox),
     /// A box in any position.
-    SkewBox(SkewBox),
+    SkewBox(Box<SkewBox>),
     /// An ellipsoid or frustum in any position.
-    Round(Round),
+    Round(Box<Round>),
     /// A convex solid of flat faces.
-    Facets(Facets),
+    Facets(Box<Facets>),
     /// A closed surface of triangles.
-    Mesh(Mesh),
+    Mesh(Box<Mesh>),
+    /// A polygon: a surface.
+    Face(Box<Face>),
+    /// A polygon with a normal at each corner: a surface.
+    Patch(Box<Patch>),
+    /// The side of a frustum: a surface.
+    Tube(Box<Tube>),
 }
 
 /// How a primitive lies to a box.
@@ -54,21 +64,24 @@ impl Form {
         Some(match shape {
             Shape::Sphere => match similarity(&place.linear) {
                 Some(radius) => Self::Ball(Ball::new(place.center, radius)),
-                None => Self::Round(Round::ellipsoid(place)),
+                None => Self::Round(Box::new(Round::ellipsoid(place))),
             },
-            Shape::Frustum { bottom, top } => Self::Round(Round::frustum(place, *bottom, *top)),
+            Shape::Frustum { bottom, top } => Self::Round(Box::new(Round::frustum(place, *bottom, *top))),
             Shape::Cube => match axis_half(&place.linear) {
                 Some(half) => {
                     Self::AxisBox(AxisBox::new(Bounds::new(place.center - half, place.center + half)))
                 }
-                None => Self::SkewBox(SkewBox::new(place)),
+                None => Self::SkewBox(Box::new(SkewBox::new(place))),
             },
-            Shape::Facets(unit) => Self::Facets(Facets::new(unit, &place)),
-            Shape::Mesh(unit) => Self::Mesh(Mesh::new(unit, &place)),
+            Shape::Facets(unit) => Self::Facets(Box::new(Facets::new(unit, &place))),
+            Shape::Mesh(unit) => Self::Mesh(Box::new(Mesh::new(unit, &place))),
+            Shape::Face(corners) => Self::Face(Box::new(Face::new(corners.iter().copied(), &place))),
+            Shape::Patch(corners) => Self::Patch(Box::new(Patch::new(corners, &place))),
+            Shape::Tube { bottom, top } => Self::Tube(Box::new(Tube::new(place, *bottom, *top))),
         })
     }
 
-    /// The ray's span in a convex form; a mesh has crossings instead.
+    /// The ray's span in a convex solid; a mesh has crossings instead, and a surface no inside.
     #[inline]
     pub fn span(&self, ray: &Ray) -> Option<Span> {
         match self {
@@ -77,11 +90,11 @@ impl Form {
             Self::SkewBox(slabs) => slabs.span(ray),
             Self::Round(round) => round.span(ray),
             Self::Facets(facets) => facets.span(ray),
-            Self::Mesh(_) => None,
+            Self::Mesh(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => None,
         }
     }
 
-    /// All crossings of the line with the surface, in no order; each one toggles between outside and inside.
+    /// All crossings of the line with the surface of a solid, in no order; each one toggles between outside and inside.
     #[inline]
     pub fn crossings(&self, ray: &Ray, mut found: impl FnMut(End)) {
         if let Self::Mesh(mesh) = self {
@@ -92,13 +105,28 @@ impl Form {
         }
     }
 
-    /// Whether a ray meets it in one span at most.
+    /// Whether it is a solid that a ray meets in one span at most.
     pub fn is_convex(&self) -> bool {
-        !matches!(self, Self::Mesh(_))
+        !matches!(self, Self::Mesh(_)) && !self.is_surface()
     }
 
-    /// The normal at a point of a surface, of length 1 within rounding; outward except for a mesh, whose
-    /// triangles may turn either way.
+    /// Whether it is a surface, which bounds no solid.
+    pub fn is_surface(&self) -> bool {
+        matches!(self, Self::Face(_) | Self::Patch(_) | Self::Tube(_))
+    }
+
+    /// The normal that light is answered with at a point of a surface: [`Form::normal`] everywhere but on a patch,
+    /// where it is interpolated and may stand on the other side of the patch's own plane.
+    pub fn shading_normal(&self, p: DVec3, surface: u32) -> DVec3 {
+        match self {
+            Self::Patch(patch) => patch.normal(p),
+            _ => self.normal(p, surface),
+        }
+    }
+
+    /// The normal of the surface itself at a point of it, of length 1 within rounding; outward except for a mesh,
+    /// whose triangles may turn either way. A face and a patch turn to the left around theirs; a tube's points away
+    /// from its axis.
     pub fn normal(&self, p: DVec3, surface: u32) -> DVec3 {
         match self {
             Self::Ball(ball) => ball.normal(p),
@@ -107,6 +135,9 @@ impl Form {
             Self::Round(round) => round.normal(p, surface),
             Self::Facets(facets) => facets.normal(surface),
             Self::Mesh(mesh) => mesh.normal(surface),
+            Self::Face(face) => face.normal(),
+            Self::Patch(patch) => patch.face.normal(),
+            Self::Tube(tube) => tube.normal(p),
         }
     }
 
@@ -120,6 +151,9 @@ impl Form {
             Self::Round(round) => round.bounds(),
             Self::Facets(facets) => facets.bounds(),
             Self::Mesh(mesh) => mesh.bounds(),
+            Self::Face(face) => face.bounds(),
+            Self::Patch(patch) => patch.face.bounds(),
+            Self::Tube(tube) => tube.bounds(),
         };
         let size = exact.lo.abs().max(exact.hi.abs()).max_element();
         exact.padded(DVec3::splat(ROUNDING * size))
@@ -132,6 +166,9 @@ impl Form {
             Self::Round(round) => round.support(v),
             Self::SkewBox(slabs) => slabs.support(v),
             Self::Mesh(mesh) => mesh.support(v),
+            Self::Face(face) => face.support(v),
+            Self::Patch(patch) => patch.face.support(v),
+            Self::Tube(tube) => tube.support(v),
             Self::AxisBox(_) | Self::Facets(_) => {
                 self.bounds().corners().into_iter().map(|p| p.dot(v)).fold(f64::NEG_INFINITY, f64::max)
             }
@@ -154,6 +191,9 @@ impl Form {
             Self::Round(round) => (round.misses(b), round.covers(b)),
             Self::Facets(facets) => (facets.misses(b), facets.covers(b)),
             Self::Mesh(mesh) => (mesh.misses(b), false),
+            Self::Face(face) => (face.misses(b), false),
+            Self::Patch(patch) => (patch.face.misses(b), false),
+            Self::Tube(tube) => (tube.misses(b), false),
         };
         match (misses, covers) {
             (true, _) => Cover::None,

@@ -5,7 +5,7 @@ use crate::math::{Bounds, DVec3, Placement, Ray};
 use super::span::{End, ROUNDING, Span};
 
 /// The face numbers of a frustum.
-const SIDE: u32 = 0;
+pub(super) const SIDE: u32 = 0;
 const BOTTOM: u32 = 1;
 const TOP: u32 = 2;
 
@@ -28,6 +28,17 @@ enum Profile {
         middle: f64,
         slope: f64,
     },
+}
+
+/// Where a line crosses the side of a frustum between its caps.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SideCrossings {
+    /// Into it.
+    pub enter: Option<End>,
+    /// Out of it.
+    pub leave: Option<End>,
+    /// Whether the line crosses the whole cone, beyond the caps too, only once.
+    pub one_way: bool,
 }
 
 /// A ray in the unit space, re-centred: `o` is its point closest to the unit origin.
@@ -73,6 +84,22 @@ impl Round {
             Profile::Sphere => sphere_span(&ray),
             Profile::Frustum { middle, slope } => frustum_span(&ray, middle, slope),
         }
+    }
+
+    /// Where the line crosses the side of a frustum: into it, and out of it. A line with only one crossing, which is
+    /// steeper than the side or parallel to it, has only one of them.
+    pub fn side_crossings(&self, ray: &Ray) -> SideCrossings {
+        let ray = self.centred(ray);
+        let Profile::Frustum { middle, slope } = self.profile else { return SideCrossings::default() };
+        if ray.o.length_squared() > 2.0 + 4.0 * ray.off {
+            return SideCrossings::default();
+        }
+        let Some(side) = side_span(&ray, middle, slope) else { return SideCrossings::default() };
+        let [enter, leave] = [side.enter, side.leave].map(|end| {
+            let z = ray.o.z + end.t * ray.d.z;
+            (end.t.is_finite() && z.abs() <= 1.0).then_some(End { t: ray.t + end.t, ..end })
+        });
+        SideCrossings { enter, leave, one_way: !side.enter.t.is_finite() || !side.leave.t.is_finite() }
     }
 
     fn centred(&self, ray: &Ray) -> Centred {
@@ -205,7 +232,7 @@ fn sphere_span(ray: &Centred) -> Option<Span> {
     })
 }
 
-/// The line against `x² + y² ≤ ρ²`, `ρ = middle + slope · z ≥ 0`, then against `|z| ≤ 1`.
+/// The line against the side, then against `|z| ≤ 1`.
 fn frustum_span(ray: &Centred, middle: f64, slope: f64) -> Option<Span> {
     let (o, d) = (ray.o, ray.d);
     // The frustum lies within √2 of the unit origin.
@@ -227,6 +254,15 @@ fn frustum_span(ray: &Centred, middle: f64, slope: f64) -> Option<Span> {
             span.clip(end(high, error, TOP), end(low, error, BOTTOM));
         }
     }
+    let side = side_span(ray, middle, slope)?;
+    span.clip(end(side.enter.t, side.enter.error, SIDE), end(side.leave.t, side.leave.error, SIDE));
+    span.if_any()
+}
+
+/// The line against `x² + y² ≤ ρ²`, `ρ = middle + slope · z ≥ 0`: where it is inside, counted from its point closest
+/// to the unit origin. An end that there is not is infinite.
+fn side_span(ray: &Centred, middle: f64, slope: f64) -> Option<Span> {
+    let (o, d) = (ray.o, ray.d);
     let (rho, d_rho) = (middle + slope * o.z, slope * d.z);
     let a = d.x * d.x + d.y * d.y - d_rho * d_rho;
     let b = o.x * d.x + o.y * d.y - rho * d_rho;
@@ -247,35 +283,28 @@ fn frustum_span(ray: &Centred, middle: f64, slope: f64) -> Option<Span> {
     }
     // A line along or inside the cone always crosses it: below 0 there is rounding only.
     let root = discriminant.max(0.0).sqrt();
-    let side_error = if root > 0.0 { 0.5 * form_off / root } else { f64::INFINITY };
+    let error = if root > 0.0 { 0.5 * form_off / root } else { f64::INFINITY };
     // The root whose terms do not cancel, and the other from the product c / a.
     let q = -(b + root.copysign(b));
     let (t1, t2) = if q == 0.0 { (0.0, 0.0) } else { (q / a, c / q) };
     let (low, high) = if t1 < t2 { (t1, t2) } else { (t2, t1) };
-    let before = End { t: f64::NEG_INFINITY, error: 0.0, surface: SIDE };
-    let after = End { t: f64::INFINITY, error: 0.0, surface: SIDE };
+    let end = |t: f64, error: f64| End { t, error, surface: SIDE };
     if a > 0.0 {
-        span.clip(end(low, side_error, SIDE), end(high, side_error, SIDE));
+        Some(Span { enter: end(low, error), leave: end(high, error) })
     } else if a < 0.0 {
         // Steeper than the side: one crossing per nappe; only the one with ρ ≥ 0 is the solid's.
-        if d_rho > 0.0 {
-            span.clip(end(high, side_error, SIDE), after);
+        Some(if d_rho > 0.0 {
+            Span { enter: end(high, error), ..Span::LINE }
         } else {
-            span.clip(before, end(low, side_error, SIDE));
-        }
+            Span { leave: end(low, error), ..Span::LINE }
+        })
     } else if b != 0.0 {
         // Parallel to the side, or to the axis of a cylinder: 2bt + c ≤ 0.
-        let t = -0.5 * c / b;
-        let error = 0.5 * form_off / b.abs();
-        if b > 0.0 {
-            span.clip(before, end(t, error, SIDE));
-        } else {
-            span.clip(end(t, error, SIDE), after);
-        }
-    } else if c >= 0.0 {
-        return None;
+        let end = end(-0.5 * c / b, 0.5 * form_off / b.abs());
+        Some(if b > 0.0 { Span { leave: end, ..Span::LINE } } else { Span { enter: end, ..Span::LINE } })
+    } else {
+        (c < 0.0).then_some(Span::LINE)
     }
-    span.if_any()
 }
 
 fn squared(x: f64) -> f64 {

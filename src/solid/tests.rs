@@ -51,6 +51,9 @@ fn first(solid: &scene::Solid, o: [f64; 3], d: [f64; 3]) -> Option<(f64, u32, bo
         Body::Single(index) => {
             first_of_span(&ray, &assembly.primitives[*index as usize], *index, None, &mut meter)
         }
+        Body::Surface(index) => {
+            first_of_surface(&ray, &assembly.primitives[*index as usize], *index, None, &mut meter)
+        }
         Body::Composite { whole, .. } => first_of_expression(
             &ray,
             whole,

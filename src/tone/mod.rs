@@ -1,13 +1,17 @@
 //! Stage 10, DITHER: light in, levels 0 to 12 out.
 
+mod lab;
 mod level;
 mod lightness;
 mod matrix;
 
+pub use lab::{color_of_lab, lab_of_color};
 pub use level::{GRAYS, Level};
-pub use lightness::{light_of_lightness, light_of_srgb, lightness};
-pub use matrix::{INK_ONLY, Matrix};
+pub use lightness::{light_of_lightness, light_of_srgb, lightness, srgb_of_light};
+pub use matrix::{FOUR_GRAYS, INK_ONLY, Matrix};
 
+use crate::math::DVec3;
+use crate::shade::luminance;
 use level::{BORDERS, LIGHTS};
 
 /// How light becomes a level.
@@ -37,6 +41,17 @@ impl Tone {
                 low + (high - low) * (half_steps - below as f64)
             }
         }
+    }
+
+    /// The same for the three primaries of a colour: their luminance is shown as it would be alone, then each is
+    /// clamped.
+    pub fn shown_color(self, color: DVec3) -> DVec3 {
+        let luminance = luminance(color);
+        let scaled = match self {
+            Self::Even if luminance > 0.0 => color * (self.shown(luminance) / luminance),
+            _ => color,
+        };
+        scaled.clamp(DVec3::ZERO, DVec3::ONE)
     }
 
     /// The level that shows `light` (0 to 1; clamped). A light midway between two takes the lighter one; NaN takes

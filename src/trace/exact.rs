@@ -4,7 +4,9 @@ use std::ops::ControlFlow;
 
 use crate::lattice::{self, SLACK, Structure};
 use crate::math::{Bounds, DVec3, Ray};
-use crate::solid::{self, Assembly, Body, Crossing, Departure, Reach, first_of_expression, first_of_span};
+use crate::solid::{
+    self, Assembly, Body, Crossing, Departure, Reach, first_of_expression, first_of_span, first_of_surface,
+};
 use crate::stage::{Meter, Probe, Stage};
 
 use super::{Engine, Hit};
@@ -62,13 +64,20 @@ impl Memory {
         self.nearest.iter().map(|(_, c)| c.t).fold(f64::INFINITY, f64::min)
     }
 
-    /// The nearest hit; of those that coincide with it within their errors, the first object's in the file.
-    fn chosen(&self) -> Option<Hit> {
+    /// The nearest hit; of those that coincide with it within their errors, the first object's in the file. Only
+    /// these are kept.
+    fn chosen(&mut self) -> Option<Hit> {
         let best = self.nearest.iter().min_by(|a, b| a.1.t.total_cmp(&b.1.t))?.1;
-        let coincides = |c: &Crossing| c.t - c.error <= best.t + best.error;
-        let (object, c) =
-            *self.nearest.iter().filter(|(_, c)| coincides(c)).min_by_key(|(object, _)| *object)?;
-        Some(Hit { t: c.t, object, primitive: c.primitive, surface: c.surface, entering: c.entering })
+        self.nearest.retain(|(_, c)| c.t - c.error <= best.t + best.error);
+        let (object, c) = *self.nearest.iter().min_by_key(|(object, _)| *object)?;
+        Some(Hit {
+            t: c.t,
+            error: c.error,
+            object,
+            primitive: c.primitive,
+            surface: c.surface,
+            entering: c.entering,
+        })
     }
 }
 
@@ -96,6 +105,10 @@ impl<'a> Exact<'a> {
             Body::Single(index) => {
                 let primitive = &self.assembly.primitives[*index as usize];
                 first_of_span(ray, primitive, *index, departure, meter)
+            }
+            Body::Surface(index) => {
+                let primitive = &self.assembly.primitives[*index as usize];
+                first_of_surface(ray, primitive, *index, departure, meter)
             }
             Body::Composite { whole, .. } => {
                 let primitives = &self.assembly.primitives;
@@ -179,6 +192,7 @@ impl Engine for Exact<'_> {
         meter.at(Stage::Clip);
         let Some(entry) = lattice::entry(ray, &self.limit) else {
             meter.counts.clipped_rays += 1;
+            memory.nearest.clear();
             return None;
         };
         let way = if entry > FAR { entry - 0.5 * FAR } else { 0.0 };
@@ -195,6 +209,10 @@ impl Engine for Exact<'_> {
         meter: &mut Meter<impl Probe>,
     ) -> Option<Hit> {
         self.closest(ray, 0.0, Some(departure), memory, meter)
+    }
+
+    fn together<'m>(&self, memory: &'m Memory) -> &'m [(u32, Crossing)] {
+        &memory.nearest
     }
 
     fn blocked(

@@ -6,7 +6,7 @@ mod exact;
 pub use exact::{Exact, Memory};
 
 use crate::math::Ray;
-use crate::solid::Departure;
+use crate::solid::{Crossing, Departure};
 use crate::stage::{Meter, Probe};
 
 /// The first surface on a ray's way.
@@ -14,6 +14,8 @@ use crate::stage::{Meter, Probe};
 pub struct Hit {
     /// Distance from the ray's start, in the assembly's unit.
     pub t: f64,
+    /// The exact distance lies within `t ± error`.
+    pub error: f64,
     /// The object's index in the assembly.
     pub object: u32,
     /// The primitive's index in the assembly.
@@ -43,6 +45,10 @@ pub trait Engine {
         memory: &mut Self::Memory,
         meter: &mut Meter<impl Probe>,
     ) -> Option<Hit>;
+
+    /// All surfaces that lie where the last hit does, within their errors and one per object, in no order; the hit
+    /// is one of them. To be asked before the memory is used for another ray: empty if the last one met nothing.
+    fn together<'m>(&self, memory: &'m Self::Memory) -> &'m [(u32, Crossing)];
 
     /// Whether anything stands between a surface and a light at `distance`.
     fn blocked(

@@ -1,7 +1,7 @@
 //! The view of a scene that has no camera: the whole scene, as OpenSCAD first shows it.
 
 use crate::math::DVec3;
-use crate::scene::Camera;
+use crate::scene::{Camera, FieldSpan};
 
 /// OpenSCAD's `$vpr` when it starts: degrees about x, then about z.
 const VIEW_ROTATION: [f64; 2] = [55.0, 25.0];
@@ -40,7 +40,15 @@ pub fn framed(support: impl Fn(DVec3) -> f64, aspect: f64) -> Camera {
     // The target is what the eye turns about: the middle of the scene along the line of sight.
     let middle = 0.5 * (support(back) - support(-back));
     let at = |depth: f64| a * right + b * up + depth * back;
-    Camera { name: None, eye: at(d), target: at(middle), up: DVec3::Z, field: FIELD, zoom: 1.0 }
+    Camera {
+        name: None,
+        eye: at(d),
+        target: at(middle),
+        up: DVec3::Z,
+        field: FIELD,
+        span: FieldSpan::Edges,
+        zoom: 1.0,
+    }
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! The picture geometry: which way each dot looks.
 
 use crate::math::{DVec3, Ray, Size};
-use crate::scene::Camera;
+use crate::scene::{Camera, FieldSpan};
 
 /// The raster of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,8 +48,11 @@ impl Lens {
         let forward = sight / size / length;
         let up = camera.up / camera.up.abs().max_element();
         let right = forward.cross(up).normalize_or(forward.any_orthonormal_vector());
-        let half = |degrees: f64| libm::tan(0.5 * degrees.to_radians()) / camera.zoom;
-        let (tx, ty) = (half(camera.field[0]), half(camera.field[1]));
+        let Size { width, height } = picture.dots;
+        let half = |degrees: f64, dots: u32| {
+            libm::tan(0.5 * degrees.to_radians()) / camera.zoom * reach(camera.span, dots)
+        };
+        let (tx, ty) = (half(camera.field[0], width), half(camera.field[1], height));
         let aspect = picture.aspect();
         let tangents = if tx > ty * aspect { [tx, tx / aspect] } else { [ty * aspect, ty] };
         Self {
@@ -84,6 +87,15 @@ impl Lens {
     }
 }
 
+/// How far the edge of a picture lies from its middle, in units of how far that lies which the camera's angle spans.
+/// Of a single row its centre is the middle itself, and the angle can only be that of its edges.
+fn reach(span: FieldSpan, dots: u32) -> f64 {
+    match span {
+        FieldSpan::Centers if dots > 1 => f64::from(dots) / f64::from(dots - 1),
+        FieldSpan::Centers | FieldSpan::Edges => 1.0,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -95,6 +107,7 @@ mod tests {
             target: DVec3::ZERO,
             up: DVec3::Z,
             field,
+            span: FieldSpan::Edges,
             zoom: 1.0,
         }
     }
@@ -116,6 +129,19 @@ mod tests {
         assert_eq!(lens.ray(80.0, 50.0).d, DVec3::Y);
         assert!(lens.ray(160.0, 50.0).d.x > 0.0);
         assert!(lens.ray(80.0, 0.0).d.z > 0.0);
+    }
+
+    #[test]
+    fn an_angle_between_centers_is_that_of_the_outermost_dots() {
+        let across = Camera { span: FieldSpan::Centers, ..camera([45.0, 45.0]) };
+        for dots in [Size::new(513, 513), Size::new(2, 2), Size::new(1, 1)] {
+            let lens = Lens::new(&across, &Picture { dots, dot_aspect: 1.0 });
+            let [first, last] = [0.5, f64::from(dots.width) - 0.5].map(|x| lens.ray(x, 0.5).d);
+            let tangent = |d: DVec3| d.dot(lens.right) / d.dot(lens.forward);
+            let expected = if dots.width > 1 { libm::tan(22.5_f64.to_radians()) } else { 0.0 };
+            assert!((tangent(first) + expected).abs() < 1e-15, "{dots:?}");
+            assert!((tangent(last) - expected).abs() < 1e-15, "{dots:?}");
+        }
     }
 
     #[test]

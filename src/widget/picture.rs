@@ -31,7 +31,7 @@ impl Widget for &Picture<'_> {
     }
 }
 
-/// The attribute of the 16-colour set. ratatui calls attribute 7 `Gray`.
+/// The attribute of the 16-colour set, or the colour by number. ratatui calls attribute 7 `Gray`.
 const fn color(paint: Paint) -> Color {
     match paint {
         Paint::Terminal => Color::Reset,
@@ -39,6 +39,8 @@ const fn color(paint: Paint) -> Color {
         Paint::DarkGray => Color::DarkGray,
         Paint::LightGray => Color::Gray,
         Paint::White => Color::White,
+        Paint::Indexed(index) => Color::Indexed(index),
+        Paint::Rgb([r, g, b]) => Color::Rgb(r, g, b),
     }
 }
 
@@ -59,6 +61,8 @@ mod tests {
         let paints = [Paint::Terminal, Paint::Black, Paint::DarkGray, Paint::LightGray, Paint::White];
         let colors = [Color::Reset, Color::Black, Color::DarkGray, Color::Gray, Color::White];
         assert_eq!(paints.map(color), colors);
+        assert_eq!(color(Paint::Indexed(240)), Color::Indexed(240));
+        assert_eq!(color(Paint::Rgb([1, 2, 3])), Color::Rgb(1, 2, 3));
     }
 
     #[test]

@@ -3,6 +3,7 @@
 //! between them are tested for membership in the whole CSG expression. No lattice, no intervals, no pruning, no
 //! coordinates of the primitive's own, and no code of the program's own.
 
+mod open;
 mod side;
 mod wide;
 mod worked;
@@ -10,6 +11,7 @@ mod worked;
 use ray13::math::DVec3;
 use ray13::scene::{Primitive, Scene, Shape, Solid};
 
+use open::Open;
 use side::{Row, Side, Triangle, along, direction, point, sides};
 use wide::Wide;
 
@@ -49,6 +51,8 @@ enum Surface {
     Convex(Vec<Side>),
     /// Inside an odd number of times.
     Parity(Vec<Triangle>),
+    /// Without an inside.
+    Open(Open),
 }
 
 /// A point of the ray where it may enter or leave a piece.
@@ -78,9 +82,23 @@ impl<'a> Brute<'a> {
         Self { scene, pieces, smallest: size * COINCIDENT }
     }
 
-    /// The first point in front of the origin where the ray enters or leaves an object. From outside all of them that
-    /// is where it enters their union; from inside one it may be an object that lies within it.
+    /// The first point in front of the origin where the ray enters or leaves an object, or meets an open surface.
     pub fn hit(&self, origin: DVec3, toward: DVec3) -> Option<Hit> {
+        let opens = self.pieces.iter().filter(|piece| piece.may_meet(origin, toward)).filter_map(|piece| {
+            let Surface::Open(open) = &piece.surface else { return None };
+            let (t, normal) = open.first(origin, toward)?;
+            Some(Hit { t, object: piece.object as u32 + 1, normal })
+        });
+        let all: Vec<Hit> = opens.chain(self.solid_hit(origin, toward)).collect();
+        let nearest = all.iter().map(|hit| hit.t).fold(f64::INFINITY, f64::min);
+        // In one place the first in the file shows.
+        let here = all.into_iter().filter(|hit| hit.t - nearest <= self.smallest / toward.length());
+        here.min_by_key(|hit| hit.object)
+    }
+
+    /// The first point in front of the origin where the ray enters or leaves an object that is a solid. From outside
+    /// all of them that is where it enters their union; from inside one it may be an object that lies within it.
+    fn solid_hit(&self, origin: DVec3, toward: DVec3) -> Option<Hit> {
         let (o, d) = (point(origin), direction(toward));
         let mut crossings = Vec::new();
         for (index, piece) in self.pieces.iter().enumerate() {
@@ -175,6 +193,7 @@ impl Piece {
         let map = &primitive.map;
         let surface = match &primitive.shape {
             Shape::Mesh(mesh) => Surface::Parity(Triangle::of(mesh, map)),
+            open if open.is_surface() => Surface::Open(Open::new(open, map)),
             convex => Surface::Convex(sides(convex, map)),
         };
         let corners = primitive.shape.bounds().corners().map(|corner| map.transform_point3(corner));
@@ -200,6 +219,7 @@ impl Piece {
                     triangles.iter().filter_map(|t| t.crossing(p, &d)).filter(|t| t.value() > 0.0).count();
                 in_front % 2 == 1
             }
+            Surface::Open(_) => false,
         }
     }
 
@@ -229,6 +249,7 @@ impl Piece {
                     }
                 }
             }
+            Surface::Open(_) => {}
         }
     }
 }

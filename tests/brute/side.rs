@@ -111,7 +111,7 @@ fn quadratic(a: Wide, b: Wide, c: Wide) -> Vec<Wide> {
     roots
 }
 
-/// The sides of a convex shape in the world. A mesh has none.
+/// The sides of a convex shape in the world, those of the frustum for its open wall. What is made of polygons has none.
 pub fn sides(shape: &Shape, map: &DAffine3) -> Vec<Side> {
     let back = inverse(map);
     let last: Row = [Wide::ZERO, Wide::ZERO, Wide::ZERO, 1.0.into()];
@@ -134,7 +134,7 @@ pub fn sides(shape: &Shape, map: &DAffine3) -> Vec<Side> {
     let (x, y, z) = (combine(1.0, 0.0, 0.0, 0.0), combine(0.0, 1.0, 0.0, 0.0), combine(0.0, 0.0, 1.0, 0.0));
     match shape {
         Shape::Sphere => vec![squares(&[(1.0, x), (1.0, y), (1.0, z), (-1.0, last)])],
-        Shape::Frustum { bottom, top } => {
+        Shape::Frustum { bottom, top } | Shape::Tube { bottom, top } => {
             let radius = combine(0.0, 0.0, (top - bottom) / 2.0, f64::midpoint(*top, *bottom));
             let mut all = vec![squares(&[(1.0, x), (1.0, y), (-1.0, radius)])];
             all.extend(slab([0.0, 0.0, 1.0]));
@@ -147,7 +147,7 @@ pub fn sides(shape: &Shape, map: &DAffine3) -> Vec<Side> {
             let plane = |h: &HalfSpace| Side::Plane(combine(h.normal.x, h.normal.y, h.normal.z, -h.offset));
             facets.faces.iter().map(plane).collect()
         }
-        Shape::Mesh(_) => vec![],
+        Shape::Mesh(_) | Shape::Face(_) | Shape::Patch(_) => vec![],
     }
 }
 
@@ -164,6 +164,20 @@ impl Triangle {
         mesh.triangles.iter().map(|t| Self { corners: t.map(corner) }).collect()
     }
 
+    /// A polygon as a fan of triangles: a point is inside it if it is inside an odd number of them.
+    pub fn fan(corners: &[DVec3]) -> Vec<Self> {
+        let apex = corners[0];
+        corners[1..].windows(2).map(|edge| Self { corners: [apex, edge[0], edge[1]] }).collect()
+    }
+
+    /// The shares of the three corners in a point of the triangle, by areas.
+    pub fn shares(&self, p: DVec3) -> [f64; 3] {
+        let [a, b, c] = self.corners;
+        let normal = self.normal();
+        let area = |p: DVec3, q: DVec3, r: DVec3| (q - p).cross(r - p).dot(normal) / normal.length_squared();
+        [area(p, b, c), area(a, p, c), area(a, b, p)]
+    }
+
     /// Not of unit length.
     pub fn normal(&self) -> DVec3 {
         let [a, b, c] = self.corners;
@@ -178,6 +192,11 @@ impl Triangle {
         if turns[0] != turns[1] || turns[1] != turns[2] {
             return None;
         }
+        self.plane_crossing(o, d)
+    }
+
+    /// Where the line crosses its plane.
+    pub fn plane_crossing(&self, o: &Row, d: &Row) -> Option<Wide> {
         let [a, b, c] = self.corners.map(point);
         let (u, v) = (minus(&b, &a), minus(&c, &a));
         let normal: [Wide; 3] = std::array::from_fn(|i| {

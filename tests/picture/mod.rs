@@ -3,7 +3,7 @@
 use ray13::frame::{Frame, Studio};
 use ray13::math::{DAffine3, DVec2, DVec3, Size};
 use ray13::plan::Shading;
-use ray13::scene::{Camera, Material, MaterialId, Object, Primitive, Scene, Shape, Solid};
+use ray13::scene::{Camera, FieldSpan, Material, MaterialId, Object, Primitive, Scene, Shape, Solid};
 
 use crate::rays::directions;
 use crate::request::request;
@@ -41,7 +41,15 @@ pub fn draw(scene: Scene, width: u32, height: u32) -> Seen {
 
 fn see(scene: Scene, eye: DVec3, dots: Size, shading: Shading) -> Seen {
     let up = if eye.truncate() == DVec2::ZERO { DVec3::Y } else { DVec3::Z };
-    let camera = Camera { name: None, eye, target: DVec3::ZERO, up, field: [40.0, 40.0], zoom: 1.0 };
+    let camera = Camera {
+        name: None,
+        eye,
+        target: DVec3::ZERO,
+        up,
+        field: [40.0, 40.0],
+        span: FieldSpan::Edges,
+        zoom: 1.0,
+    };
     let mut request = request(camera.clone(), dots);
     request.options.shading = shading;
     Seen { frame: Studio::new(scene).unwrap().draw(&request), camera }

@@ -4,7 +4,7 @@ use super::arguments::Arguments;
 use super::facets::Polygons;
 use super::maps::compose;
 use super::{Builder, Context, facets, polyhedron};
-use crate::math::{Bounds, DAffine3, DMat3, DVec3};
+use crate::math::{DAffine3, DMat3, DVec3};
 use crate::scene::diagnostic::{Reported, Sink};
 use crate::scene::language::syntax::Call;
 use crate::scene::language::vocabulary::{SolidWord, Word};
@@ -39,7 +39,7 @@ impl Builder<'_> {
             }
         };
         let map = compose(&context.map, &local, call.name.span, sink)?;
-        let bounds = bounds(&shape).mapped(&map);
+        let bounds = shape.bounds().mapped(&map);
         if !(bounds.lo.is_finite() && bounds.hi.is_finite()) {
             let error = Diagnostic::error(call.name.span, "it reaches farther than a 64-bit float holds");
             return Err(sink.report(error.label("too large, or too far away")));
@@ -68,15 +68,6 @@ impl Round<'_> {
             Some(sides) => self.polygons.frustum(sides, bottom, top),
             None => Shape::Frustum { bottom, top },
         }
-    }
-}
-
-/// The box of a shape in its own coordinates.
-fn bounds(shape: &Shape) -> Bounds {
-    match shape {
-        Shape::Sphere | Shape::Frustum { .. } | Shape::Cube => Bounds::new(DVec3::NEG_ONE, DVec3::ONE),
-        Shape::Facets(facets) => facets.bounds,
-        Shape::Mesh(mesh) => Bounds::around(mesh.points.iter().copied()),
     }
 }
 

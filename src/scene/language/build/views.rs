@@ -7,7 +7,7 @@ use crate::math::DVec3;
 use crate::scene::diagnostic::{Reported, Sink};
 use crate::scene::language::nearest::quoted;
 use crate::scene::language::syntax::{Call, Spanned, Value};
-use crate::scene::{Anchor, Camera, Diagnostic, Light, World};
+use crate::scene::{Anchor, Camera, Diagnostic, FieldSpan, Light, World};
 
 impl Builder<'_> {
     pub(super) fn camera(&mut self, arguments: &Arguments<'_, '_>) -> Result<(), Reported> {
@@ -34,7 +34,15 @@ impl Builder<'_> {
             let error = Diagnostic::error(arguments.place_of("name"), message).label("the second one");
             return Err(sink.report(error.help("give it another name")));
         }
-        self.scene.views.push(Camera { name: name.map(str::to_owned), eye, target, up, field, zoom });
+        self.scene.views.push(Camera {
+            name: name.map(str::to_owned),
+            eye,
+            target,
+            up,
+            field,
+            span: FieldSpan::Edges,
+            zoom,
+        });
         Ok(())
     }
 

@@ -1,0 +1,256 @@
+//! Best fit where ink and paper may have any colour, or any of the 13 grays: which parting of the dots in two, and
+//! which two colours.
+//!
+//! The measure is that of [`fit`](super::fit): an error e over the dots is seen with the squared strength
+//! `eᵀ K e`, in each axis of L*a*b* alike. With the dots m in ink and n in paper, e = l − a m − b n, and the best a
+//! and b of a parting are those of least squares: `mᵀKm a + mᵀKn b = mᵀKl` and `mᵀKn a + nᵀKn b = nᵀKl`.
+
+use super::cell::Cell;
+use super::eye::{Dots, overlaps};
+use super::paint::Paint;
+use super::shape::{DOT_COUNT, DOTS, Shape};
+use crate::math::{DVec3, Grid, Size};
+use crate::tone::{Level, Tone, color_of_lab, lab_of_color, lightness, srgb_of_light};
+
+/// How far from the best gray for the paper others are tried: the grays that are best together are not always the
+/// nearest to what is best without steps.
+const TRIED: usize = 2;
+
+/// One way to part the dots.
+#[derive(Clone, Copy, Debug)]
+struct Parting {
+    shape: Shape,
+    /// K m and K n.
+    ink: Dots,
+    paper: Dots,
+    /// mᵀKm, mᵀKn and nᵀKn.
+    inks: f64,
+    mixed: f64,
+    papers: f64,
+}
+
+/// The partings of one set of shapes.
+pub struct PairFit {
+    partings: Vec<Parting>,
+}
+
+impl Parting {
+    fn new(shape: Shape, overlaps: &[Dots; DOT_COUNT]) -> Self {
+        let (m, n) = (shape.dots(1.0, 0.0), shape.dots(0.0, 1.0));
+        let seen = |dots: Dots| overlaps.map(|row| dot(&row, &dots));
+        let (ink, paper) = (seen(m), seen(n));
+        Self { shape, ink, paper, inks: dot(&m, &ink), mixed: dot(&m, &paper), papers: dot(&n, &paper) }
+    }
+
+    /// mᵀKl and nᵀKl.
+    fn pulls(&self, l: &Dots) -> [f64; 2] {
+        [dot(&self.ink, l), dot(&self.paper, l)]
+    }
+
+    /// The best ink and paper where any value will do.
+    fn best(&self, [p, q]: [f64; 2]) -> [f64; 2] {
+        // K is positive definite and m and n share no dot, so this is above 0.
+        let determinant = self.inks * self.papers - self.mixed * self.mixed;
+        [(p * self.papers - q * self.mixed) / determinant, (q * self.inks - p * self.mixed) / determinant]
+    }
+
+    /// The error, less `lᵀKl`, which is the same for all.
+    fn cost(&self, [a, b]: [f64; 2], [p, q]: [f64; 2]) -> f64 {
+        a * (a * self.inks + 2.0 * (b * self.mixed - p)) + b * (b * self.papers - 2.0 * q)
+    }
+}
+
+fn dot(a: &Dots, b: &Dots) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+impl PairFit {
+    /// For these shapes; one of each two that are each other's complement will do.
+    pub fn new(shapes: &[Shape]) -> Self {
+        let overlaps = overlaps();
+        let mut partings: Vec<Parting> = Vec::new();
+        for &shape in shapes {
+            if partings.iter().all(|other| other.shape.mask != !shape.mask) {
+                partings.push(Parting::new(shape, &overlaps));
+            }
+        }
+        Self { partings }
+    }
+
+    /// The cells of two grays out of `grays` nearest to `light`, of [`DOTS`] to a cell.
+    pub fn compose_grays(&self, light: &Grid<f64>, grays: &Grays, tone: Tone) -> Grid<Cell> {
+        // NaN counts as no light.
+        cells(&light.map(|&light| tone.shown(light).max(0.0)), |dots| self.two_grays(&dots, grays))
+    }
+
+    /// The cells of two colours nearest to `color`, of [`DOTS`] to a cell.
+    pub fn compose_colors(&self, color: &Grid<DVec3>, tone: Tone) -> Grid<Cell> {
+        let shown = |color: DVec3| tone.shown_color(color).max(DVec3::ZERO);
+        cells(&color.map(|&color| shown(color)), |dots| self.two_colors(&dots))
+    }
+
+    fn two_grays(&self, dots: &Dots, grays: &Grays) -> Cell {
+        // Even light is its level by definition, not by the least of rounded costs.
+        let first = Cell::flat(grays.of_level(Level::nearest(dots[0])));
+        if dots.iter().all(|dot| *dot == dots[0]) {
+            return first;
+        }
+        let dots = dots.map(lightness);
+        let mut least = (f64::INFINITY, first);
+        for parting in &self.partings {
+            let pulls = parting.pulls(&dots);
+            for &(paper, paper_paint) in grays.near(parting.best(pulls)[1]) {
+                // The best ink on this paper: the cost is a parabola in it, so the nearest gray is the best gray.
+                let (ink, ink_paint) = grays.nearest((pulls[0] - parting.mixed * paper) / parting.inks);
+                let cost = parting.cost([ink, paper], pulls);
+                if cost < least.0 {
+                    least = (cost, Cell::pair(parting.shape, ink_paint, paper_paint));
+                }
+            }
+        }
+        least.1
+    }
+
+    fn two_colors(&self, dots: &[DVec3; DOT_COUNT]) -> Cell {
+        if dots.iter().all(|dot| *dot == dots[0]) {
+            return Cell::flat(paint(dots[0]));
+        }
+        let labs = dots.map(lab_of_color);
+        let axes: [Dots; 3] = std::array::from_fn(|axis| labs.map(|lab| lab[axis]));
+        let mut least = (f64::INFINITY, Cell::flat(paint(dots[0])));
+        for parting in &self.partings {
+            let pulls = axes.map(|axis| parting.pulls(&axis));
+            let best = pulls.map(|pulls| parting.best(pulls));
+            let cost = best.iter().zip(pulls).map(|(&best, pulls)| parting.cost(best, pulls)).sum();
+            if cost < least.0 {
+                let [ink, paper] = [0, 1].map(|side| paint(color_of_lab(best.map(|axis| axis[side]))));
+                least = (cost, Cell::pair(parting.shape, ink, paper));
+            }
+        }
+        least.1
+    }
+}
+
+/// The colour as bytes.
+pub fn paint(color: DVec3) -> Paint {
+    Paint::Rgb(color.to_array().map(srgb_of_light))
+}
+
+/// A cell for each [`DOTS`] of a picture.
+fn cells<T: Copy>(dots: &Grid<T>, mut cell: impl FnMut([T; DOT_COUNT]) -> Cell) -> Grid<Cell> {
+    let size = Size::new(dots.size().width / DOTS.width, dots.size().height / DOTS.height);
+    Grid::from_fn(size, |column, row| {
+        cell(std::array::from_fn(|dot| {
+            let (x, y) = (dot as u32 % DOTS.width, dot as u32 / DOTS.width);
+            dots[(column * DOTS.width + x, row * DOTS.height + y)]
+        }))
+    })
+}
+
+/// The grays that a pair may have, with their L*, from the darkest.
+pub struct Grays(Vec<(f64, Paint)>);
+
+impl Grays {
+    /// The 13 levels.
+    pub fn levels() -> Self {
+        Self(Level::all().map(|level| (lightness(level.light()), Paint::of_level(level))).collect())
+    }
+
+    /// The four of the attributes.
+    pub fn attributes() -> Self {
+        let paints = [Paint::Black, Paint::DarkGray, Paint::LightGray, Paint::White];
+        Self(paints.into_iter().filter_map(|paint| Some((lightness(paint.light()?), paint))).collect())
+    }
+
+    /// That of a level, where it is one of them; else the one below it.
+    fn of_level(&self, level: Level) -> Paint {
+        let last = self.0.len() - 1;
+        self.0[usize::from(level.get()) * last / usize::from(Level::MAX.get())].1
+    }
+
+    /// The nearest to an L*.
+    fn nearest(&self, lightness: f64) -> (f64, Paint) {
+        let above = self.0.partition_point(|gray| gray.0 < lightness).clamp(1, self.0.len() - 1);
+        let (dark, bright) = (self.0[above - 1], self.0[above]);
+        if lightness - dark.0 < bright.0 - lightness { dark } else { bright }
+    }
+
+    /// The [`TRIED`] below an L* and the same above it.
+    fn near(&self, lightness: f64) -> &[(f64, Paint)] {
+        let above = self.0.partition_point(|gray| gray.0 < lightness);
+        &self.0[above.saturating_sub(TRIED)..(above + TRIED).min(self.0.len())]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::shape::{BLOCKS, HALVES, QUADRANTS};
+    use super::*;
+    use crate::tone::light_of_lightness;
+    use proptest::prelude::*;
+
+    #[test]
+    fn complements_are_there_once() {
+        for (shapes, count) in [(BLOCKS, 9), (HALVES, 2), (QUADRANTS, 7)] {
+            assert_eq!(PairFit::new(shapes).partings.len(), count);
+        }
+    }
+
+    #[test]
+    fn two_grays_along_a_shape_are_that_shape() {
+        let fit = PairFit::new(BLOCKS);
+        let grays = Grays::levels();
+        for shape in BLOCKS {
+            for (dark, bright) in [(0, 1), (3, 7), (0, 12), (11, 12)] {
+                let [dark, bright] = [dark, bright].map(|k: usize| grays.0[k]);
+                let cell = fit.two_grays(&shape.dots(bright.0, dark.0).map(light_of_lightness), &grays);
+                let inked = if cell.ink == bright.1 { shape.mask } else { !shape.mask };
+                assert_eq!(super::super::shape::block_of(inked), Some(cell.glyph), "{shape:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn two_colors_along_a_shape_are_that_shape() {
+        let (red, blue) = (DVec3::new(0.8, 0.1, 0.1), DVec3::new(0.1, 0.1, 0.6));
+        let cell = PairFit::new(BLOCKS).two_colors(&BLOCKS[0].dots(red, blue));
+        assert_eq!(cell, Cell { glyph: '▀', ink: paint(red), paper: paint(blue) });
+    }
+
+    proptest! {
+        /// The few grays that are tried against all pairs.
+        #[test]
+        fn no_other_pair_is_nearer(dots in prop::array::uniform8(0.0..=100.0)) {
+            let (fit, grays) = (PairFit::new(BLOCKS), Grays::levels());
+            let overlaps = overlaps();
+            let cost = |shown: &Dots| {
+                let error: Dots = std::array::from_fn(|d| dots[d] - shown[d]);
+                dot(&overlaps.map(|row| dot(&row, &error)), &error)
+            };
+            let mut least = f64::INFINITY;
+            for parting in &fit.partings {
+                for (ink, paper) in grays.0.iter().flat_map(|a| grays.0.iter().map(move |b| (a.0, b.0))) {
+                    least = least.min(cost(&parting.shape.dots(ink, paper)));
+                }
+            }
+            let cell = fit.two_grays(&dots.map(light_of_lightness), &grays);
+            let shape = BLOCKS.iter().find(|shape| shape.glyph == cell.glyph).copied();
+            let [ink, paper] = [cell.ink, cell.paper].map(|paint| {
+                grays.0.iter().find(|gray| gray.1 == paint).expect("a level").0
+            });
+            let shown = shape.map_or([paper; DOT_COUNT], |shape| shape.dots(ink, paper));
+            prop_assert!(cost(&shown) <= least * (1.0 + 1e-9) + 1e-9);
+        }
+
+        #[test]
+        fn gray_colors_are_as_light_as_their_dots(dots in prop::array::uniform8(20.0..=80.0)) {
+            let colors = dots.map(|l: f64| DVec3::splat(light_of_lightness(l)));
+            let cell = PairFit::new(BLOCKS).two_colors(&colors);
+            for light in [cell.ink_light(), cell.paper_light()] {
+                prop_assert!((0.0..=1.0).contains(&light));
+            }
+            let Paint::Rgb([r, g, b]) = cell.ink else { panic!("a colour") };
+            prop_assert!(r == g && g == b);
+        }
+    }
+}

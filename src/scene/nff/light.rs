@@ -1,0 +1,97 @@
+//! `l` and `f`: what lights the scene, and how its surfaces answer.
+
+use std::collections::HashMap;
+
+use crate::math::DVec3;
+use crate::scene::diagnostic::Reported;
+use crate::scene::{Anchor, Light, Material, MaterialId, Scene};
+
+use super::entity::Entity;
+
+/// The lights, some perhaps without an intensity of their own.
+#[derive(Debug, Default)]
+pub struct Lamps {
+    lamps: Vec<(DVec3, Option<DVec3>)>,
+}
+
+impl Lamps {
+    /// `l x y z [r g b]`.
+    pub fn read(&mut self, entity: &mut Entity) -> Result<(), Reported> {
+        let at = entity.vector(|| "the light".to_owned())?;
+        let colored = entity.tokens.peek().is_some_and(|token| token.begins_a_number());
+        let color = if colored { Some(entity.color()?) } else { None };
+        self.lamps.push((at, color));
+        Ok(())
+    }
+
+    /// Lights the scene. The format's own rule: each of L lights whose intensity is not given has √L / 2L, and so
+    /// has the ambient light. A file without lights leaves both as they are.
+    pub fn finish(self, scene: &mut Scene) {
+        let count = self.lamps.len() as f64;
+        let share = count.sqrt() / (2.0 * count);
+        if !self.lamps.is_empty() {
+            scene.world.ambient = DVec3::splat(share);
+        }
+        let light = |(at, color): (DVec3, Option<DVec3>)| {
+            // A light's colour goes up to 1; what is brighter is intensity.
+            let intensity = color.map_or(share, |color| color.max_element().max(1.0));
+            let color = color.map_or(DVec3::ONE, |color| color / intensity);
+            Light { anchor: Anchor::World(at), intensity, color }
+        };
+        scene.lights = self.lamps.into_iter().map(light).collect();
+    }
+}
+
+/// The materials, each stored once.
+#[derive(Debug, Default)]
+pub struct Fills {
+    materials: Vec<Material>,
+    /// By their bits. Only asked by key, so that its order plays no part.
+    known: HashMap<[u64; 8], MaterialId>,
+    current: Option<MaterialId>,
+}
+
+impl Fills {
+    /// `f red green blue Kd Ks Shine T index`.
+    pub fn read(&mut self, entity: &mut Entity) -> Result<(), Reported> {
+        let numbers =
+            entity.numbers(["red", "green", "blue", "Kd", "Ks", "Shine", "T", "the index of refraction"])?;
+        for (place, &number) in numbers.iter().enumerate() {
+            let (above_0, up_to_1) = (number.value >= 0.0, number.value <= 1.0);
+            match place {
+                5 | 7 => entity.check(number, above_0, "Shine and index are 0 or more")?,
+                _ => entity.check(number, above_0 && up_to_1, "colour, Kd, Ks and T are in 0 to 1")?,
+            }
+        }
+        let [.., t, index] = numbers;
+        entity.check(index, index.value > 0.0 || t.value == 0.0, "where T is above 0 the index is too")?;
+        let values = numbers.map(|number| number.value);
+        let next = MaterialId(self.materials.len() as u32);
+        let id = *self.known.entry(values.map(f64::to_bits)).or_insert(next);
+        if id == next {
+            self.materials.push(material(values));
+        }
+        self.current = Some(id);
+        Ok(())
+    }
+
+    /// The material of what comes next: the last that was read, else ray13's own.
+    pub fn current(&mut self) -> MaterialId {
+        *self.current.get_or_insert_with(|| {
+            self.materials.push(Material::default());
+            MaterialId(self.materials.len() as u32 - 1)
+        })
+    }
+
+    /// All of them.
+    pub fn finish(self) -> Vec<Material> {
+        self.materials
+    }
+}
+
+/// The format has one share, Ks, for the highlight and for what is mirrored. An index of 0 is that of a surface
+/// through which nothing is seen.
+fn material([r, g, b, kd, ks, n, kt, index]: [f64; 8]) -> Material {
+    let index = if index > 0.0 { index } else { 1.0 };
+    Material { name: None, color: DVec3::new(r, g, b), kd, ks, n, kr: ks, kt, index }
+}

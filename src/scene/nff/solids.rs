@@ -1,0 +1,154 @@
+//! `s`, `c`, `p` and `pp`: what is seen.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use crate::math::{DAffine3, DMat3, DVec3, Placement};
+use crate::scene::diagnostic::{Reported, Sink};
+use crate::scene::{Corner, Diagnostic, MaterialId, Object, Primitive, Shape, Solid};
+
+use super::entity::Entity;
+use super::light::Fills;
+use super::polygon::{drop_repeated, has_area};
+
+/// The shortest corner that can be written: three digits, each with a blank.
+const CORNER_BYTES: usize = 6;
+
+/// The objects, in file order.
+#[derive(Debug, Default)]
+pub struct Solids {
+    objects: Vec<Object>,
+    /// Corners of the face that is being read; kept to be used again.
+    places: Vec<DVec3>,
+    corners: Vec<Corner>,
+    without_area: usize,
+    first_without_area: Option<Range<usize>>,
+}
+
+impl Solids {
+    /// `s x y z radius`: a ball.
+    pub fn sphere(&mut self, entity: &mut Entity, fills: &mut Fills) -> Result<(), Reported> {
+        let center = entity.vector(|| "the centre".to_owned())?;
+        let [radius] = entity.numbers(["the radius"])?;
+        entity.check(radius, radius.value > 0.0, "the radius is above 0")?;
+        let map = DAffine3::from_mat3_translation(DMat3::from_diagonal(DVec3::splat(radius.value)), center);
+        self.placed(entity, Shape::Sphere, map, fills.current())
+    }
+
+    /// `c` base x y z radius, apex x y z radius: the side of a cylinder or a cone, open at both ends.
+    pub fn tube(&mut self, entity: &mut Entity, fills: &mut Fills) -> Result<(), Reported> {
+        let base = entity.vector(|| "the base".to_owned())?;
+        let [bottom] = entity.numbers(["the radius at the base"])?;
+        let apex = entity.vector(|| "the apex".to_owned())?;
+        let [top] = entity.numbers(["the radius at the apex"])?;
+        for radius in [bottom, top] {
+            entity.check(radius, radius.value >= 0.0, "a radius is 0 or more")?;
+        }
+        let largest = bottom.value.max(top.value);
+        entity.check(bottom, largest > 0.0, "one of the radii is above 0")?;
+        let half = 0.5 * apex - 0.5 * base;
+        let size = half.abs().max_element();
+        if size == 0.0 {
+            return Err(entity.wrong(entity.keyword, "base and apex are the same point"));
+        }
+        let (x, y) = (half / size).normalize_or(DVec3::Z).any_orthonormal_pair();
+        let linear = DMat3::from_cols(x * largest, y * largest, half);
+        let map = DAffine3::from_mat3_translation(linear, 0.5 * base + 0.5 * apex);
+        let shape = Shape::Tube { bottom: bottom.value / largest, top: top.value / largest };
+        self.placed(entity, shape, map, fills.current())
+    }
+
+    /// `p n`, then n corners.
+    pub fn face(&mut self, entity: &mut Entity, fills: &mut Fills) -> Result<(), Reported> {
+        let count = corner_count(entity, CORNER_BYTES)?;
+        self.places.clear();
+        for number in 1..=count {
+            self.places.push(entity.vector(|| corner_name(number, count))?);
+        }
+        drop_repeated(&mut self.places, |&place| place);
+        if has_area(self.places.iter().copied()) {
+            self.surface(Shape::Face(Arc::from(&self.places[..])), fills.current());
+        } else {
+            self.leave_out(entity);
+        }
+        Ok(())
+    }
+
+    /// `pp n`, then n times a corner and its normal.
+    pub fn patch(&mut self, entity: &mut Entity, fills: &mut Fills) -> Result<(), Reported> {
+        let count = corner_count(entity, 2 * CORNER_BYTES)?;
+        self.corners.clear();
+        for number in 1..=count {
+            let place = entity.vector(|| corner_name(number, count))?;
+            let normal = entity.vector(|| format!("the normal of {}", corner_name(number, count)))?;
+            self.corners.push(Corner { place, normal });
+        }
+        drop_repeated(&mut self.corners, |corner| corner.place);
+        if has_area(self.corners.iter().map(|corner| corner.place)) {
+            self.surface(Shape::Patch(Arc::from(&self.corners[..])), fills.current());
+        } else {
+            self.leave_out(entity);
+        }
+        Ok(())
+    }
+
+    /// A surface whose corners are in the world already.
+    fn surface(&mut self, shape: Shape, material: MaterialId) {
+        let solid = Solid::Primitive(Primitive { shape, map: DAffine3::IDENTITY, material });
+        self.objects.push(Object { name: None, solid });
+    }
+
+    fn placed(
+        &mut self,
+        entity: &mut Entity,
+        shape: Shape,
+        map: DAffine3,
+        material: MaterialId,
+    ) -> Result<(), Reported> {
+        let bounds = shape.bounds().mapped(&map);
+        if !(bounds.lo.is_finite() && bounds.hi.is_finite()) {
+            return Err(entity.wrong(entity.keyword, "it reaches farther than a 64-bit float holds"));
+        }
+        if Placement::new(&map).is_none() {
+            return Err(entity.wrong(entity.keyword, "it is smaller than a 64-bit float holds"));
+        }
+        self.objects.push(Object { name: None, solid: Solid::Primitive(Primitive { shape, map, material }) });
+        Ok(())
+    }
+
+    fn leave_out(&mut self, entity: &Entity) {
+        self.without_area += 1;
+        self.first_without_area.get_or_insert_with(|| entity.keyword.span());
+    }
+
+    /// All objects, and a note of what was left out.
+    pub fn finish(mut self, sink: &mut Sink) -> Vec<Object> {
+        if let Some(place) = self.first_without_area {
+            let message = match self.without_area {
+                1 => "a face has no area and is left out".to_owned(),
+                count => format!("{count} faces, of which this is the first, have no area and are left out"),
+            };
+            sink.note(Diagnostic::note(place, message));
+        }
+        self.objects.shrink_to_fit();
+        self.objects
+    }
+}
+
+/// Takes the number of corners, if the rest of the file has room for them.
+fn corner_count(entity: &mut Entity, bytes: usize) -> Result<usize, Reported> {
+    let [number] = entity.numbers(["the number of corners"])?;
+    let whole = number.value >= 3.0 && number.value.fract() == 0.0;
+    entity.check(number, whole, "the number of corners is a whole number, 3 or more")?;
+    // The last corner needs no blank behind it. A cast of what is too large gives the largest number.
+    let room = (entity.tokens.bytes_left() + 1) / bytes;
+    if number.value as usize > room {
+        let left = format!("room for {} corners", number.token.shown());
+        return Err(entity.cut_off(&left));
+    }
+    Ok(number.value as usize)
+}
+
+fn corner_name(number: usize, count: usize) -> String {
+    format!("corner {number} of {count}")
+}

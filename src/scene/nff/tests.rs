@@ -1,0 +1,164 @@
+//! Small files, and what is wrong with small files.
+
+use crate::math::DVec3;
+use crate::scene::{
+    Anchor, Diagnostics, FieldSpan, Format, Material, MaterialId, Primitive, ReadOptions, Scene, Shape, Solid,
+};
+
+fn read(text: &str) -> Result<Scene, Diagnostics> {
+    let options = ReadOptions { format: Some(Format::Nff), ..ReadOptions::default() };
+    crate::scene::read("test.nff", text.as_bytes(), &options)
+}
+
+/// The first line of what is wrong, without the file's name.
+#[track_caller]
+fn wrong(text: &str) -> String {
+    let found = read(text).expect_err("an error").to_string();
+    found.lines().next().unwrap_or_default().trim_start_matches("test.nff:").to_owned()
+}
+
+fn primitives(scene: &Scene) -> Vec<&Primitive> {
+    let mut all = Vec::new();
+    scene.objects.iter().for_each(|object| object.solid.visit(&mut |p| all.push(p)));
+    all
+}
+
+#[test]
+fn the_name_says_the_format() {
+    assert_eq!(Format::of("balls.nff"), Format::Nff);
+    assert_eq!(Format::of("a/B.NFF"), Format::Nff);
+    assert_eq!(Format::of("nff"), Format::Language);
+    assert!(crate::scene::read("x.nff", b"s 0 0 0 1", &ReadOptions::default()).is_ok());
+}
+
+#[test]
+fn all_entities_are_read_wherever_lines_break() {
+    let text = "b .1 .2 .3 # sky\nv\nfrom 0 -5 0 at 0 0 0\nup 0 0 1\nangle 45\nhither 1\nresolution 512 512\n\
+        l 1 2\n3 l 4 5 6 .5 .25 0\nf 1 .5 0 .5 .25 30 0 0\ns 1 2 3 4 p\n3\n0 0 0 1\n0 0 0 1 0\n\
+        c 0 0 0 2 0 0 4 1 pp 3 0 0 0 0 0 1 1 0 0 0 0 1 0 1 0 0 0 1\n";
+    let scene = read(text).unwrap();
+    assert_eq!(scene.world.background, DVec3::new(0.1, 0.2, 0.3));
+    let camera = &scene.views[0];
+    assert_eq!((camera.eye, camera.target, camera.up), (DVec3::Y * -5.0, DVec3::ZERO, DVec3::Z));
+    assert_eq!((camera.field, camera.span), ([45.0; 2], FieldSpan::Centers));
+    let solids = primitives(&scene);
+    assert_eq!(solids.len(), 4);
+    assert_eq!(solids[0].map.transform_point3(DVec3::X), DVec3::new(5.0, 2.0, 3.0));
+    let Shape::Face(corners) = &solids[1].shape else { panic!("a face") };
+    assert_eq!(corners[..], [DVec3::ZERO, DVec3::X, DVec3::Y]);
+    assert_eq!(solids[2].shape, Shape::Tube { bottom: 1.0, top: 0.5 });
+    assert_eq!(solids[2].map.transform_point3(DVec3::Z), DVec3::new(0.0, 0.0, 4.0));
+    let Shape::Patch(corners) = &solids[3].shape else { panic!("a patch") };
+    assert_eq!((corners[2].place, corners[2].normal), (DVec3::Y, DVec3::Z));
+    let fill =
+        Material { color: DVec3::new(1.0, 0.5, 0.0), kd: 0.5, ks: 0.25, n: 30.0, ..Material::default() };
+    assert_eq!(scene.materials, [Material { kr: 0.25, kt: 0.0, index: 1.0, ..fill }]);
+}
+
+#[test]
+fn lights_without_intensity_share_by_the_rule_of_the_format() {
+    let scene = read("l 0 0 1 l 0 0 2 l 0 0 3 l 0 0 4 2 1 0 s 0 0 0 1").unwrap();
+    assert_eq!(scene.world.ambient, DVec3::splat(0.25));
+    let lights: Vec<_> = scene.lights.iter().map(|l| (l.anchor, l.intensity, l.color)).collect();
+    assert_eq!(lights[0], (Anchor::World(DVec3::Z), 0.25, DVec3::ONE));
+    assert_eq!(lights[3], (Anchor::World(DVec3::Z * 4.0), 2.0, DVec3::new(1.0, 0.5, 0.0)));
+    let dark = read("s 0 0 0 1").unwrap();
+    assert_eq!((dark.lights.len(), dark.world.ambient), (0, Scene::default().world.ambient));
+}
+
+#[test]
+fn equal_fills_are_one_material() {
+    let (red, blue) = ("f 1 0 0 1 0 0 0 0\n", "f 0 0 1 1 0 0 0 0\n");
+    let scene = read(&format!("s 0 0 0 1 {red} s 2 0 0 1 {blue} s 4 0 0 1 {red} s 6 0 0 1")).unwrap();
+    let used: Vec<_> = primitives(&scene).iter().map(|p| p.material).collect();
+    assert_eq!(used, [0, 1, 2, 1].map(MaterialId));
+    assert_eq!(scene.materials[0], Material::default());
+}
+
+#[test]
+fn faces_without_area_are_left_out_with_one_note() {
+    let scene = read(
+        "s 0 0 0 1\np 3 0 0 0 1 1 1 2 2 2\np 4 0 0 0 0 0 0 1 0 0 0 0 0\npp 3 0 0 0 0 0 1 0 0 0 0 0 1 0 0 0 0 0 1",
+    )
+    .unwrap();
+    assert_eq!(scene.objects.len(), 1);
+    let note = "line 2: 3 faces, of which this is the first, have no area and are left out";
+    assert_eq!(scene.notes, [note]);
+    let repeated = read("p 5 0 0 0 1 0 0 1 0 0 0 1 0 0 0 0").unwrap();
+    let Solid::Primitive(Primitive { shape: Shape::Face(corners), .. }) = &repeated.objects[0].solid else {
+        panic!("a face")
+    };
+    assert_eq!((corners.len(), repeated.notes.len()), (3, 0));
+}
+
+#[test]
+fn each_fault_has_its_place_and_its_words() {
+    for (text, expected) in [
+        ("s 0 0 0", "1:1: error: the file ends within `s`: the radius is missing"),
+        ("s 0 0", "1:1: error: the file ends within `s`: z of the centre is missing"),
+        ("\n s 0 0 x 1", "2:8: error: z of the centre of `s` is no number: this is `x`"),
+        ("s 0 0 nan 1", "1:7: error: z of the centre of `s` is no number: this is `nan`"),
+        ("s 0 0 1\ns 0 0 0 1", "2:1: error: `s` ends too early: the radius is missing: here `s` begins"),
+        (
+            "s 0 0 1e999 1",
+            "1:7: error: z of the centre of `s` is beyond the largest number that there is: this is `1e999`",
+        ),
+        ("s 0 0 0 0", "1:9: error: `s`: the radius is above 0: this is 0"),
+        ("s 0 0 0 -1", "1:9: error: `s`: the radius is above 0: this is -1"),
+        ("s 1e308 0 0 1e308", "1:1: error: `s`: it reaches farther than a 64-bit float holds"),
+        ("s 0 0 0 1e-320", "1:1: error: `s`: it is smaller than a 64-bit float holds"),
+        ("s 0 0 0 1 2", "1:11: error: a number stands where an entity begins: this is `2`"),
+        ("sphere 0 0 0 1", "1:1: error: NFF has no such entity: this is `sphere`"),
+        ("p 2 0 0 0 1 1 1", "1:3: error: `p`: the number of corners is a whole number, 3 or more: this is 2"),
+        ("p -3", "1:3: error: `p`: the number of corners is a whole number, 3 or more: this is -3"),
+        ("p 3.5 0 0 0", "1:3: error: `p`: the number of corners is a whole number, 3 or more: this is 3.5"),
+        ("p x", "1:3: error: the number of corners of `p` is no number: this is `x`"),
+        ("p", "1:1: error: the file ends within `p`: the number of corners is missing"),
+        (
+            "p 4000000000 0 0 0",
+            "1:1: error: the file ends within `p`: room for 4000000000 corners is missing",
+        ),
+        ("p 1e300 0 0 0", "1:1: error: the file ends within `p`: room for 1e300 corners is missing"),
+        ("p 3 0 0 0 1 1 1 200 100", "1:1: error: the file ends within `p`: z of corner 3 of 3 is missing"),
+        (
+            "p 4 0 0 0 1 0 0 1 1 0\ns 0 0 0 1",
+            "2:1: error: `p` ends too early: x of corner 4 of 4 is missing: here `s` begins",
+        ),
+        (
+            "pp 3 0 0 0 0 0 1 1 0 0 0 0 1 0 1 0 0 x 1",
+            "1:40: error: y of the normal of corner 3 of 3 of `pp` is no number: this is `x`",
+        ),
+        ("c 0 0 0 1 0 0 0 1", "1:1: error: `c`: base and apex are the same point"),
+        ("c 0 0 0 0 0 0 1 0", "1:9: error: `c`: one of the radii is above 0: this is 0"),
+        ("c 0 0 0 -1 0 0 1 0", "1:9: error: `c`: a radius is 0 or more: this is -1"),
+        ("f 1 1 2 1 0 1 0 0 s 0 0 0 1", "1:7: error: `f`: colour, Kd, Ks and T are in 0 to 1: this is 2"),
+        ("f 1 1 1 1 0 -1 0 0 s 0 0 0 1", "1:13: error: `f`: Shine and index are 0 or more: this is -1"),
+        ("f 1 1 1 1 0 1 .5 0 s 0 0 0 1", "1:18: error: `f`: where T is above 0 the index is too: this is 0"),
+        ("b 0 -1 0 s 0 0 0 1", "1:5: error: `b`: a colour is not negative: this is -1"),
+        ("v from 0 0 0 at 0 0", "1:1: error: the file ends within `v`: z of `at` is missing"),
+        ("v from 0 0 0 at 0 0 1", "1:1: error: the file ends within `v`: `up` is missing"),
+        ("v from 0 0 0 up 0 0 1 angle 45 s 0 0 0 1", "1:1: error: `v`: `at` is missing"),
+        (
+            "v from 0 0 0 at 0 0 1 up 0 1 0 angle 180",
+            "1:38: error: `v`: the angle is between 0 and 180 degrees, both excluded: this is 180",
+        ),
+        (
+            "v from 0 0 0 at 0 0 0 up 0 1 0 angle 45",
+            "1:1: error: `v`: `from` and `at` are the same point: there is no direction to look in",
+        ),
+        ("v resolution 512 -1", "1:18: error: `v`: the resolution is two whole numbers above 0: this is -1"),
+        ("", " error: the scene is empty: there is nothing to see in it"),
+        ("# nothing", " error: the scene is empty: there is nothing to see in it"),
+        ("f 1 1 1 1 0 1 0 0", " error: the scene is empty: there is nothing to see in it"),
+    ] {
+        assert_eq!(wrong(text), expected, "{text}");
+    }
+}
+
+#[test]
+fn reading_goes_on_with_the_next_entity() {
+    let found = read("s 0 0 x 1 junk 5\np 2 1 1 1\ns 0 0 0 -2\nq 1 2 3\ns 0 0 0 1").unwrap_err();
+    assert_eq!(found.list.len(), 4, "{found}");
+    let many = read(&"s 0 0 0 0\n".repeat(100)).unwrap_err();
+    assert!(many.stopped);
+}

@@ -1,0 +1,123 @@
+//! Polygons, concave ones too: surfaces seen from both sides.
+//!
+//! A ray meets a polygon where its outline turns around it an odd number of times, decided exactly in the plane
+//! across the ray ([`super::across`]): of two polygons with a common edge exactly one is met there.
+
+use crate::math::{Bounds, DVec3, Placement, Ray};
+
+use super::across::{Across, plane_crossing};
+use super::span::{End, ROUNDING};
+
+/// So many edges are looked at together: past twice as many, boxes around each group of them are asked first.
+const GROUP: usize = 32;
+
+/// Corners that are written with six digits leave their plane by this much, in the assembly's unit. A polygon that
+/// is bent further is meant so.
+const WRITTEN: f64 = 1e-5;
+
+/// A polygon in the world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Face {
+    /// The corners in order, and the first again.
+    outline: Box<[DVec3]>,
+    /// Boxes around each [`GROUP`] of edges; none where there are few.
+    groups: Box<[Bounds]>,
+    /// Across the plane that fits best, of length 1: the outline turns to the left around it.
+    normal: DVec3,
+    /// A point of that plane: the mean of the corners.
+    middle: DVec3,
+    /// How far corners lie from the plane because they were rounded.
+    bent: f64,
+    reach: f64,
+}
+
+impl Face {
+    /// The polygon of these corners, put at `place`.
+    pub fn new(corners: impl ExactSizeIterator<Item = DVec3>, place: &Placement) -> Self {
+        let share = 1.0 / corners.len() as f64;
+        let mut outline: Vec<DVec3> = Vec::with_capacity(corners.len() + 1);
+        outline.extend(corners.map(|p| place.linear * p + place.center));
+        let middle = outline.iter().fold(DVec3::ZERO, |sum, &p| sum + p * share);
+        let reach = outline.iter().map(|p| p.length()).fold(0.0, f64::max);
+        outline.extend(outline.first().copied());
+        let normal = newell(&outline);
+        let bent = outline.iter().map(|&p| normal.dot(p - middle).abs()).fold(0.0, f64::max);
+        let groups = if outline.len() > 2 * GROUP {
+            // Groups share the corner between them.
+            let group = |start| &outline[start..outline.len().min(start + GROUP + 1)];
+            (0..outline.len() - 1)
+                .step_by(GROUP)
+                .map(|start| Bounds::around(group(start).iter().copied()))
+                .collect()
+        } else {
+            Box::default()
+        };
+        Self { outline: outline.into(), groups, normal, middle, bent: bent.min(WRITTEN), reach }
+    }
+
+    /// Where the line of the ray meets the polygon.
+    #[inline]
+    pub fn crossing(&self, ray: &Ray) -> Option<End> {
+        let across = Across::new(ray);
+        if !self.surrounds(&across) {
+            return None;
+        }
+        let off = self.bent + ROUNDING * (self.reach + ray.o.length());
+        let (t, error) = plane_crossing(ray, self.corners(), self.normal, self.middle, off);
+        Some(End { t, error, surface: 0 })
+    }
+
+    fn surrounds(&self, across: &Across) -> bool {
+        if self.groups.is_empty() {
+            return across.crosses_odd(&self.outline);
+        }
+        let mut odd = false;
+        for (number, b) in self.groups.iter().enumerate() {
+            if across.may_cross(b) {
+                let start = number * GROUP;
+                odd ^= across.crosses_odd(&self.outline[start..self.outline.len().min(start + GROUP + 1)]);
+            }
+        }
+        odd
+    }
+
+    /// The normal of its plane, of length 1.
+    pub fn normal(&self) -> DVec3 {
+        self.normal
+    }
+
+    /// The corners in order, from the second: the first is the last.
+    pub fn corners(&self) -> &[DVec3] {
+        &self.outline[1..]
+    }
+
+    /// The box around it.
+    pub fn bounds(&self) -> Bounds {
+        Bounds::around(self.corners().iter().copied())
+    }
+
+    /// How far it reaches along `v`: the greatest `p · v` of its points.
+    pub fn support(&self, v: DVec3) -> f64 {
+        self.corners().iter().map(|p| p.dot(v)).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Whether the box is certainly off the polygon.
+    pub fn misses(&self, b: &Bounds) -> bool {
+        let off = self.bent + ROUNDING * self.reach;
+        let distance = self.normal.dot(b.center() - self.middle).abs() - self.normal.abs().dot(b.half());
+        distance > off || self.bounds().meet(b).is_empty()
+    }
+}
+
+/// The normal of a closed outline by Newell's method: its components are the areas of the outline's shadows along
+/// the axes, so that it fits the corners even where they are not quite in a plane. Corners are taken from the first,
+/// and scaled, so that nothing cancels or overflows.
+fn newell(outline: &[DVec3]) -> DVec3 {
+    let first = outline[0];
+    let size = outline.iter().map(|&p| (p - first).abs().max_element()).fold(0.0, f64::max);
+    let from_first = |p: DVec3| (p - first) / size;
+    let sum = outline
+        .windows(2)
+        .fold(DVec3::ZERO, |sum, edge| sum + from_first(edge[0]).cross(from_first(edge[1])));
+    sum.normalize_or(DVec3::Z)
+}

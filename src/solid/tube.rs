@@ -1,0 +1,42 @@
+//! Open tubes: the sides of cylinders, cones and frustums, seen from both sides.
+
+use crate::math::{Bounds, DVec3, Placement, Ray};
+
+use super::round::{Round, SIDE, SideCrossings};
+
+/// The side of a unit frustum under an affine map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tube(Round);
+
+impl Tube {
+    /// The tube at `place`, of radius `bottom` at z = −1 and `top` at z = 1.
+    pub fn new(place: Placement, bottom: f64, top: f64) -> Self {
+        Self(Round::frustum(place, bottom, top))
+    }
+
+    /// Where the line of the ray goes in through the tube's wall, and where it comes out.
+    #[inline]
+    pub fn crossings(&self, ray: &Ray) -> SideCrossings {
+        self.0.side_crossings(ray)
+    }
+
+    /// The normal at a point of the tube, away from its axis, of length 1.
+    pub fn normal(&self, p: DVec3) -> DVec3 {
+        self.0.normal(p, SIDE)
+    }
+
+    /// The box around it.
+    pub fn bounds(&self) -> Bounds {
+        self.0.bounds()
+    }
+
+    /// How far it reaches along `v`: the greatest `p · v` of its points.
+    pub fn support(&self, v: DVec3) -> f64 {
+        self.0.support(v)
+    }
+
+    /// Whether the box is certainly off the tube: outside, or within it.
+    pub fn misses(&self, b: &Bounds) -> bool {
+        self.0.misses(b) || self.0.covers(b)
+    }
+}

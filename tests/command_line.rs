@@ -115,9 +115,79 @@ mod a_still {
         let format = |name| done(&run(&["render", &file, "--dots", "20x16", "--format", name]));
         assert!(format("png").starts_with(b"\x89PNG\r\n\x1a\n"));
         assert!(format("pfm").starts_with(b"Pf\n20 16\n-1"));
+        let (pgm, ppm) = (format("pgm"), format("ppm"));
+        assert_eq!((&pgm[..13], pgm.len()), (&b"P5\n20 16\n255\n"[..], 13 + 320));
+        assert_eq!((&ppm[..13], ppm.len()), (&b"P6\n20 16\n255\n"[..], 13 + 960));
+        // One gray a dot, in both.
+        assert!(pgm[13..].iter().zip(ppm[13..].chunks(3)).all(|(&gray, rgb)| rgb == [gray; 3]));
+        let thirteen = [0, 42, 60, 74, 85, 114, 136, 154, 170, 196, 218, 237, 255];
+        assert!(pgm[13..].iter().all(|gray| thirteen.contains(gray)));
         assert!(format("ans").contains(&0x1b));
         assert!(!format("txt").contains(&0x1b));
         assert!(!format("levels").contains(&0x1b));
+    }
+
+    /// A red ball and a gray one, under white light.
+    const RED: &str = "color([1, 0.2, 0.1]) sphere(1);\ntranslate([3, 0, 0]) sphere(1);\n";
+
+    #[test]
+    fn has_colours_when_asked() {
+        let (_, file) = scene("colours", RED);
+        let still = |more: &[&str]| {
+            let arguments = [&["render", &file, "--dots", "40x20"][..], more].concat();
+            done(&run(&arguments))
+        };
+        let colours = still(&["--format", "ppm", "--palette", "color"]);
+        let header = b"P6\n40 20\n255\n".len();
+        assert!(colours[header..].chunks(3).any(|rgb| rgb[0] > rgb[1] && rgb[1] > rgb[2]), "nothing is red");
+        assert!(colours[header..].chunks(3).any(|rgb| rgb[0] > 0 && rgb[0] == rgb[1] && rgb[1] == rgb[2]));
+        assert!(still(&["--format", "pfm", "--palette", "color"]).starts_with(b"PF\n40 20\n"));
+        assert!(still(&["--format", "pfm"]).starts_with(b"Pf\n40 20\n"));
+        // Bit depth and colour type of the header chunk.
+        assert_eq!(still(&["--format", "png", "--palette", "color"])[24..26], [8, 2]);
+        assert_eq!(still(&["--format", "png"])[24..26], [8, 0]);
+        let levels = still(&["--format", "levels"]);
+        assert_eq!(still(&["--format", "levels", "--palette", "color"]), levels);
+    }
+
+    #[test]
+    fn holds_light_in_place_of_levels_when_asked() {
+        let (_, file) = scene("light", BALL);
+        let still = |more: &[&str]| {
+            let arguments = [&["render", &file, "--dots", "60x60"][..], more].concat();
+            done(&run(&arguments))
+        };
+        let grays = |bytes: &[u8]| {
+            let mut grays = bytes[b"P5\n60 60\n255\n".len()..].to_vec();
+            grays.sort_unstable();
+            grays.dedup();
+            grays.len()
+        };
+        assert!(grays(&still(&["--format", "pgm"])) <= 13);
+        assert!(grays(&still(&["--format", "pgm", "--channel", "light"])) > 13);
+        for format in ["png", "ppm"] {
+            assert_ne!(still(&["--format", format]), still(&["--format", format, "--channel", "light"]));
+        }
+    }
+
+    #[test]
+    fn tells_colours_as_the_terminal_takes_them() {
+        let (_, file) = scene("depth", RED);
+        let with = |colorterm: &str, palette: &str| {
+            let arguments = ["render", &file, "--cells", "30x12", "--format", "ans", "--palette", palette];
+            text(&done(&ray13().env("COLORTERM", colorterm).args(arguments).output().unwrap()))
+        };
+        for palette in ["gray", "color"] {
+            for colorterm in ["truecolor", "24bit"] {
+                let picture = with(colorterm, palette);
+                assert!(picture.contains("48;2;") && !picture.contains("48;5;"), "{picture}");
+            }
+            let picture = with("", palette);
+            assert!(picture.contains("48;5;") && !picture.contains("48;2;"), "{picture}");
+        }
+        for palette in ["dos", "mono"] {
+            assert_eq!(with("truecolor", palette), with("", palette));
+        }
     }
 
     #[test]
@@ -183,7 +253,7 @@ mod a_still {
     fn follows_every_option() {
         let (_, file) = scene("options", SHINING);
         let plain = done(&run(&["render", &file, "--cells", "40x20", "--format", "ans"]));
-        let options: [&[&str]; 13] = [
+        let options: [&[&str]; 18] = [
             &["--eye", "9,9,9"],
             &["--target", "1,0,0"],
             &["--up", "1,0,0"],
@@ -195,7 +265,12 @@ mod a_still {
             &["--glyphs", "cp437"],
             &["--glyphs", "shade"],
             &["--glyphs", "ascii"],
+            &["--glyphs", "half"],
+            &["--glyphs", "quadrant"],
+            &["--glyphs", "braille"],
             &["--palette", "mono"],
+            &["--palette", "gray"],
+            &["--palette", "color"],
             &["--tone", "even"],
         ];
         for option in options {
@@ -345,6 +420,9 @@ mod bad_arguments {
             &["render", &file, "--cutoff", "nan"],
             &["render", &file, "--format", "jpeg"],
             &["render", &file, "--glyphs", "block"],
+            &["render", &file, "--palette", "cga"],
+            &["render", &file, "--format", "txt", "--channel", "light"],
+            &["render", &file, "--format", "png", "--channel", "depth"],
             &["render", &file, "--structure", "octree"],
         ];
         for arguments in cases {

@@ -8,7 +8,7 @@ mod request;
 use picture::{Seen, look, look_at, shape};
 use ray13::math::{DAffine3, DMat3, DVec3};
 use ray13::plan::Shading;
-use ray13::scene::{Anchor, Light, Material, Shape, World};
+use ray13::scene::{Anchor, Light, Material, MaterialId, Object, Primitive, Shape, Solid, World};
 
 const CYLINDER: Shape = Shape::Frustum { bottom: 1.0, top: 1.0 };
 
@@ -150,6 +150,54 @@ fn the_highlight_has_the_exponent_n() {
         }
         assert!(bright > 20, "n = {n}: only {bright} dots show the highlight");
     }
+}
+
+/// A ball that mirrors with a share `kr`, lit and seen from (0, −6, 0), before the ground of another shade.
+fn ball_over_ground(kr: f64, shading: Shading) -> Seen {
+    let mut scene = shape(Shape::Sphere, DAffine3::IDENTITY);
+    let below = DVec3::new(0.0, 0.0, -3.0);
+    let map = DAffine3::from_mat3_translation(DMat3::from_diagonal(DVec3::new(50.0, 50.0, 1.0)), below);
+    let ground = Solid::Primitive(Primitive { shape: Shape::Cube, map, material: MaterialId(1) });
+    scene.objects.push(Object { name: None, solid: ground });
+    let white = Material { color: DVec3::ONE, kd: 0.0, ks: 0.0, ..Material::default() };
+    scene.materials = vec![Material { kr, color: DVec3::splat(0.5), ks: 0.4, ..matt() }, white];
+    let at = DVec3::new(8.0, -12.0, 6.0);
+    scene.lights = vec![Light { anchor: Anchor::World(at), intensity: 1.0, color: DVec3::ONE }];
+    scene.world = World { ambient: DVec3::splat(0.25), background: DVec3::splat(0.75), k: Some(1.0) };
+    look_at(scene, DVec3::new(0.0, -6.0, 0.0), shading)
+}
+
+/// What a ray that leaves a point of the ball along the mirror direction sees: the ground's ambient light, or the sky.
+fn mirrored(point: DVec3, normal: DVec3) -> Option<f64> {
+    let sight = (point - DVec3::new(0.0, -6.0, 0.0)).normalize();
+    let d = sight - 2.0 * sight.dot(normal) * normal;
+    // Beyond the ground's edge it is sky again; rays that pass near the edge are left to others.
+    let far = (point.z + 2.0) / -d.z;
+    let land = (point + far * d).truncate().abs().max_element();
+    (d.z > 0.01 || land < 49.0).then_some(if d.z > 0.0 { 0.75 } else { 0.25 })
+}
+
+#[test]
+fn the_highlight_is_no_image_in_a_mirror() {
+    // By (3) a mirror shows what a ball of any other kind shows.
+    let [mirror, plain] = [0.5, 0.0].map(|kr| ball_over_ground(kr, Shading::Phong));
+    assert!(mirror.lit_hits().eq(plain.lit_hits()));
+}
+
+#[test]
+fn equation_four_adds_its_terms_to_those_of_equation_three() {
+    let [three, four] = [Shading::Phong, Shading::Whitted].map(|shading| ball_over_ground(0.5, shading));
+    let (mut ground, mut sky) = (0, 0);
+    for ((point, normal, before), (_, _, light)) in three.lit_hits().zip(four.lit_hits()) {
+        if (point.length() - 1.0).abs() > 1e-6 {
+            assert_eq!(light, before, "the ground is no mirror");
+            continue;
+        }
+        let Some(seen) = mirrored(point, normal) else { continue };
+        assert!((light - before - 0.5 * seen).abs() < 1e-12, "{point}: {before}, then {light}");
+        if seen == 0.25 { ground += 1 } else { sky += 1 }
+    }
+    assert!(ground > 100 && sky > 100, "{ground} dots show the ground, {sky} the sky");
 }
 
 #[test]

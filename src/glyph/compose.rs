@@ -79,6 +79,8 @@ pub fn compose_color(color: &Grid<DVec3>, mode: GlyphMode, depth: ColorDepth, to
 
 /// A colour at its brightest; white for no light.
 fn hue(color: DVec3) -> Paint {
+    // Light may be beyond any range; a share of infinity would be none.
+    let color = color.clamp(DVec3::ZERO, DVec3::MAX);
     let most = color.max_element();
     paint(if most > 0.0 { color / most } else { DVec3::ONE })
 }

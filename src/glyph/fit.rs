@@ -12,7 +12,7 @@ use super::cell::Cell;
 use super::choice::Palette;
 use super::eye::{Dots, overlaps};
 use super::paint::Paint;
-use super::shade::shade;
+use super::shade::{shade, shade_light};
 use super::shape::{DOT_COUNT, DOTS, Shape};
 use crate::math::{Grid, Size};
 use crate::tone::{Level, Tone, lightness};
@@ -45,8 +45,13 @@ impl BestFit {
     /// The 13 levels, and each of `shapes` in each ink of the palette on each of `papers`. Of candidates that look
     /// the same the first stays: a level, then the first paper, ink and shape.
     pub fn new(shapes: &[Shape], papers: &[Paint], palette: Palette) -> Self {
-        let mut table: Vec<(Show, Dots)> =
-            Level::all().map(|level| (Show::Level(level), [level.light(); DOT_COUNT])).collect();
+        let mut table: Vec<(Show, Dots)> = Vec::new();
+        for level in Level::all() {
+            let dots = [shade_light(level, palette); DOT_COUNT];
+            if table.iter().all(|(_, other)| *other != dots) {
+                table.push((Show::Level(level), dots));
+            }
+        }
         for &paper in papers {
             for &ink in palette.inks() {
                 for shape in shapes {

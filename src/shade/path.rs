@@ -1,7 +1,7 @@
 //! Mirror and Snell rays: eq. (4) (Whitted: An improved illumination model for shaded display, CACM 1980).
 
 use crate::math::{DVec3, Ray};
-use crate::solid::{Crossing, Departure};
+use crate::solid::Departure;
 use crate::stage::{Meter, Probe, Stage};
 use crate::trace::{Engine, Hit};
 
@@ -21,6 +21,21 @@ pub enum Kind {
     Snell,
 }
 
+/// One ray of a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Leg {
+    /// Why it goes where it goes.
+    pub kind: Kind,
+    /// The ray, in the assembly's coordinates.
+    pub ray: Ray,
+    /// The index of refraction of what it goes through.
+    pub index: f64,
+    /// The share of its light that reaches the eye.
+    pub weight: f64,
+    /// What it meets; absent where that is nothing.
+    pub hit: Option<Hit>,
+}
+
 /// A ray on its way.
 #[derive(Clone, Debug)]
 pub(super) struct Sent {
@@ -33,6 +48,19 @@ pub(super) struct Sent {
     pub generation: u32,
     /// The glass it starts in.
     pub inside: List,
+}
+
+impl Sent {
+    /// The ray that a surface sends on along `d`, with a share of its light.
+    fn on(&self, met: &Met, d: DVec3, share: f64, inside: List) -> Self {
+        Self {
+            ray: Ray::new(met.p, d),
+            travelled: self.travelled + met.hit.t,
+            weight: self.weight * share,
+            generation: self.generation + 1,
+            inside,
+        }
+    }
 }
 
 /// The rays that a surface sends on, each with its share.
@@ -59,13 +87,16 @@ impl Onward {
 impl<E: Engine, C: Channel> Shader<'_, E, C> {
     /// Of a glass surface and opaque solids that begin in the same place, the opaque shows: behind the glass there
     /// is nothing that a ray could go on through. To be asked before the memory is used again.
-    pub(super) fn shown(&self, hit: Hit, memory: &Memory<E>) -> Hit {
+    /// `kt` is what a material lets through.
+    pub(super) fn shown(&self, hit: Hit, kt: impl Fn(&Finish<C>) -> f64, memory: &Memory<E>) -> Hit {
         let together = self.engine.together(&memory.engine);
-        if together.len() < 2 || self.finish(&hit).kt == 0.0 {
+        if together.len() < 2 || kt(self.finish(&hit)) == 0.0 {
             return hit;
         }
-        let begins = |c: &Crossing| c.entering || self.is_surface(c.primitive);
-        let opaque = together.iter().filter(|(_, c)| begins(c) && self.finish_of(c.primitive).kt == 0.0);
+        // A surface that bounds no solid shows on both sides.
+        let opaque = together.iter().filter(|(_, c)| {
+            kt(self.finish_of(c.primitive)) == 0.0 && (c.entering || self.is_surface(c.primitive))
+        });
         opaque.min_by_key(|(object, _)| *object).map_or(hit, |&(object, c)| Hit {
             object,
             primitive: c.primitive,
@@ -100,28 +131,18 @@ impl<E: Engine, C: Channel> Shader<'_, E, C> {
         let change = self.change(&sent.inside, memory);
         let mut light = self.own_light(sent, met, memory, meter);
         let onward = Onward::new(sent.ray.d, met.normal, finish, change.before, change.behind);
-        if let Some((d, share)) = onward.mirror {
-            let next = self.sent_on(sent, met, d, share, sent.inside.clone());
-            light = light
-                + self.arriving(&next, self.departure(&met.hit, met.p, met.normal), memory, meter) * share;
+        let mut arriving = |(d, share): (DVec3, f64), side: DVec3, inside: &List| {
+            let next = sent.on(met, d, share, inside.clone());
+            self.arriving(&next, self.departure(&met.hit, met.p, side), memory, meter) * share
+        };
+        if let Some(mirror) = onward.mirror {
+            light = light + arriving(mirror, met.normal, &sent.inside);
         }
-        if let Some((d, share)) = onward.snell {
-            let next = self.sent_on(sent, met, d, share, change.list.clone());
-            light = light
-                + self.arriving(&next, self.departure(&met.hit, met.p, -met.normal), memory, meter) * share;
+        if let Some(snell) = onward.snell {
+            light = light + arriving(snell, -met.normal, &change.list);
         }
         memory.media.forget(&change.list);
         light
-    }
-
-    fn sent_on(&self, sent: &Sent, met: &Met, d: DVec3, share: f64, inside: List) -> Sent {
-        Sent {
-            ray: Ray::new(met.p, d),
-            travelled: sent.travelled + met.hit.t,
-            weight: sent.weight * share,
-            generation: sent.generation + 1,
-            inside,
-        }
     }
 
     /// S or T: the light that arrives along a mirror or Snell ray. A ray that is not followed counts as ambient
@@ -194,19 +215,4 @@ impl<E: Engine, C: Channel> Shader<'_, E, C> {
         legs.push(leg);
         legs
     }
-}
-
-/// One ray of a path.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Leg {
-    /// Why it goes where it goes.
-    pub kind: Kind,
-    /// The ray, in the assembly's coordinates.
-    pub ray: Ray,
-    /// The index of refraction of what it goes through.
-    pub index: f64,
-    /// The share of its light that reaches the eye.
-    pub weight: f64,
-    /// What it meets; absent where that is nothing.
-    pub hit: Option<Hit>,
 }

@@ -48,6 +48,7 @@ impl<E: Engine, C: Channel> Shader<'_, E, C> {
             if t + hit.error >= distance {
                 break;
             }
+            let hit = self.shown(hit, |finish| finish.lets_through, memory);
             let kt = self.finish(&hit).lets_through;
             if kt == 0.0 {
                 return Some(0.0);

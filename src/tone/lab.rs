@@ -47,7 +47,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// The primaries of sRGB under D65, as tables print them.
+    /// The primaries of sRGB under D65, as tables print them; they differ in the second place with the digits of
+    /// the white that they assume.
     #[test]
     fn the_primaries_have_their_published_places() {
         for (color, printed) in [
@@ -57,7 +58,7 @@ mod tests {
             (DVec3::Z, [32.30, 79.19, -107.86]),
         ] {
             for (found, printed) in lab_of_color(color).into_iter().zip(printed) {
-                assert!((found - printed).abs() < 0.02, "{color}: {found} {printed}");
+                assert!((found - printed).abs() < 0.03, "{color}: {found} {printed}");
             }
         }
     }

@@ -4,7 +4,7 @@ use ray13::frame::Studio;
 use ray13::lattice::Structure;
 use ray13::math::{DVec3, Ray, Size};
 use ray13::plan::{Options, Plan};
-use ray13::scene::{Camera, ReadOptions, Scene, read};
+use ray13::scene::{Camera, FieldSpan, ReadOptions, Scene, read};
 use ray13::shade::{Kind, Leg, Shader};
 use ray13::solid::Assembly;
 use ray13::stage::{Counts, Meter, Silent};
@@ -14,6 +14,19 @@ use ray13::view::{Lens, Picture};
 use crate::glass::Bend;
 use crate::request::request;
 
+/// Glass that shows nothing but what comes through it.
+const CLEAR: &str = "material(name = \"glass\", kd = 0, ks = 0, kt = 1, index = 1.5, color = [0, 0, 0]);
+    material(name = \"dense\", kd = 0, ks = 0, kt = 1, index = 1.8, color = [0, 0, 0]);
+    material(name = \"air\", kd = 0, ks = 0, kt = 1, index = 1, color = [0, 0, 0]);
+    material(name = \"water\", kd = 0, ks = 0, kt = 1, index = 1.33, color = [0, 0, 0]);
+    material(name = \"wall\", kd = 0, ks = 0, color = [0.5, 0.5, 0.5]);
+    world(ambient = 1, background = 0);";
+
+/// A scene of such glass.
+pub fn clear(text: &str) -> String {
+    format!("{CLEAR}{text}")
+}
+
 /// A scene from its text.
 pub fn scene(text: &str) -> Scene {
     read("test", text.as_bytes(), &ReadOptions::default()).unwrap_or_else(|e| panic!("{text}: {e}"))
@@ -22,15 +35,7 @@ pub fn scene(text: &str) -> Scene {
 /// A camera whose middle looks along `d`.
 pub fn camera(eye: DVec3, d: DVec3) -> Camera {
     let up = d.any_orthonormal_vector();
-    Camera {
-        name: None,
-        eye,
-        target: eye + d,
-        up,
-        field: [1.0, 1.0],
-        span: ray13::scene::FieldSpan::Edges,
-        zoom: 1.0,
-    }
+    Camera { name: None, eye, target: eye + d, up, field: [1.0, 1.0], span: FieldSpan::Edges, zoom: 1.0 }
 }
 
 /// What all rays are sent, and followed for as many generations as may be asked for.

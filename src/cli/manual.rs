@@ -27,8 +27,7 @@ pub fn page(command: Option<&str>) -> Result<(), CliError> {
             let found = program.find_subcommand(name).ok_or_else(|| {
                 CliError::Input(format!("there is no command `{name}`; there are {}", names.join(", ")))
             })?;
-            let title = found.get_display_name().unwrap_or(name).to_owned();
-            found.clone().name(title)
+            found.clone()
         }
     };
     let mut text = Vec::new();

@@ -398,7 +398,7 @@ mod bad_arguments {
     #[test]
     fn have_exit_code_2() {
         let (_, file) = scene("arguments", BALL);
-        let cases: [&[&str]; 25] = [
+        let cases: &[&[&str]] = &[
             &["render"],
             &["rendre", &file],
             &["--cels", "80x25", &file],
@@ -424,6 +424,7 @@ mod bad_arguments {
             &["render", &file, "--format", "txt", "--channel", "light"],
             &["render", &file, "--format", "png", "--channel", "depth"],
             &["render", &file, "--structure", "octree"],
+            &["render", &file, "--preset", "pcxt"],
         ];
         for arguments in cases {
             fails(&run(arguments), 2);
@@ -497,4 +498,164 @@ fn bench_measures() {
         assert!(figures.get(key).is_some(), "{key} is missing in {figures}");
     }
     assert_eq!((&figures["objects"], &figures["primitives"]), (&1.into(), &1.into()));
+}
+
+mod a_plan {
+    use super::*;
+
+    /// The plan of a scene: a stage or a term by its name → whether it is needed, and why.
+    fn plan(file: &str, options: &[&str]) -> impl Fn(&str) -> (bool, String) {
+        let json = done(&run(&[&["plan", file, "--json"], options].concat()));
+        let plan: serde_json::Value = serde_json::from_slice(&json).expect("JSON");
+        let stages = plan["stages"].as_array().expect("stages").clone();
+        let names: Vec<&str> = stages.iter().filter_map(|s| s["stage"].as_str()).collect();
+        let expected: Vec<String> =
+            ray13::stage::Stage::ALL.iter().map(|s| s.name().to_lowercase()).collect();
+        assert_eq!(names, expected);
+        let terms = |s: &serde_json::Value| s["terms"].as_array().expect("terms").clone();
+        let rows: Vec<serde_json::Value> =
+            stages.iter().flat_map(|s| std::iter::once(s.clone()).chain(terms(s))).collect();
+        move |name| {
+            let row = rows.iter().find(|r| r["stage"] == name || r["name"] == name);
+            let row = row.unwrap_or_else(|| panic!("no row {name}"));
+            (row["needed"].as_bool().unwrap(), row["why"].as_str().unwrap().to_owned())
+        }
+    }
+
+    #[track_caller]
+    fn says(row: (bool, String), needed: bool, words: &str) {
+        assert!(row.0 == needed && row.1.contains(words), "{row:?}, not {needed}, {words}");
+    }
+
+    #[test]
+    fn leaves_out_what_a_ball_does_not_require() {
+        let (_, file) = scene("plan_ball", BALL);
+        let row = plan(&file, &[]);
+        says(row("lattice"), false, "1 object, none composite → no structure");
+        says(row("cell"), false, "no structure");
+        says(row("csg"), false, "no CSG");
+        says(row("clip"), true, "outside the world");
+        says(row("depth"), false, "the world gives no k");
+        says(row("secondary rays"), false, "no mirror or glass → no secondary rays");
+        says(row("highlight"), true, "has ks");
+        says(row("colour"), false, "every light is gray → one channel");
+        let row = plan(&file, &["--shading", "1", "--no-shadows", "--eye", "0,0,0", "--target", "1,0,0"]);
+        says(row("highlight"), false, "eq. (1) has no such term");
+        says(row("shadow rays"), false, "not wanted");
+        says(row("clip"), false, "the eye is in the world");
+    }
+
+    #[test]
+    fn takes_in_what_a_scene_requires() {
+        let shining = "world(k = 1); light(at = [5, -9, 9], color = [1, 0, 0]);\n\
+            material(name = \"silver\", kr = 0.9) difference() { cube(2); sphere(1); }\n";
+        let (_, file) = scene("plan_shining", shining);
+        let row = plan(&file, &[]);
+        says(row("lattice"), true, "lattice");
+        says(row("sub-lattices"), true, "1 object");
+        says(row("csg"), true, "the only object is made of several primitives");
+        says(row("depth"), true, "k = 1");
+        says(row("secondary rays"), true, "kr");
+        says(row("colour"), true, "a light is coloured → three channels");
+        let balls: String = (0..17).map(|i| format!("translate([{}, 0, 0]) sphere(1);\n", 3 * i)).collect();
+        let (_, file) = scene("plan_balls", &balls);
+        let row = plan(&file, &[]);
+        says(row("lattice"), true, "17 objects: a lattice could have 35937 cells → tree");
+    }
+
+    /// What the plan leaves out is not counted in the picture, what it takes in is.
+    #[test]
+    fn is_what_the_picture_does() {
+        for (name, options) in [
+            ("hanyang", &[][..]),
+            ("hanyang", &["--preset", "pcat"]),
+            ("hanyang", &["--view", "inside", "--structure", "none"]),
+            ("glass", &[]),
+            ("die", &["--shading", "2"]),
+        ] {
+            let row = plan(name, options);
+            let stats = run(&[
+                &["render", name, "--stats", "json", "--format", "levels", "--cells", "40x20"],
+                options,
+            ]
+            .concat());
+            let stats: serde_json::Value = serde_json::from_slice(&stats.stderr).expect("JSON");
+            for (what, key) in [
+                ("cell", "cells_visited"),
+                ("csg", "csg_evaluations"),
+                ("shadow rays", "shadow_rays"),
+                ("secondary rays", "secondary_rays"),
+            ] {
+                let counted = stats[key].as_u64().unwrap() > 0;
+                assert_eq!(row(what).0, counted, "{name} {options:?}: {what}");
+            }
+            let structure = stats["structure"].as_str().unwrap();
+            assert_eq!(row("lattice").0, structure != "none", "{name} {options:?}");
+        }
+    }
+
+    #[test]
+    fn is_a_table() {
+        let table = text(&done(&run(&["plan", "hanyang"])));
+        let starts: Vec<usize> = table
+            .lines()
+            .map(|line| line.find("needed").or(line.find("left out")).or(line.find("plan ")).unwrap())
+            .collect();
+        assert!(starts.len() > 11 && starts.iter().all(|&s| s == starts[0]), "{table}");
+        fails(&run(&["plan", "hanjang"]), 2);
+    }
+}
+
+mod the_preset {
+    use super::*;
+
+    fn levels(options: &[&str]) -> Vec<u8> {
+        done(&run(&[&["render", "hanyang", "--format", "levels", "--preset", "pcat"], options].concat()))
+    }
+
+    #[test]
+    fn is_the_picture_of_the_paper() {
+        let picture = text(&levels(&[]));
+        let snapshot = include_str!("snapshots/pcat__front.snap");
+        assert!(snapshot.contains(picture.trim_end()), "not figure 8");
+        assert_eq!(picture.lines().map(str::len).collect::<Vec<_>>(), [164; 188]);
+    }
+
+    #[test]
+    fn gives_way_to_what_is_said_besides() {
+        let all = levels(&[]);
+        for option in [
+            &["--shading", "1"][..],
+            &["--shadows"],
+            &["--tone", "lightness"],
+            &["--field", "60x40"],
+            &["--zoom", "2"],
+        ] {
+            let picture = levels(option);
+            assert!(picture != all && picture.len() == all.len(), "{option:?}");
+        }
+        assert_eq!(text(&levels(&["--dots", "30x20"])).lines().count(), 20);
+        assert_eq!(text(&levels(&["--cells", "30x20"])).lines().count(), 80);
+        assert_eq!(levels(&["--structure", "none"]), all);
+        assert_eq!(levels(&["--no-shadows"]), all);
+    }
+}
+
+#[test]
+fn completions_come_for_every_shell() {
+    for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
+        let script = text(&done(&run(&["completions", shell])));
+        assert!(script.contains("ray13") && script.contains("preset"), "{shell}");
+    }
+    fails(&run(&["completions", "tcsh"]), 2);
+}
+
+#[test]
+fn the_manual_has_a_page_for_each_command() {
+    let page = text(&done(&run(&["man"])));
+    assert!(page.contains(".TH ray13 1") && page.contains("render"), "{page}");
+    let page = text(&done(&run(&["man", "render"])));
+    assert!(page.contains("ray13-render") && page.contains("preset"), "{page}");
+    let message = fails(&run(&["man", "rendre"]), 2);
+    assert!(message.contains("render"), "{message}");
 }

@@ -6,6 +6,7 @@ mod rays;
 mod request;
 
 use picture::{Seen, look, look_at, shape};
+use ray13::frame::{Studio, pcat};
 use ray13::math::{DAffine3, DMat3, DVec3};
 use ray13::plan::Shading;
 use ray13::scene::{Anchor, Light, Material, MaterialId, Object, Primitive, Shape, Solid, World};
@@ -202,8 +203,10 @@ fn equation_four_adds_its_terms_to_those_of_equation_three() {
 
 #[test]
 fn the_picture_of_the_pc_has_164_by_188_dots() {
-    // "16⁴ × 188": the size can be asked for, and its 40° × 25° field is contained.
-    let seen = picture::draw(shape(Shape::Sphere, DAffine3::IDENTITY), 164, 188);
-    assert_eq!(seen.size(), (164, 188));
-    assert!(seen.hits().count() > 0);
+    // "16⁴ × 188", over the paper's field of 40° × 25° and no more.
+    let studio = Studio::new(shape(Shape::Sphere, DAffine3::IDENTITY)).unwrap();
+    let frame = studio.draw(&pcat::request(studio.framed(1.0)));
+    assert_eq!((frame.light.size().width, frame.light.size().height), (164, 188));
+    assert!(frame.counts.primary_hits > 0);
+    assert!((frame.field[0] - 40.0).abs() < 1e-12 && (frame.field[1] - 25.0).abs() < 1e-12);
 }

@@ -3,11 +3,12 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
 
 use crate::math::{DVec3, Size};
 use crate::plan::{CUTOFF, DEPTH};
 
-use super::picture::{Glyphs, PaletteName, StructureName, ToneName};
+use super::picture::{Glyphs, PaletteName, Preset, StructureName, ToneName};
 use super::values;
 
 /// Shows solid models in a terminal: ray traced, in 13 gray levels of block characters.
@@ -40,12 +41,24 @@ pub enum Command {
     Render(RenderArguments),
     /// Measure how long pictures take
     Bench(BenchArguments),
+    /// Say what a picture requires, stage by stage, and why the rest is left out
+    Plan(PlanArguments),
     /// Read and validate a scene only
     Check(SceneArguments),
     /// List the embedded scenes, or print one
     Scenes {
         /// The scene to print
         name: Option<String>,
+    },
+    /// Print the script that makes a shell complete ray13's arguments
+    Completions {
+        /// The shell
+        shell: Shell,
+    },
+    /// Print the manual page, for man
+    Man {
+        /// The command whose page it is [default: the program's]
+        command: Option<String>,
     },
 }
 
@@ -89,9 +102,23 @@ pub struct BenchArguments {
     pub json: bool,
 }
 
+#[derive(Debug, Args)]
+pub struct PlanArguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    #[command(flatten)]
+    pub picture: PictureArguments,
+    /// One line of JSON in place of the table
+    #[arg(long)]
+    pub json: bool,
+}
+
 /// What decides the picture.
 #[derive(Debug, Args)]
 pub struct PictureArguments {
+    /// Options that belong together; any that is given besides has the last word
+    #[arg(long, value_enum)]
+    pub preset: Option<Preset>,
     /// Size of a still in character cells; the viewer fills its terminal [default: the terminal's, else 80x25]
     #[arg(long, value_name = "WxH", value_parser = values::size)]
     pub cells: Option<Size>,
@@ -100,9 +127,9 @@ pub struct PictureArguments {
     pub dots: Option<Size>,
     #[command(flatten)]
     pub camera: CameraArguments,
-    /// The paper's illumination model: 1 diffuse, 2 with depth (in a scene with `world(k = …)`), 3 with highlights, 4 with mirrors and glass
-    #[arg(long, value_name = "1..4", default_value = "4", value_parser = clap::value_parser!(u8).range(1..=4))]
-    pub shading: u8,
+    /// The paper's illumination model: 1 diffuse, 2 with depth (in a scene with `world(k = …)`), 3 with highlights, 4 with mirrors and glass [default: 4]
+    #[arg(long, value_name = "1..4", value_parser = clap::value_parser!(u8).range(1..=4))]
+    pub shading: Option<u8>,
     /// Follow mirror and Snell rays for so many generations
     #[arg(long, value_name = "N", default_value_t = DEPTH, value_parser = clap::value_parser!(u32).range(0..=64))]
     pub depth: u32,
@@ -112,21 +139,24 @@ pub struct PictureArguments {
     /// Lights shine through everything
     #[arg(long)]
     pub no_shadows: bool,
+    /// Lights are hidden by what stands before them, as they are unless a preset says otherwise
+    #[arg(long, overrides_with = "no_shadows")]
+    pub shadows: bool,
     /// Rays per dot along each axis
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=64))]
     pub samples: u32,
-    /// How space is cut into cells
-    #[arg(long, value_enum, default_value = "auto")]
-    pub structure: StructureName,
+    /// How space is cut into cells [default: auto]
+    #[arg(long, value_enum)]
+    pub structure: Option<StructureName>,
     /// Characters of the picture
     #[arg(long, value_enum, default_value = "blocks")]
     pub glyphs: Glyphs,
     /// Colours of the picture [default: dos; mono where `NO_COLOR` is set and in txt]
     #[arg(long, value_enum)]
     pub palette: Option<PaletteName>,
-    /// How light becomes a level
-    #[arg(long, value_enum, default_value = "lightness")]
-    pub tone: ToneName,
+    /// How light becomes a level [default: lightness]
+    #[arg(long, value_enum)]
+    pub tone: Option<ToneName>,
     /// Worker threads [default: one per processor]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,

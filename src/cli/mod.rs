@@ -5,7 +5,9 @@ mod bench;
 mod diagnostics;
 mod error;
 mod input;
+mod manual;
 mod picture;
+mod plan;
 mod render;
 mod stats;
 mod values;
@@ -41,8 +43,11 @@ fn command(arguments: Arguments) -> Result<(), CliError> {
         None => view(&arguments.viewer),
         Some(Command::Render(render)) => render::run(&render),
         Some(Command::Bench(bench)) => bench::run(&bench),
+        Some(Command::Plan(plan)) => plan::run(&plan),
         Some(Command::Check(scene)) => check(&scene),
         Some(Command::Scenes { name }) => scenes(name.as_deref()),
+        Some(Command::Completions { shell }) => manual::completions(shell),
+        Some(Command::Man { command }) => manual::page(command.as_deref()),
     }
 }
 
@@ -61,11 +66,11 @@ fn view(arguments: &ViewerArguments) -> Result<(), CliError> {
     let settings = Settings {
         title: input::title(file),
         view: view.unwrap_or(0),
-        camera: picture.camera.is_given().then(|| picture.camera.camera(&studio, 1.6)).transpose()?,
+        camera: picture.moves_camera().then(|| picture.camera(&studio, 1.6)).transpose()?,
         options: picture.options(),
         glyphs: picture.glyphs.into(),
         palette: picture.palette(),
-        tone: picture.tone.into(),
+        tone: picture.tone(),
     };
     app::run(studio, settings)?;
     input::say(&notes);

@@ -2,7 +2,7 @@
 
 use clap::ValueEnum;
 
-use crate::frame::{Request, Studio};
+use crate::frame::{Request, Studio, pcat};
 use crate::glyph::{ColorDepth, GlyphMode, Palette};
 use crate::math::Size;
 use crate::plan::{Options, Shading, StructureChoice};
@@ -95,25 +95,57 @@ pub enum StructureName {
     Tree,
 }
 
+impl From<StructureName> for StructureChoice {
+    fn from(name: StructureName) -> Self {
+        match name {
+            StructureName::Auto => Self::Auto,
+            StructureName::None => Self::None,
+            StructureName::Lattice => Self::Lattice,
+            StructureName::Tree => Self::Tree,
+        }
+    }
+}
+
+/// The presets by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Preset {
+    /// The picture of 1986: 40 x 25 degrees on 164 x 188 dots, which are 1.88 times as wide as high, with --shading 3
+    /// --no-shadows --tone even --structure lattice. --dots or --cells make dots of their own shape, --field is
+    /// contained in the picture as ever
+    Pcat,
+}
+
 impl PictureArguments {
     /// What the plan is made from.
     pub fn options(&self) -> Options {
-        let shading = Shading::ALL.into_iter().find(|s| s.number() == self.shading);
+        let preset = self.preset.map_or_else(Options::default, |Preset::Pcat| pcat::options());
+        let shading = Shading::ALL.into_iter().find(|s| Some(s.number()) == self.shading);
         Options {
-            shading: shading.unwrap_or(Shading::Whitted),
+            shading: shading.unwrap_or(preset.shading),
             depth: self.depth,
             cutoff: self.cutoff,
-            shadows: !self.no_shadows,
-            structure: match self.structure {
-                StructureName::Auto => StructureChoice::Auto,
-                StructureName::None => StructureChoice::None,
-                StructureName::Lattice => StructureChoice::Lattice,
-                StructureName::Tree => StructureChoice::Tree,
-            },
+            shadows: self.shadows || (preset.shadows && !self.no_shadows),
+            structure: self.structure.map_or(preset.structure, Into::into),
             samples: self.samples,
             color: false,
             threads: self.threads.map_or(0, usize::from),
         }
+    }
+
+    /// How light becomes a level.
+    pub fn tone(&self) -> Tone {
+        let preset = self.preset.map_or_else(Tone::default, |Preset::Pcat| pcat::TONE);
+        self.tone.map_or(preset, Into::into)
+    }
+
+    /// Whether anything says where the picture is seen from, but a view's name.
+    pub fn moves_camera(&self) -> bool {
+        self.preset.is_some() || self.camera.is_given()
+    }
+
+    /// The view's camera with what is given in its place.
+    pub fn camera(&self, studio: &Studio, aspect: f64) -> Result<Camera, CliError> {
+        self.camera.camera(studio, aspect, self.preset.map(|Preset::Pcat| pcat::FIELD))
     }
 
     /// The palette asked for; else what `NO_COLOR` (<https://no-color.org>) leaves.
@@ -135,22 +167,16 @@ impl PictureArguments {
         let per_cell = glyphs.dots_per_cell();
         let (dots, dot_aspect) = if let Some(dots) = self.dots {
             (dots, 1.0)
+        } else if let (None, Some(Preset::Pcat)) = (self.cells, self.preset) {
+            (pcat::DOTS, pcat::dot_aspect())
         } else {
             let cells = self.cells.unwrap_or_else(screen);
             let dots = Size::new(cells.width * per_cell.width, cells.height * per_cell.height);
             (dots, CELL_ASPECT * f64::from(per_cell.height) / f64::from(per_cell.width))
         };
         let aspect = f64::from(dots.width) / f64::from(dots.height) * dot_aspect;
-        let camera = self.camera.camera(studio, aspect)?;
-        Ok(Request {
-            camera,
-            dots,
-            dot_aspect,
-            options: self.options(),
-            glyphs,
-            palette,
-            tone: self.tone.into(),
-        })
+        let camera = self.camera(studio, aspect)?;
+        Ok(Request { camera, dots, dot_aspect, options: self.options(), glyphs, palette, tone: self.tone() })
     }
 }
 
@@ -177,7 +203,7 @@ fn screen() -> Size {
 
 impl CameraArguments {
     /// Whether anything but a view's name is given.
-    pub fn is_given(&self) -> bool {
+    fn is_given(&self) -> bool {
         self.eye.is_some()
             || self.target.is_some()
             || self.up.is_some()
@@ -200,15 +226,16 @@ impl CameraArguments {
         })
     }
 
-    /// The view's camera with what is given in its place.
-    pub fn camera(&self, studio: &Studio, aspect: f64) -> Result<Camera, CliError> {
+    /// The view's camera with what is given in its place; `field` stands before the view's own.
+    fn camera(&self, studio: &Studio, aspect: f64, field: Option<[f64; 2]>) -> Result<Camera, CliError> {
+        let field = self.field.or(field);
         let base = studio.camera(self.view_index(studio.scene())?.unwrap_or(0), aspect);
         let camera = Camera {
             eye: self.eye.unwrap_or(base.eye),
             target: self.target.unwrap_or(base.target),
             up: self.up.unwrap_or(base.up),
-            field: self.field.unwrap_or(base.field),
-            span: if self.field.is_some() { FieldSpan::Edges } else { base.span },
+            field: field.unwrap_or(base.field),
+            span: if field.is_some() { FieldSpan::Edges } else { base.span },
             zoom: self.zoom.unwrap_or(base.zoom),
             ..base
         };

@@ -22,11 +22,7 @@ impl Studio {
     /// Draws one picture. The same request gives the same dots and cells, on any number of threads.
     pub fn draw(&self, request: &Request) -> Frame {
         let start = Instant::now();
-        let picture = Picture { dots: request.dots, dot_aspect: request.dot_aspect };
-        let lens = Lens::new(&request.camera, &picture);
-        let wants_color = request.options.color || request.palette.is_color();
-        let options = Options { color: wants_color, ..request.options };
-        let plan = Plan::new(self.scene(), &self.assembly, &lens, &options);
+        let (lens, plan) = self.plan(request);
         let viewed = Instant::now();
         let (structure, over_budget) = self.structure(plan.structure);
         let engine = Exact::new(&self.assembly, structure);
@@ -41,7 +37,7 @@ impl Studio {
         let trace = tracing.elapsed();
 
         let Traced { light, color, depth, normal, object, counts, times } = traced;
-        let color = Some(color).filter(|_| wants_color);
+        let color = Some(color).filter(|_| request.wants_color());
         let dithering = Instant::now();
         let cells = match (&color, request.palette) {
             (Some(color), Palette::Color(depth)) => {
@@ -72,6 +68,15 @@ impl Studio {
             trace,
             total: start.elapsed(),
         }
+    }
+
+    /// From where a picture is seen, and what it requires.
+    pub(super) fn plan(&self, request: &Request) -> (Lens, Plan) {
+        let picture = Picture { dots: request.dots, dot_aspect: request.dot_aspect };
+        let lens = Lens::new(&request.camera, &picture);
+        let options = Options { color: request.wants_color(), ..request.options };
+        let plan = Plan::new(self.scene(), &self.assembly, &lens, &options);
+        (lens, plan)
     }
 
     fn trace<C: Channel>(&self, engine: &Exact, plan: &Plan, lens: &Lens, dots: Size) -> Traced {

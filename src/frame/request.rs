@@ -29,6 +29,13 @@ pub struct Request {
     pub tone: Tone,
 }
 
+impl Request {
+    /// Whether the light of each primary is wanted: asked for, or needed by the palette.
+    pub(super) const fn wants_color(&self) -> bool {
+        self.options.color || self.palette.is_color()
+    }
+}
+
 /// A finished picture. Grids of dots have the size that was asked for.
 #[derive(Clone, Debug)]
 pub struct Frame {

@@ -1,14 +1,18 @@
 //! What a picture requires: the scene, the view and the options, compiled. What can not change the picture is
 //! left out here, once, and not asked about again for every dot.
 
+mod explain;
 mod options;
 
+pub use explain::{Reasons, StagePlan, Term};
 pub use options::{CUTOFF, DEPTH, Options, Shading, StructureChoice};
 
 use crate::math::DVec3;
 use crate::scene::{Anchor, Light, Material, Scene};
 use crate::solid::{Assembly, Body};
 use crate::view::Lens;
+
+use explain::{Absent, Cut};
 
 /// Everything that the later stages need to know.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,6 +38,8 @@ pub struct Plan {
     pub lamps: Vec<Lamp>,
     /// Rays per dot along each axis.
     pub samples: u32,
+    /// Why each of these is as it is.
+    pub reasons: Reasons,
 }
 
 /// What decides how far mirror and Snell rays are followed.
@@ -91,33 +97,53 @@ pub struct Lamp {
 impl Plan {
     /// Compiles one picture.
     pub fn new(scene: &Scene, assembly: &Assembly, lens: &Lens, options: &Options) -> Self {
-        let phong = options.shading >= Shading::Phong;
-        let depth = scene.world.k.filter(|_| options.shading >= Shading::Depth);
+        let from_model = |least: Shading| {
+            if options.shading >= least { Ok(()) } else { Err(Absent::InModel(options.shading)) }
+        };
+        let first = |has: fn(&Material) -> bool| scene.materials.iter().position(has);
         let lamps: Vec<Lamp> = if scene.lights.is_empty() {
             Light::defaults().iter().map(|light| lamp(light, lens)).collect()
         } else {
             scene.lights.iter().filter(|l| l.intensity > 0.0).map(|light| lamp(light, lens)).collect()
         };
-        let lights =
-            [scene.world.ambient, scene.world.background].into_iter().chain(lamps.iter().map(|l| l.light));
-        let surfaces = scene.materials.iter().map(|m| m.color).filter(|_| options.color);
-        let gray = |c: DVec3| c.x == c.y && c.y == c.z;
-        let channels = if lights.chain(surfaces).all(gray) { Channels::Gray } else { Channels::Three };
-        let sends = |m: &Material| m.kr > 0.0 || m.kt > 0.0;
-        let secondary = (options.shading >= Shading::Whitted && scene.materials.iter().any(sends))
-            .then(|| Secondary::new(scene, assembly, lens, options, &lamps));
+        let lit = if lamps.is_empty() { Err(Absent::Light) } else { Ok(()) };
+        let (structure, cut) = suitable(assembly, options.structure);
+        let reasons = Reasons {
+            cut,
+            shading: options.shading,
+            depth: from_model(Shading::Depth).and_then(|()| scene.world.k.ok_or(Absent::DepthConstant)),
+            highlight: from_model(Shading::Phong)
+                .and(lit)
+                .and_then(|()| first(|m| m.ks > 0.0).ok_or(Absent::Highlight)),
+            secondary: from_model(Shading::Whitted)
+                .and_then(|()| first(|m| m.kr > 0.0 || m.kt > 0.0).ok_or(Absent::MirrorOrGlass)),
+            shadows: if options.shadows { lit } else { Err(Absent::Wish) },
+            colored: colored(scene, &lamps, options.color),
+            color_wanted: options.color,
+        };
         Self {
-            structure: suitable(assembly, options.structure),
-            depth,
-            highlight: phong && !lamps.is_empty() && scene.materials.iter().any(|m| m.ks > 0.0),
-            secondary,
-            glass: scene.materials.iter().any(|m| m.kt > 0.0),
-            shadows: options.shadows && !lamps.is_empty(),
-            channels,
+            structure,
+            depth: reasons.depth.ok(),
+            highlight: reasons.highlight.is_ok(),
+            secondary: (reasons.secondary.ok())
+                .map(|_| Secondary::new(scene, assembly, lens, options, &lamps)),
+            glass: first(|m| m.kt > 0.0).is_some(),
+            shadows: reasons.shadows.is_ok(),
+            channels: if reasons.colored.is_some() { Channels::Three } else { Channels::Gray },
             lamps,
             samples: options.samples.max(1),
+            reasons,
         }
     }
+}
+
+/// The first thing with a colour that would be lost in one channel; surfaces count where colours are wanted.
+fn colored(scene: &Scene, lamps: &[Lamp], wanted: bool) -> Option<&'static str> {
+    let world = [("the ambient light", scene.world.ambient), ("the background", scene.world.background)];
+    let lights = lamps.iter().map(|l| ("a light", l.light));
+    let surfaces = scene.materials.iter().map(|m| ("a material", m.color)).filter(|_| wanted);
+    let is_gray = |c: DVec3| c.x == c.y && c.y == c.z;
+    world.into_iter().chain(lights).chain(surfaces).find(|&(_, c)| !is_gray(c)).map(|(what, _)| what)
 }
 
 /// Up to this many objects every object lies in so few cells that one lattice is walked faster than nodes are
@@ -125,13 +151,13 @@ impl Plan {
 const LATTICE_OBJECTS: usize = 8;
 
 /// A structure over one primitive or two would only add its own steps.
-fn suitable(assembly: &Assembly, choice: StructureChoice) -> StructureChoice {
+fn suitable(assembly: &Assembly, choice: StructureChoice) -> (StructureChoice, Cut) {
     let composite = || assembly.objects.iter().any(|o| matches!(&o.body, Body::Composite { .. }));
     match (choice, assembly.objects.len()) {
-        (StructureChoice::Auto, 0..=2) if !composite() => StructureChoice::None,
-        (StructureChoice::Auto, 0..=LATTICE_OBJECTS) => StructureChoice::Lattice,
-        (StructureChoice::Auto, _) => StructureChoice::Tree,
-        (asked, _) => asked,
+        (StructureChoice::Auto, 0..=2) if !composite() => (StructureChoice::None, Cut::Alone),
+        (StructureChoice::Auto, 0..=LATTICE_OBJECTS) => (StructureChoice::Lattice, Cut::Few),
+        (StructureChoice::Auto, _) => (StructureChoice::Tree, Cut::Many),
+        (asked, _) => (asked, Cut::Asked),
     }
 }
 

@@ -31,15 +31,6 @@ pub fn look(scene: Scene, eye: DVec3) -> Seen {
 
 /// The same by one of the shading models.
 pub fn look_at(scene: Scene, eye: DVec3, shading: Shading) -> Seen {
-    see(scene, eye, Size::new(64, 64), shading)
-}
-
-/// A picture of a size, from in front.
-pub fn draw(scene: Scene, width: u32, height: u32) -> Seen {
-    see(scene, DVec3::new(0.0, -6.0, 0.0), Size::new(width, height), Shading::Phong)
-}
-
-fn see(scene: Scene, eye: DVec3, dots: Size, shading: Shading) -> Seen {
     let up = if eye.truncate() == DVec2::ZERO { DVec3::Y } else { DVec3::Z };
     let camera = Camera {
         name: None,
@@ -50,17 +41,12 @@ fn see(scene: Scene, eye: DVec3, dots: Size, shading: Shading) -> Seen {
         span: FieldSpan::Edges,
         zoom: 1.0,
     };
-    let mut request = request(camera.clone(), dots);
+    let mut request = request(camera.clone(), Size::new(64, 64));
     request.options.shading = shading;
     Seen { frame: Studio::new(scene).unwrap().draw(&request), camera }
 }
 
 impl Seen {
-    /// Columns and rows of dots.
-    pub fn size(&self) -> (u32, u32) {
-        (self.frame.light.size().width, self.frame.light.size().height)
-    }
-
     /// Point and normal of every dot that meets the solid.
     pub fn hits(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
         self.lit_hits().map(|(point, normal, _)| (point, normal))

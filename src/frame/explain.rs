@@ -1,0 +1,75 @@
+//! What a picture requires, stage by stage, before it is drawn.
+
+use crate::glyph::{GlyphMode, Palette};
+use crate::plan::{StagePlan, Term};
+use crate::stage::Stage;
+use crate::tone::Tone;
+
+use super::{Request, Space, Studio};
+
+impl Studio {
+    /// All eleven stages of the picture that [`Studio::draw`] draws of the same request: which it needs, which it
+    /// leaves out, and why. Builds the structure, where it was not built before, and traces nothing.
+    pub fn explain(&self, request: &Request) -> Vec<StagePlan> {
+        let (lens, plan) = self.plan(request);
+        let mut stages = plan.explain(self.scene(), &self.assembly, &lens, request.dots);
+        let (structure, over_budget) = self.structure(plan.structure);
+        let built = match Space::of(&structure) {
+            Space::Whole => None,
+            Space::Lattice([x, y, z]) => Some(format!("{x} × {y} × {z} cells")),
+            Space::Tree(1) => Some("1 node".to_owned()),
+            Space::Tree(nodes) => Some(format!("{nodes} nodes")),
+        };
+        for stage in stages.iter_mut().filter(|s| s.stage == Stage::Lattice) {
+            if let Some(over) = &over_budget {
+                stage.why += &format!("; {over} → tree");
+            }
+            if let Some(built) = &built {
+                stage.why += &format!(": {built}");
+                let objects = 0..self.assembly.objects.len() as u32;
+                stage.terms.push(sub_lattices(objects.filter(|&o| structure.sub(o).is_some()).count()));
+            }
+        }
+        stages.push(levels(request));
+        stages.push(characters(request));
+        stages
+    }
+}
+
+fn sub_lattices(n: usize) -> Term {
+    let why = match n {
+        0 => "no object can be cut into cells of its own".to_owned(),
+        1 => "1 object of several primitives is cut into cells of its own".to_owned(),
+        n => format!("{n} objects of several primitives are each cut into cells of their own"),
+    };
+    Term { name: "sub-lattices", needed: n > 0, why }
+}
+
+fn levels(request: &Request) -> StagePlan {
+    // One ink beside the terminal's own paper: lightness still goes by levels.
+    let by_ink = matches!(request.glyphs, GlyphMode::Braille | GlyphMode::Ascii);
+    let needed = by_ink || !request.palette.is_color();
+    let why = match (needed, request.tone) {
+        (false, _) => "any colour can be shown → no levels",
+        (true, Tone::Lightness) => "light becomes the nearest of 13 levels in lightness",
+        (true, Tone::Even) => "light becomes the nearest of 13 levels in even steps of 1/12",
+    };
+    StagePlan { stage: Stage::Dither, needed, why: why.into(), terms: Vec::new() }
+}
+
+fn characters(request: &Request) -> StagePlan {
+    let per_cell = request.glyphs.dots_per_cell();
+    let (columns, rows) = (request.dots.width / per_cell.width, request.dots.height / per_cell.height);
+    let colors = match request.palette {
+        Palette::Dos => "four grays",
+        Palette::Gray(_) => "13 grays",
+        Palette::Mono => "the terminal's ink",
+        Palette::Color(_) => "any colour",
+    };
+    let glyphs = request.glyphs.name();
+    let why = format!(
+        "{glyphs} in {colors}, {} × {} dots to a cell → {columns} × {rows} cells",
+        per_cell.width, per_cell.height
+    );
+    StagePlan { stage: Stage::Display, needed: true, why, terms: Vec::new() }
+}

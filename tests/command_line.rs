@@ -398,7 +398,7 @@ mod bad_arguments {
     #[test]
     fn have_exit_code_2() {
         let (_, file) = scene("arguments", BALL);
-        let cases: [&[&str]; 22] = [
+        let cases: [&[&str]; 25] = [
             &["render"],
             &["rendre", &file],
             &["--cels", "80x25", &file],

@@ -1,7 +1,7 @@
 //! Whether the tracer and the brute-force calculation see the same: the same dots hit, depths to nine digits, the same
 //! object, the same normal.
 
-use ray13::frame::Studio;
+use ray13::frame::{Frame, Studio};
 use ray13::math::{DVec3, Size};
 use ray13::plan::StructureChoice;
 use ray13::scene::Camera;
@@ -26,14 +26,22 @@ const DEPTH: f64 = 1e-9;
 /// more than a gray level needs, and a wrong face or a missing square would differ by far more than this.
 const NORMAL: f64 = 1e-6;
 
-/// Draws one picture, without a lattice and with one, and works it out again.
+/// Draws one picture by every structure, all alike to the bit, and works it out again.
 pub fn compare(studio: &Studio, brute: &Brute, camera: &Camera, dots: Size) -> Comparison {
-    let frames = [StructureChoice::None, StructureChoice::Lattice].map(|structure| {
+    const EVERY: [StructureChoice; 3] =
+        [StructureChoice::None, StructureChoice::Lattice, StructureChoice::Tree];
+    let frames = EVERY.map(|structure| {
         let mut request = request(camera.clone(), dots);
         request.options.structure = structure;
         (structure, studio.draw(&request))
     });
     let mut comparison = Comparison::default();
+    for (structure, frame) in &frames[1..] {
+        let bits = |f: &Frame| f.light.values().iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+        if frame.depth != frames[0].1.depth || bits(frame) != bits(&frames[0].1) {
+            comparison.faults.push(format!("structure {structure:?} shows another picture than none"));
+        }
+    }
     for (place, toward) in directions(camera, dots).into_iter().enumerate() {
         let expected = brute.hit(camera.eye, toward);
         let faults = comparison.faults.len();

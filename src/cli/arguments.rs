@@ -24,7 +24,7 @@ pub struct Arguments {
 
 #[derive(Debug, Args)]
 pub struct ViewerArguments {
-    /// The scene: a file of the scene language or OpenSCAD's .csg, - for standard input, or the name of an
+    /// The scene: a file of the scene language, OpenSCAD's .csg or NFF, - for standard input, or the name of an
     /// embedded scene
     pub file: Option<String>,
     /// Leave out what OpenSCAD can show and ray13 can not (the viewer always does)

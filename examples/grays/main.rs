@@ -75,7 +75,7 @@ fn main() -> io::Result<()> {
 
 fn table(out: &mut impl Write) -> io::Result<()> {
     let columns = columns();
-    let references: Vec<Vec<Grid<f64>>> = columns
+    let references: Vec<Vec<[Grid<f64>; 2]>> = columns
         .iter()
         .map(|column| column.pictures.iter().map(|picture| picture.reference(SCREEN)).collect())
         .collect();

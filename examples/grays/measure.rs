@@ -14,19 +14,19 @@ pub struct Picture {
     light: Box<dyn Fn(Size) -> Grid<f64>>,
 }
 
-/// RMS error in L* of `cells` against `reference` (linear light, [`SAMPLES`] to a cell), for each of [`EYES`].
-pub fn errors(reference: &Grid<f64>, cells: &Grid<Cell>) -> [f64; 2] {
-    let shown = appearance(cells, SAMPLES);
-    EYES.map(|eye| {
-        let sigma = eye * f64::from(SAMPLES.width);
-        let meant = blurred(reference, sigma);
-        let seen = blurred(&shown, sigma);
-        let squares = meant.values().iter().zip(seen.values()).map(|(&meant, &seen)| {
-            let error = lightness(meant.clamp(0.0, 1.0)) - lightness(seen);
-            error * error
-        });
-        (squares.sum::<f64>() / meant.values().len() as f64).sqrt()
+/// RMS error in L* of `cells` against what each eye sees of the picture itself.
+pub fn errors(meant: &[Grid<f64>; 2], cells: &Grid<Cell>) -> [f64; 2] {
+    let shown = seen(&appearance(cells, SAMPLES));
+    std::array::from_fn(|eye| {
+        let pairs = meant[eye].values().iter().zip(shown[eye].values());
+        let squares = pairs.map(|(meant, shown)| (meant - shown) * (meant - shown));
+        (squares.sum::<f64>() / meant[eye].values().len() as f64).sqrt()
     })
+}
+
+/// The lightness that each of [`EYES`] sees of `light`, with [`SAMPLES`] to a cell.
+fn seen(light: &Grid<f64>) -> [Grid<f64>; 2] {
+    EYES.map(|eye| blurred(light, eye * f64::from(SAMPLES.width)).map(|&light| lightness(light)))
 }
 
 /// `light` after a Gaussian filter of `sigma` samples; the picture goes on beyond its border as it is there.
@@ -59,9 +59,9 @@ impl Picture {
         Self { light: Box::new(light) }
     }
 
-    /// The light, clamped, with [`SAMPLES`] to a cell.
-    pub fn reference(&self, screen: Size) -> Grid<f64> {
-        (self.light)(times(screen, SAMPLES)).map(|light| light.clamp(0.0, 1.0))
+    /// What each eye sees of it on a screen of so many cells.
+    pub fn reference(&self, screen: Size) -> [Grid<f64>; 2] {
+        seen(&(self.light)(times(screen, SAMPLES)).map(|light| light.clamp(0.0, 1.0)))
     }
 
     /// The light of each of `dots`, the mean of `rays` × `rays` rays.

@@ -152,12 +152,11 @@ impl PictureArguments {
     pub fn palette(&self) -> Palette {
         let forbidden = || std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
         match self.palette {
-            Some(PaletteName::Dos) => Palette::Dos,
             Some(PaletteName::Gray) => Palette::Gray(color_depth()),
             Some(PaletteName::Mono) => Palette::Mono,
             Some(PaletteName::Color) => Palette::Color(color_depth()),
             None if forbidden() => Palette::Mono,
-            None => Palette::Dos,
+            Some(PaletteName::Dos) | None => Palette::Dos,
         }
     }
 

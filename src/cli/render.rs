@@ -58,8 +58,9 @@ pub fn still(file: &str, skip_unsupported: bool, picture: &PictureArguments) -> 
 /// Refuses a channel that the format does not hold.
 fn check(format: Format, channel: Option<Channel>) -> Result<(), CliError> {
     let message = match (format, channel) {
-        (_, None) | (Format::Pfm, _) => return Ok(()),
-        (Format::Png | Format::Pgm | Format::Ppm, Some(Channel::Light)) => return Ok(()),
+        (_, None) | (Format::Pfm, _) | (Format::Png | Format::Pgm | Format::Ppm, Some(Channel::Light)) => {
+            return Ok(());
+        }
         (_, Some(Channel::Light)) => "--channel light needs --format png, pgm, ppm or pfm",
         (_, Some(_)) => "this --channel needs --format pfm: the other formats hold the picture itself",
     };

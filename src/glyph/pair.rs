@@ -3,18 +3,16 @@
 //!
 //! The measure is that of [`fit`](super::fit): an error e over the dots is seen with the squared strength
 //! `eᵀ K e`, in each axis of L*a*b* alike. With the dots m in ink and n in paper, e = l − a m − b n, and the best a
-//! and b of a parting are those of least squares: `mᵀKm a + mᵀKn b = mᵀKl` and `mᵀKn a + nᵀKn b = nᵀKl`.
+//! and b of a parting are those of least squares: `mᵀKm a + mᵀKn b = mᵀKl` and `mᵀKn a + nᵀKn b = nᵀKl`. Where
+//! there are levels, each of the two is then shown by the nearest: the pair that is nearest as a whole would weave
+//! two levels over every surface that lies between them.
 
 use super::cell::Cell;
 use super::eye::{Dots, overlaps};
 use super::paint::Paint;
-use super::shape::{DOT_COUNT, DOTS, Shape};
+use super::shape::{DOT_COUNT, DOTS, HALVES, Shape};
 use crate::math::{DVec3, Grid, Size};
 use crate::tone::{Level, Tone, color_of_lab, lab_of_color, lightness, srgb_of_light};
-
-/// How far from the best gray for the paper others are tried: the grays that are best together are not always the
-/// nearest to what is best without steps.
-const TRIED: usize = 2;
 
 /// One way to part the dots.
 #[derive(Clone, Copy, Debug)]
@@ -91,24 +89,11 @@ impl PairFit {
 
     fn two_grays(&self, dots: &Dots, grays: &Grays) -> Cell {
         // Even light is its level by definition, not by the least of rounded costs.
-        let first = Cell::flat(grays.of_level(Level::nearest(dots[0])));
         if dots.iter().all(|dot| *dot == dots[0]) {
-            return first;
+            return Cell::flat(grays.of_level(Level::nearest(dots[0])));
         }
-        let dots = dots.map(lightness);
-        let mut least = (f64::INFINITY, first);
-        for parting in &self.partings {
-            let pulls = parting.pulls(&dots);
-            for &(paper, paper_paint) in grays.near(parting.best(pulls)[1]) {
-                // The best ink on this paper: the cost is a parabola in it, so the nearest gray is the best gray.
-                let (ink, ink_paint) = grays.nearest((pulls[0] - parting.mixed * paper) / parting.inks);
-                let cost = parting.cost([ink, paper], pulls);
-                if cost < least.0 {
-                    least = (cost, Cell::pair(parting.shape, ink_paint, paper_paint));
-                }
-            }
-        }
-        least.1
+        let (shape, [[ink, paper]]) = self.best([dots.map(lightness)]);
+        Cell::pair(shape, grays.nearest(ink), grays.nearest(paper))
     }
 
     fn two_colors(&self, dots: &[DVec3; DOT_COUNT]) -> Cell {
@@ -116,18 +101,23 @@ impl PairFit {
             return Cell::flat(paint(dots[0]));
         }
         let labs = dots.map(lab_of_color);
-        let axes: [Dots; 3] = std::array::from_fn(|axis| labs.map(|lab| lab[axis]));
-        let mut least = (f64::INFINITY, Cell::flat(paint(dots[0])));
+        let (shape, best) = self.best::<3>(std::array::from_fn(|axis| labs.map(|lab| lab[axis])));
+        let [ink, paper] = [0, 1].map(|side| paint(color_of_lab(best.map(|axis| axis[side]))));
+        Cell::pair(shape, ink, paper)
+    }
+
+    /// The parting of least error, with its ink and paper in each axis.
+    fn best<const AXES: usize>(&self, axes: [Dots; AXES]) -> (Shape, [[f64; 2]; AXES]) {
+        let mut least = (f64::INFINITY, HALVES[0], [[0.0; 2]; AXES]);
         for parting in &self.partings {
             let pulls = axes.map(|axis| parting.pulls(&axis));
             let best = pulls.map(|pulls| parting.best(pulls));
             let cost = best.iter().zip(pulls).map(|(&best, pulls)| parting.cost(best, pulls)).sum();
             if cost < least.0 {
-                let [ink, paper] = [0, 1].map(|side| paint(color_of_lab(best.map(|axis| axis[side]))));
-                least = (cost, Cell::pair(parting.shape, ink, paper));
+                least = (cost, parting.shape, best);
             }
         }
-        least.1
+        (least.1, least.2)
     }
 }
 
@@ -169,22 +159,16 @@ impl Grays {
     }
 
     /// The nearest to an L*.
-    fn nearest(&self, lightness: f64) -> (f64, Paint) {
+    fn nearest(&self, lightness: f64) -> Paint {
         let above = self.0.partition_point(|gray| gray.0 < lightness).clamp(1, self.0.len() - 1);
         let (dark, bright) = (self.0[above - 1], self.0[above]);
-        if lightness - dark.0 < bright.0 - lightness { dark } else { bright }
-    }
-
-    /// The [`TRIED`] below an L* and the same above it.
-    fn near(&self, lightness: f64) -> &[(f64, Paint)] {
-        let above = self.0.partition_point(|gray| gray.0 < lightness);
-        &self.0[above.saturating_sub(TRIED)..(above + TRIED).min(self.0.len())]
+        if lightness - dark.0 < bright.0 - lightness { dark.1 } else { bright.1 }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::shape::{BLOCKS, HALVES, QUADRANTS};
+    use super::super::shape::{BLOCKS, QUADRANTS, block_of};
     use super::*;
     use crate::tone::light_of_lightness;
     use proptest::prelude::*;
@@ -205,7 +189,7 @@ mod tests {
                 let [dark, bright] = [dark, bright].map(|k: usize| grays.0[k]);
                 let cell = fit.two_grays(&shape.dots(bright.0, dark.0).map(light_of_lightness), &grays);
                 let inked = if cell.ink == bright.1 { shape.mask } else { !shape.mask };
-                assert_eq!(super::super::shape::block_of(inked), Some(cell.glyph), "{shape:?}");
+                assert_eq!(block_of(inked), Some(cell.glyph), "{shape:?}");
             }
         }
     }
@@ -218,28 +202,34 @@ mod tests {
     }
 
     proptest! {
-        /// The few grays that are tried against all pairs.
+        /// The closed form against small changes of every parting's colours.
         #[test]
         fn no_other_pair_is_nearer(dots in prop::array::uniform8(0.0..=100.0)) {
-            let (fit, grays) = (PairFit::new(BLOCKS), Grays::levels());
+            let fit = PairFit::new(BLOCKS);
             let overlaps = overlaps();
             let cost = |shown: &Dots| {
                 let error: Dots = std::array::from_fn(|d| dots[d] - shown[d]);
                 dot(&overlaps.map(|row| dot(&row, &error)), &error)
             };
-            let mut least = f64::INFINITY;
+            let (shape, [[ink, paper]]) = fit.best([dots]);
+            let found = cost(&shape.dots(ink, paper));
             for parting in &fit.partings {
-                for (ink, paper) in grays.0.iter().flat_map(|a| grays.0.iter().map(move |b| (a.0, b.0))) {
-                    least = least.min(cost(&parting.shape.dots(ink, paper)));
+                let [ink, paper] = parting.best(parting.pulls(&dots));
+                for (a, b) in [(0.0, 0.0), (1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (1.0, -1.0)] {
+                    prop_assert!(found <= cost(&parting.shape.dots(ink + a, paper + b)) + 1e-6);
                 }
             }
-            let cell = fit.two_grays(&dots.map(light_of_lightness), &grays);
-            let shape = BLOCKS.iter().find(|shape| shape.glyph == cell.glyph).copied();
-            let [ink, paper] = [cell.ink, cell.paper].map(|paint| {
-                grays.0.iter().find(|gray| gray.1 == paint).expect("a level").0
-            });
-            let shown = shape.map_or([paper; DOT_COUNT], |shape| shape.dots(ink, paper));
-            prop_assert!(cost(&shown) <= least * (1.0 + 1e-9) + 1e-9);
+        }
+
+        /// Two levels stand in a cell only where its dots lie on both sides of a border between levels.
+        #[test]
+        fn what_lies_within_a_level_is_flat(level in 1_usize..12, dots in prop::array::uniform8(-1.0..=1.0)) {
+            let grays = Grays::levels();
+            let here = grays.0[level].0;
+            let reach = (here - grays.0[level - 1].0).min(grays.0[level + 1].0 - here);
+            // Least squares may reach a little beyond the dots.
+            let dots = dots.map(|away: f64| light_of_lightness(here + away * reach / 8.0));
+            prop_assert_eq!(PairFit::new(BLOCKS).two_grays(&dots, &grays), Cell::flat(grays.0[level].1));
         }
 
         #[test]

@@ -36,8 +36,9 @@ const EIGHTHS: f64 = 8.0;
 
 /// The cell of a level in the terminal's own ink.
 fn ink_only(level: Level, column: u32, row: u32) -> Cell {
+    let eighths = MONO[usize::from(level.get())];
     let more = u8::from((column ^ row) & 1 == 0);
-    let quarters = (MONO[usize::from(level.get())] + more) / 2;
+    let quarters = eighths / 2 + eighths % 2 * more;
     Cell { glyph: SHADES[usize::from(quarters)], ink: Paint::Terminal, paper: Paint::Terminal }
 }
 

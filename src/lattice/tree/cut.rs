@@ -11,7 +11,7 @@ use super::SIDE;
 
 /// What a step to the next cell costs, in tests of an object. Measured: a step is a comparison of three distances
 /// and a bit, a test of a sphere a square root and two dozen products.
-const STEP: f64 = 0.35;
+const STEP: f64 = 0.2;
 
 /// What entering a node costs, in tests of an object: three places to locate.
 const ENTER: f64 = 1.5;

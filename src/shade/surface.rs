@@ -68,8 +68,10 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
             ks: m.ks,
             n: m.n,
         });
-        let lamps =
-            plan.lamps.iter().map(|l| Lamp { at: assembly.datum.inward(l.at), light: C::from_rgb(l.light) });
+        let lamps = plan
+            .lamps
+            .iter()
+            .map(|l| Lamp { at: assembly.datum.inward_near(l.at), light: C::from_rgb(l.light) });
         Self {
             engine,
             assembly,

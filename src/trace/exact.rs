@@ -30,12 +30,15 @@ pub struct Memory {
     ray: u32,
     /// Hits that may be the first: all within [`SLACK`] behind the nearest.
     nearest: Vec<(u32, Crossing)>,
+    /// How far the nearest is; infinite without one.
+    best_t: f64,
 }
 
 impl Memory {
     /// Forgets the last ray.
     fn start_ray(&mut self) {
         self.nearest.clear();
+        self.best_t = f64::INFINITY;
         self.ray = self.ray.wrapping_add(1);
         if self.ray == 0 {
             self.tested.fill(0);
@@ -49,17 +52,13 @@ impl Memory {
     }
 
     fn keep(&mut self, object: u32, crossing: Crossing) {
-        let best = self.best_t();
-        if crossing.t <= best + SLACK {
-            if crossing.t < best {
+        if crossing.t <= self.best_t + SLACK {
+            if crossing.t < self.best_t {
+                self.best_t = crossing.t;
                 self.nearest.retain(|(_, other)| other.t <= crossing.t + SLACK);
             }
             self.nearest.push((object, crossing));
         }
-    }
-
-    fn best_t(&self) -> f64 {
-        self.nearest.iter().map(|(_, c)| c.t).fold(f64::INFINITY, f64::min)
     }
 
     /// The nearest hit; of those that coincide with it within their errors, the first object's in the file.
@@ -138,7 +137,7 @@ impl<'a> Exact<'a> {
         memory.tested.resize(self.assembly.objects.len(), 0);
         memory.start_ray();
         let test = |object: u32, memory: &mut Memory, meter: &mut Meter<_>| {
-            let to = memory.best_t() + SLACK;
+            let to = memory.best_t + SLACK;
             if let Some(crossing) = self.object(object, ray, departure, to, memory, meter) {
                 memory.keep(object, crossing);
             }
@@ -152,7 +151,7 @@ impl<'a> Exact<'a> {
         meter.at(Stage::Cell);
         let mut visited = 0;
         self.structure.walk(ray, entry, f64::INFINITY, &mut visited, |objects, step| {
-            if step.from > memory.best_t() + SLACK {
+            if step.from > memory.best_t + SLACK {
                 return ControlFlow::Break(());
             }
             for &object in objects {

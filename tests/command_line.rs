@@ -439,6 +439,24 @@ mod bad_arguments {
     }
 }
 
+// Each from an attack on the arguments: a message of no words, a picture that ended for want of memory, a direction
+// that overflowed, a mesh taken for a scene, and a misspelt scene with no word of those that there are.
+#[test]
+fn arguments_out_of_range_are_explained() {
+    let (_, file) = scene("arguments", BALL);
+    let message = fails(&run(&["render", &file, "--eye", "a,b,c"]), 2);
+    assert!(message.contains("as in 0,-9,3"), "{message}");
+    let message = fails(&run(&["render", &file, "--cells", "4096x8192"]), 2);
+    assert!(message.contains("8192 × 32768 traced dots"), "{message}");
+    fails(&run(&["render", &file, "--eye", "1e308,0,0", "--target", "-1e308,0,0"]), 2);
+    let mesh = folder("foreign").join("part.STL");
+    fs::write(&mesh, "solid part\nfacet normal 0 0 1\n").unwrap();
+    let message = fails(&run(&["check", mesh.to_str().unwrap()]), 2);
+    assert!(message.contains("an STL mesh"), "{message}");
+    let message = fails(&run(&["render", "hanyan"]), 2);
+    assert!(message.contains("hanyang"), "{message}");
+}
+
 mod bad_output {
     use super::*;
 
@@ -449,6 +467,25 @@ mod bad_output {
         fails(&run(&["render", &file, "--format", "png", "-o", nowhere.to_str().unwrap()]), 1);
         fails(&run(&["render", &file, "--format", "png", "-o", folder.to_str().unwrap()]), 1);
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 1, "something was left behind");
+    }
+
+    // From an attack on `-o`: a link was replaced by a file, and a private file became readable by all.
+    #[cfg(unix)]
+    #[test]
+    fn goes_through_links_and_keeps_permissions() {
+        use std::os::unix::fs::{PermissionsExt, symlink};
+        let (folder, file) = scene("link", BALL);
+        let (own, link) = (folder.join("own.levels"), folder.join("link.levels"));
+        fs::write(&own, "before").unwrap();
+        fs::set_permissions(&own, fs::Permissions::from_mode(0o600)).unwrap();
+        symlink(&own, &link).unwrap();
+        done(&run(&["render", &file, "--dots", "4x4", "-o", link.to_str().unwrap()]));
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert_eq!(fs::metadata(&own).unwrap().permissions().mode() & 0o777, 0o600);
+        assert_eq!(fs::read_to_string(&own).unwrap().lines().count(), 4);
+        let long = folder.join("a".repeat(255));
+        done(&run(&["render", &file, "--cells", "4x4", "-o", long.to_str().unwrap()]));
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 4, "something was left behind");
     }
 
     #[cfg(target_os = "linux")]

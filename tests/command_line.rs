@@ -560,7 +560,7 @@ mod a_plan {
     }
 
     #[track_caller]
-    fn says(row: (bool, String), needed: bool, words: &str) {
+    fn says(row: &(bool, String), needed: bool, words: &str) {
         assert!(row.0 == needed && row.1.contains(words), "{row:?}, not {needed}, {words}");
     }
 
@@ -568,18 +568,18 @@ mod a_plan {
     fn leaves_out_what_a_ball_does_not_require() {
         let (_, file) = scene("plan_ball", BALL);
         let row = plan(&file, &[]);
-        says(row("lattice"), false, "1 object, none composite → no structure");
-        says(row("cell"), false, "no structure");
-        says(row("csg"), false, "no CSG");
-        says(row("clip"), true, "outside the world");
-        says(row("depth"), false, "the world gives no k");
-        says(row("secondary rays"), false, "no mirror or glass → no secondary rays");
-        says(row("highlight"), true, "has ks");
-        says(row("colour"), false, "every light is gray → one channel");
+        says(&row("lattice"), false, "1 object, none composite → no structure");
+        says(&row("cell"), false, "no structure");
+        says(&row("csg"), false, "no CSG");
+        says(&row("clip"), true, "outside the world");
+        says(&row("depth"), false, "the world gives no k");
+        says(&row("secondary rays"), false, "no mirror or glass → no secondary rays");
+        says(&row("highlight"), true, "has ks");
+        says(&row("colour"), false, "every light is gray → one channel");
         let row = plan(&file, &["--shading", "1", "--no-shadows", "--eye", "0,0,0", "--target", "1,0,0"]);
-        says(row("highlight"), false, "eq. (1) has no such term");
-        says(row("shadow rays"), false, "not wanted");
-        says(row("clip"), false, "the eye is in the world");
+        says(&row("highlight"), false, "eq. (1) has no such term");
+        says(&row("shadow rays"), false, "not wanted");
+        says(&row("clip"), false, "the eye is in the world");
     }
 
     #[test]
@@ -588,16 +588,16 @@ mod a_plan {
             material(name = \"silver\", kr = 0.9) difference() { cube(2); sphere(1); }\n";
         let (_, file) = scene("plan_shining", shining);
         let row = plan(&file, &[]);
-        says(row("lattice"), true, "lattice");
-        says(row("sub-lattices"), true, "1 object");
-        says(row("csg"), true, "the only object is made of several primitives");
-        says(row("depth"), true, "k = 1");
-        says(row("secondary rays"), true, "kr");
-        says(row("colour"), true, "a light is coloured → three channels");
+        says(&row("lattice"), true, "lattice");
+        says(&row("sub-lattices"), true, "1 object");
+        says(&row("csg"), true, "the only object is made of several primitives");
+        says(&row("depth"), true, "k = 1");
+        says(&row("secondary rays"), true, "kr");
+        says(&row("colour"), true, "a light is coloured → three channels");
         let balls: String = (0..17).map(|i| format!("translate([{}, 0, 0]) sphere(1);\n", 3 * i)).collect();
         let (_, file) = scene("plan_balls", &balls);
         let row = plan(&file, &[]);
-        says(row("lattice"), true, "17 objects: a lattice could have 35937 cells → tree");
+        says(&row("lattice"), true, "17 objects: a lattice could have 35937 cells → tree");
     }
 
     /// What the plan leaves out is not counted in the picture, what it takes in is.

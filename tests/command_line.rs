@@ -585,7 +585,7 @@ mod a_plan {
     #[test]
     fn takes_in_what_a_scene_requires() {
         let shining = "world(k = 1); light(at = [5, -9, 9], color = [1, 0, 0]);\n\
-            material(name = \"silver\", kr = 0.9) difference() { cube(2); sphere(1); }\n";
+            material(kr = 0.9) difference() { cube(2); sphere(1); }\n";
         let (_, file) = scene("plan_shining", shining);
         let row = plan(&file, &[]);
         says(&row("lattice"), true, "lattice");

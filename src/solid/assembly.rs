@@ -87,7 +87,7 @@ impl Datum {
         (p - self.origin) / self.unit
     }
 
-    /// A point of the scene in the assembly; one farther than [`FARTHEST`] is brought there along its direction.
+    /// A point of the scene in the assembly; one farther than `FARTHEST` is brought there along its direction.
     pub fn inward_near(&self, p: DVec3) -> DVec3 {
         let from_origin = p - self.origin;
         let size = from_origin.abs().max_element();

@@ -4,6 +4,7 @@
 use std::error::Error;
 use std::fs::File;
 use std::io::BufWriter;
+use std::path::Path;
 
 use ray13::frame::{Request, Studio};
 use ray13::glyph::{GlyphMode, Palette, appearance};
@@ -21,10 +22,14 @@ const PIXELS: Size = Size::new(8, 16);
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     let (Some(name), Some(path)) = (arguments.next(), arguments.next()) else {
-        return Err("expected the name of an embedded scene and a file to write".into());
+        return Err("expected a scene, embedded or a file, and a file to write".into());
     };
-    let inside = embedded().iter().find(|scene| scene.name == name).ok_or("no such embedded scene")?;
-    let studio = Studio::new(scene::read(inside.name, inside.text.as_bytes(), &ReadOptions::default())?)?;
+    let options = ReadOptions::default();
+    let scene = match embedded().iter().find(|scene| scene.name == name) {
+        Some(inside) => scene::read(inside.name, inside.text.as_bytes(), &options)?,
+        None => scene::read_file(Path::new(&name), &options)?,
+    };
+    let studio = Studio::new(scene)?;
 
     let glyphs = GlyphMode::Blocks;
     let per_cell = glyphs.dots_per_cell();

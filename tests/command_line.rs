@@ -439,6 +439,24 @@ mod bad_arguments {
     }
 }
 
+// Each from an attack on the arguments: a message of no words, a picture that ended for want of memory, a direction
+// that overflowed, a mesh taken for a scene, and a misspelt scene with no word of those that there are.
+#[test]
+fn arguments_out_of_range_are_explained() {
+    let (_, file) = scene("arguments", BALL);
+    let message = fails(&run(&["render", &file, "--eye", "a,b,c"]), 2);
+    assert!(message.contains("as in 0,-9,3"), "{message}");
+    let message = fails(&run(&["render", &file, "--cells", "4096x8192"]), 2);
+    assert!(message.contains("8192 × 32768 traced dots"), "{message}");
+    fails(&run(&["render", &file, "--eye", "1e308,0,0", "--target", "-1e308,0,0"]), 2);
+    let mesh = folder("foreign").join("part.STL");
+    fs::write(&mesh, "solid part\nfacet normal 0 0 1\n").unwrap();
+    let message = fails(&run(&["check", mesh.to_str().unwrap()]), 2);
+    assert!(message.contains("an STL mesh"), "{message}");
+    let message = fails(&run(&["render", "hanyan"]), 2);
+    assert!(message.contains("hanyang"), "{message}");
+}
+
 mod bad_output {
     use super::*;
 
@@ -449,6 +467,25 @@ mod bad_output {
         fails(&run(&["render", &file, "--format", "png", "-o", nowhere.to_str().unwrap()]), 1);
         fails(&run(&["render", &file, "--format", "png", "-o", folder.to_str().unwrap()]), 1);
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 1, "something was left behind");
+    }
+
+    // From an attack on `-o`: a link was replaced by a file, and a private file became readable by all.
+    #[cfg(unix)]
+    #[test]
+    fn goes_through_links_and_keeps_permissions() {
+        use std::os::unix::fs::{PermissionsExt, symlink};
+        let (folder, file) = scene("link", BALL);
+        let (own, link) = (folder.join("own.levels"), folder.join("link.levels"));
+        fs::write(&own, "before").unwrap();
+        fs::set_permissions(&own, fs::Permissions::from_mode(0o600)).unwrap();
+        symlink(&own, &link).unwrap();
+        done(&run(&["render", &file, "--dots", "4x4", "-o", link.to_str().unwrap()]));
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert_eq!(fs::metadata(&own).unwrap().permissions().mode() & 0o777, 0o600);
+        assert_eq!(fs::read_to_string(&own).unwrap().lines().count(), 4);
+        let long = folder.join("a".repeat(255));
+        done(&run(&["render", &file, "--cells", "4x4", "-o", long.to_str().unwrap()]));
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 4, "something was left behind");
     }
 
     #[cfg(target_os = "linux")]
@@ -523,7 +560,7 @@ mod a_plan {
     }
 
     #[track_caller]
-    fn says(row: (bool, String), needed: bool, words: &str) {
+    fn says(row: &(bool, String), needed: bool, words: &str) {
         assert!(row.0 == needed && row.1.contains(words), "{row:?}, not {needed}, {words}");
     }
 
@@ -531,36 +568,36 @@ mod a_plan {
     fn leaves_out_what_a_ball_does_not_require() {
         let (_, file) = scene("plan_ball", BALL);
         let row = plan(&file, &[]);
-        says(row("lattice"), false, "1 object, none composite → no structure");
-        says(row("cell"), false, "no structure");
-        says(row("csg"), false, "no CSG");
-        says(row("clip"), true, "outside the world");
-        says(row("depth"), false, "the world gives no k");
-        says(row("secondary rays"), false, "no mirror or glass → no secondary rays");
-        says(row("highlight"), true, "has ks");
-        says(row("colour"), false, "every light is gray → one channel");
+        says(&row("lattice"), false, "1 object, none composite → no structure");
+        says(&row("cell"), false, "no structure");
+        says(&row("csg"), false, "no CSG");
+        says(&row("clip"), true, "outside the world");
+        says(&row("depth"), false, "the world gives no k");
+        says(&row("secondary rays"), false, "no mirror or glass → no secondary rays");
+        says(&row("highlight"), true, "has ks");
+        says(&row("colour"), false, "every light is gray → one channel");
         let row = plan(&file, &["--shading", "1", "--no-shadows", "--eye", "0,0,0", "--target", "1,0,0"]);
-        says(row("highlight"), false, "eq. (1) has no such term");
-        says(row("shadow rays"), false, "not wanted");
-        says(row("clip"), false, "the eye is in the world");
+        says(&row("highlight"), false, "eq. (1) has no such term");
+        says(&row("shadow rays"), false, "not wanted");
+        says(&row("clip"), false, "the eye is in the world");
     }
 
     #[test]
     fn takes_in_what_a_scene_requires() {
         let shining = "world(k = 1); light(at = [5, -9, 9], color = [1, 0, 0]);\n\
-            material(name = \"silver\", kr = 0.9) difference() { cube(2); sphere(1); }\n";
+            material(kr = 0.9) difference() { cube(2); sphere(1); }\n";
         let (_, file) = scene("plan_shining", shining);
         let row = plan(&file, &[]);
-        says(row("lattice"), true, "lattice");
-        says(row("sub-lattices"), true, "1 object");
-        says(row("csg"), true, "the only object is made of several primitives");
-        says(row("depth"), true, "k = 1");
-        says(row("secondary rays"), true, "kr");
-        says(row("colour"), true, "a light is coloured → three channels");
+        says(&row("lattice"), true, "lattice");
+        says(&row("sub-lattices"), true, "1 object");
+        says(&row("csg"), true, "the only object is made of several primitives");
+        says(&row("depth"), true, "k = 1");
+        says(&row("secondary rays"), true, "kr");
+        says(&row("colour"), true, "a light is coloured → three channels");
         let balls: String = (0..17).map(|i| format!("translate([{}, 0, 0]) sphere(1);\n", 3 * i)).collect();
         let (_, file) = scene("plan_balls", &balls);
         let row = plan(&file, &[]);
-        says(row("lattice"), true, "17 objects: a lattice could have 35937 cells → tree");
+        says(&row("lattice"), true, "17 objects: a lattice could have 35937 cells → tree");
     }
 
     /// What the plan leaves out is not counted in the picture, what it takes in is.

@@ -22,12 +22,17 @@ pub fn read(file: &str, skip_unsupported: bool) -> Result<Scene, CliError> {
     }
     match scene::read_file(Path::new(file), &options) {
         Ok(scene) => Ok(scene),
-        Err(ReadError::Content(diagnostics)) => Err(rendered(&diagnostics)),
+        Err(ReadError::Content(diagnostics)) => Err(match foreign(file) {
+            Some(format) => CliError::Input(format!(
+                "{file} looks like {format}, which ray13 does not read: give it a scene or OpenSCAD's .csg"
+            )),
+            None => rendered(&diagnostics),
+        }),
         Err(error @ ReadError::File { .. }) => match named(file) {
             Some(inside) => {
                 scene::read(inside.name, inside.text.as_bytes(), &options).map_err(|e| rendered(&e))
             }
-            None => Err(CliError::Scene(format!("{error}{}", no_such_scene(file)))),
+            None => Err(CliError::Scene(format!("{error}{}", embedded_names(file)))),
         },
     }
 }
@@ -36,13 +41,30 @@ fn named(name: &str) -> Option<&'static EmbeddedScene> {
     embedded().iter().find(|s| s.name == name)
 }
 
-/// What to try instead of a file that is not there, where its name could have been meant for an embedded scene.
-fn no_such_scene(file: &str) -> String {
-    if Path::new(file).exists() || file.contains(['.', '/', '\\']) {
+/// Formats of models that people try first, by the ending of the name. Only asked where a file made no sense.
+const FOREIGN: [(&str, &str); 8] = [
+    ("stl", "an STL mesh"),
+    ("obj", "an OBJ mesh"),
+    ("off", "an OFF mesh"),
+    ("ply", "a PLY mesh"),
+    ("3mf", "a 3MF model"),
+    ("amf", "an AMF model"),
+    ("step", "a STEP model"),
+    ("stp", "a STEP model"),
+];
+
+fn foreign(file: &str) -> Option<&'static str> {
+    let ending = Path::new(file).extension()?;
+    FOREIGN.iter().find(|(own, _)| ending.eq_ignore_ascii_case(own)).map(|(_, format)| *format)
+}
+
+/// What else a plain word could have meant, where no file has that name.
+fn embedded_names(file: &str) -> String {
+    if file.contains(['.', '/', '\\']) || Path::new(file).exists() {
         return String::new();
     }
     let names: Vec<&str> = embedded().iter().map(|s| s.name).collect();
-    format!("\nhelp: nor is it an embedded scene; there are {}", names.join(", "))
+    format!("\n  = help: it is neither a file nor an embedded scene; of those there are {}", names.join(", "))
 }
 
 fn rendered(diagnostics: &Diagnostics) -> CliError {

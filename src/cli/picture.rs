@@ -11,6 +11,7 @@ use crate::tone::Tone;
 
 use super::arguments::{CameraArguments, PictureArguments};
 use super::error::CliError;
+use super::values::MOST_DOTS;
 
 /// The screen that is assumed where there is none.
 const SCREEN: Size = Size::new(80, 25);
@@ -173,6 +174,12 @@ impl PictureArguments {
             let dots = Size::new(cells.width * per_cell.width, cells.height * per_cell.height);
             (dots, CELL_ASPECT * f64::from(per_cell.height) / f64::from(per_cell.width))
         };
+        if dots.area() > MOST_DOTS {
+            let Size { width, height } = dots;
+            return Err(CliError::Input(format!(
+                "the picture would have {width} × {height} traced dots, more than {MOST_DOTS} in all"
+            )));
+        }
         let aspect = f64::from(dots.width) / f64::from(dots.height) * dot_aspect;
         let camera = self.camera(studio, aspect)?;
         Ok(Request { camera, dots, dot_aspect, options: self.options(), glyphs, palette, tone: self.tone() })

@@ -141,22 +141,30 @@ fn grays(frame: &Frame, request: &Request, channel: Option<Channel>) -> Grid<u8>
     }
 }
 
-/// Writes beside the place and moves there at the end, so that the file is whole or as it was. What is no plain
-/// file, a pipe or a device, is written straight.
+/// Writes beside the place and moves there at the end, so that the file is whole or as it was. A link is written
+/// through, and a file that was there keeps its permissions. What is no plain file, a pipe or a device, is written
+/// straight.
 fn write_file(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
     let failed = |e: io::Error| CliError::Output(format!("{} could not be written: {e}", path.display()));
-    match fs::metadata(path) {
+    let open = || fs::File::options().write(true).open(path);
+    let (place, permissions) = match fs::metadata(path) {
         Ok(found) if found.is_dir() => return Err(failed(io::ErrorKind::IsADirectory.into())),
         Ok(found) if !found.is_file() => {
-            let mut out = fs::File::options().write(true).open(path).map_err(failed)?;
-            return out.write_all(bytes).and_then(|()| out.flush()).map_err(failed);
+            let written = open().and_then(|mut out| out.write_all(bytes).and_then(|()| out.flush()));
+            return written.map_err(failed);
         }
-        _ => {}
-    }
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(format!(".{}.part", std::process::id()));
-    let part = path.with_file_name(name);
-    let written = fs::write(&part, bytes).and_then(|()| fs::rename(&part, path));
+        Ok(found) => {
+            // A move asks the folder for permission only; the file must allow it too.
+            open().map_err(failed)?;
+            (fs::canonicalize(path).map_err(failed)?, Some(found.permissions()))
+        }
+        Err(_) => (path.to_owned(), None),
+    };
+    // Not made from the file's own name, which may be as long as names can be.
+    let part = place.with_file_name(format!("ray13-{}.part", std::process::id()));
+    let written = fs::write(&part, bytes)
+        .and_then(|()| permissions.map_or(Ok(()), |own| fs::set_permissions(&part, own)))
+        .and_then(|()| fs::rename(&part, &place));
     written.map_err(|e| {
         let _ = fs::remove_file(&part);
         failed(e)

@@ -4,9 +4,11 @@ use std::str::FromStr;
 
 use crate::math::{DVec3, Size};
 
-/// The most dots or cells along one side of a picture, and the most dots in all: 8 GB of frame, past any use.
+/// The most dots or cells along one side of a picture.
 const MOST_ACROSS: u32 = 32_768;
-const MOST_DOTS: usize = 1 << 27;
+
+/// The most dots of a picture: an 8K screen's 7680 × 4320 is just within it, at 3 GB while it is traced.
+pub const MOST_DOTS: usize = 1 << 25;
 
 /// A width and a height, as in `80x25`.
 pub fn size(text: &str) -> Result<Size, String> {
@@ -23,9 +25,8 @@ pub fn size(text: &str) -> Result<Size, String> {
 
 /// A point or a direction, as in `1,2.5,-3`.
 pub fn point(text: &str) -> Result<DVec3, String> {
-    let numbers: Vec<f64> =
-        text.split(',').map(|n| n.trim().parse()).collect::<Result<_, _>>().map_err(|_| "")?;
-    let [x, y, z] = numbers[..] else { return Err("expected X,Y,Z, as in 0,-9,3".into()) };
+    let numbers: Option<Vec<f64>> = text.split(',').map(|n| n.trim().parse().ok()).collect();
+    let Some(&[x, y, z]) = numbers.as_deref() else { return Err("expected X,Y,Z, as in 0,-9,3".into()) };
     let point = DVec3::new(x, y, z);
     if point.is_finite() { Ok(point) } else { Err("coordinates must be finite".into()) }
 }

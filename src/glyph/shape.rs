@@ -138,7 +138,7 @@ pub enum Coverage {
     Even(f64),
     /// In whole dots of 2 × 4: a bit for each in scan order, the top left one lowest.
     Dots(u8),
-    /// The same, where each dot fills only [`BRAILLE_DOT`] of its place.
+    /// The same, where each dot fills only a fixed share of its place.
     Specks(u8),
 }
 

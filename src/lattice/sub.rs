@@ -12,6 +12,15 @@ use super::planes::{Planes, SLACK, Step};
 /// along each axis, where a cell is as small as a dot of a picture that the object fills.
 const MOST_CELLS: f64 = 262_144.0;
 
+/// The most cells of all sub-lattices: 16 MB, and a second or two to fill. Each composite object has an equal share;
+/// where they are many, each is few dots of the picture.
+const ALL_CELLS: f64 = 4_194_304.0;
+
+/// The most primitives named by the expressions of one sub-lattice, and of all: 12 bytes each, and three times that
+/// while one is built. Past it cells share an expression, which costs tests but changes no hit.
+const MOST_LEAVES: f64 = 4_194_304.0;
+const ALL_LEAVES: f64 = 4.0 * MOST_LEAVES;
+
 /// The sub-lattices of all composite objects.
 #[derive(Clone, Debug)]
 pub struct SubLattices(Vec<Option<SubLattice>>);
@@ -19,9 +28,13 @@ pub struct SubLattices(Vec<Option<SubLattice>>);
 impl SubLattices {
     /// Cuts every composite object of an assembly.
     pub fn new(assembly: &Assembly) -> Self {
+        let composite = |object: &&Object| matches!(object.body, Body::Composite { .. });
+        let budget = Budget::shared(assembly.objects.iter().filter(composite).count());
         let of = |object: &Object| match &object.body {
             Body::Single(_) | Body::Surface(_) => None,
-            Body::Composite { tree, .. } => SubLattice::new(tree, &assembly.primitives, &object.bounds),
+            Body::Composite { tree, .. } => {
+                SubLattice::new(tree, &assembly.primitives, &object.bounds, budget)
+            }
         };
         let all: Vec<_> = assembly.objects.iter().map(of).collect();
         // Most large scenes have no composite object at all.
@@ -35,6 +48,21 @@ impl SubLattices {
     }
 }
 
+/// What one sub-lattice may hold.
+#[derive(Clone, Copy, Debug)]
+struct Budget {
+    cells: f64,
+    leaves: f64,
+}
+
+impl Budget {
+    /// The budget of each of `sharers`.
+    fn shared(sharers: usize) -> Self {
+        let share = |one: f64, all: f64| one.min(all / sharers.max(1) as f64);
+        Self { cells: share(MOST_CELLS, ALL_CELLS), leaves: share(MOST_LEAVES, ALL_LEAVES) }
+    }
+}
+
 /// Cells of one composite object.
 #[derive(Clone, Debug)]
 pub struct SubLattice {
@@ -45,19 +73,22 @@ pub struct SubLattice {
     bounds: Bounds,
 }
 
+/// The first and the last cell along each axis.
+type Range = [(usize, usize); 3];
+
 /// The content of a cell without surfaces, be it outside or inside.
 const NOTHING: u32 = u32::MAX;
 
 impl SubLattice {
     /// The sub-lattice of the expression `tree` in the box `bounds`; `None` where it would be a single cell.
-    pub fn new(tree: &Tree, primitives: &[Primitive], bounds: &Bounds) -> Option<Self> {
+    fn new(tree: &Tree, primitives: &[Primitive], bounds: &Bounds, budget: Budget) -> Option<Self> {
         let leaves = tree.leaves();
         if leaves.len() < 2 {
             return None;
         }
         let boxes = leaves.iter().map(|&leaf| primitives[leaf as usize].form.bounds());
         let mut planes = Planes::new(boxes, bounds);
-        planes.thin(MOST_CELLS);
+        planes.thin(budget.cells);
         if planes.cells() <= 1.0 {
             return None;
         }
@@ -65,7 +96,7 @@ impl SubLattice {
         let mut building =
             Building { primitives, planes: &planes, cells, parts: Vec::new(), known: HashMap::new() };
         let [nx, ny, nz] = planes.dimensions();
-        building.fill(tree, [(0, nx - 1), (0, ny - 1), (0, nz - 1)]);
+        building.fill(tree, [(0, nx - 1), (0, ny - 1), (0, nz - 1)], budget.leaves);
         let Building { cells, parts, .. } = building;
         Some(Self { planes, cells, parts, bounds: *bounds })
     }
@@ -109,25 +140,31 @@ struct Building<'a> {
 }
 
 impl Building<'_> {
-    /// Fills a range of cells, given what is left of the expression in a range around it.
-    fn fill(&mut self, tree: &Tree, range: [(usize, usize); 3]) {
+    /// Fills a range of cells, given what is left of the expression in a range around it, with expressions that name
+    /// about `allowance` primitives together.
+    fn fill(&mut self, tree: &Tree, range: Range, allowance: f64) {
         // A crossing may be computed SLACK outside its cell; twice that keeps its whole cluster.
         let b = self.planes.bounds(&range).padded(DVec3::splat(2.0 * SLACK));
         let Pruned::Tree(tree) = tree.pruned(self.primitives, &b) else { return };
         let longest = (0..3).max_by_key(|&axis| range[axis].1 - range[axis].0).unwrap_or(0);
         let (first, last) = range[longest];
-        if first == last {
+        // Both halves may still need all of it.
+        if first == last || 2.0 * tree.leaves().len() as f64 > allowance {
             let part = self.part(&tree);
-            let cell = self.planes.number([range[0].0, range[1].0, range[2].0]);
-            self.cells[cell] = part;
+            let [x, y, z] = range;
+            for (k, j) in (z.0..=z.1).flat_map(|k| (y.0..=y.1).map(move |j| (k, j))) {
+                let row = self.planes.number([x.0, j, k]);
+                self.cells[row..=row + x.1 - x.0].fill(part);
+            }
             return;
         }
         let middle = usize::midpoint(first, last);
         let (mut low, mut high) = (range, range);
         low[longest].1 = middle;
         high[longest].0 = middle + 1;
-        self.fill(&tree, low);
-        self.fill(&tree, high);
+        let share = (middle - first + 1) as f64 / (last - first + 1) as f64;
+        self.fill(&tree, low, allowance * share);
+        self.fill(&tree, high, allowance * (1.0 - share));
     }
 
     fn part(&mut self, tree: &Tree) -> u32 {
@@ -138,5 +175,35 @@ impl Building<'_> {
         self.parts.push(Expression::new(tree));
         self.known.insert(tree.clone(), part);
         part
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::DAffine3;
+    use crate::scene::{Material, MaterialId, Scene, Shape, Solid};
+
+    // Five thousand slanted plates took 20 s and a gigabyte: nearly every cell was crossed by hundreds of them.
+    #[test]
+    fn expressions_stay_within_the_budget() {
+        let plate = |k: u32| {
+            let turn = DAffine3::from_rotation_x(f64::from(k));
+            let map =
+                turn * DAffine3::from_rotation_y(0.7) * DAffine3::from_scale(DVec3::new(1.0, 1.0, 0.01));
+            Solid::Primitive(crate::scene::Primitive { shape: Shape::Cube, map, material: MaterialId(0) })
+        };
+        let object = crate::scene::Object { name: None, solid: Solid::Union((0..60).map(plate).collect()) };
+        let scene = Scene { objects: vec![object], materials: vec![Material::default()], ..Scene::default() };
+        let assembly = Assembly::new(&scene).unwrap();
+        let Body::Composite { tree, .. } = &assembly.objects[0].body else { panic!("one solid of many") };
+        let leaves = |leaves: f64| {
+            let budget = Budget { cells: 32_768.0, leaves };
+            let sub = SubLattice::new(tree, &assembly.primitives, &assembly.limit, budget).unwrap();
+            sub.parts.iter().map(|part| part.leaves.len()).sum::<usize>()
+        };
+        let (much, little) = (leaves(f64::INFINITY), leaves(500.0));
+        assert!(much > 2000, "{much}: the budget is not put to the test");
+        assert!(little < 1000, "{little}");
     }
 }

@@ -291,6 +291,9 @@ impl Camera {
             return Err(CameraError::OutOfRange);
         }
         let sight = self.target - self.eye;
+        if !sight.is_finite() {
+            return Err(CameraError::OutOfRange);
+        }
         let (long, high) = (sight.abs().max_element(), self.up.abs().max_element());
         if long == 0.0 {
             return Err(CameraError::NoSight);

@@ -64,10 +64,11 @@ mod tests {
                     prop_assert!((t.length() - 1.0).abs() < 1e-15);
                     prop_assert!((before * d.cross(n) - behind * t.cross(n)).length() < 1e-14);
                     prop_assert!(t.dot(n) <= 0.0);
-                    // Near the critical angle the cosine loses digits; elsewhere the way back is the way.
-                    if before * sine < 0.99 * behind {
-                        let back = refracted(-t, -n, behind, before).unwrap();
-                        prop_assert!((back + d).length() < 1e-13);
+                    // A cosine is the root of what a sine leaves of 1: it is off by an ulp over itself, on
+                    // both sides of the surface. A dozen roundings stand on the way there and back.
+                    let off = 12.0 * f64::EPSILON * (1.0 + 1.0 / d.dot(n).abs() + 1.0 / t.dot(n).abs());
+                    if let Some(back) = refracted(-t, -n, behind, before) {
+                        prop_assert!((back + d).length() < off, "{} {off}", (back + d).length());
                     }
                 }
             }

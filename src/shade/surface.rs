@@ -103,8 +103,10 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
             index: m.index,
             lets_through: m.kt,
         });
-        let lamps =
-            plan.lamps.iter().map(|l| Lamp { at: assembly.datum.inward(l.at), light: C::from_rgb(l.light) });
+        let lamps = plan
+            .lamps
+            .iter()
+            .map(|l| Lamp { at: assembly.datum.inward_near(l.at), light: C::from_rgb(l.light) });
         let secondary = plan.secondary.as_ref();
         let around_eye = secondary.iter().flat_map(|s| &s.around_eye);
         Self {

@@ -9,6 +9,10 @@ use crate::scene::{MaterialId, Scene};
 use super::expression::{Expression, Tree};
 use super::primitive::{Form, Primitive};
 
+/// Eyes and lights farther away than this, in the assembly's unit, stand here: the square of such a length does not
+/// overflow, and seen from the scene, whose size is about 1, the direction is the same within rounding.
+const FARTHEST: f64 = 1e100;
+
 /// The objects of a scene, ready for rays.
 #[derive(Clone, Debug)]
 pub struct Assembly {
@@ -81,6 +85,13 @@ impl Datum {
     /// A point of the scene in the assembly.
     pub fn inward(&self, p: DVec3) -> DVec3 {
         (p - self.origin) / self.unit
+    }
+
+    /// A point of the scene in the assembly; one farther than `FARTHEST` is brought there along its direction.
+    pub fn inward_near(&self, p: DVec3) -> DVec3 {
+        let from_origin = p - self.origin;
+        let size = from_origin.abs().max_element();
+        if size / self.unit > FARTHEST { from_origin / size * FARTHEST } else { from_origin / self.unit }
     }
 
     /// A point of the assembly in the scene.
@@ -199,6 +210,6 @@ impl Assembly {
 
     /// A ray of the scene in the assembly; distances along it are divided by [`Datum::unit`].
     pub fn ray(&self, ray: &Ray) -> Ray {
-        Ray::new(self.datum.inward(ray.o), ray.d)
+        Ray::new(self.datum.inward_near(ray.o), ray.d)
     }
 }

@@ -283,7 +283,9 @@ fn side_span(ray: &Centred, middle: f64, slope: f64) -> Option<Span> {
     }
     // A line along or inside the cone always crosses it: below 0 there is rounding only.
     let root = discriminant.max(0.0).sqrt();
-    let error = if root > 0.0 { 0.5 * form_off / root } else { f64::INFINITY };
+    // The root of a number that is off by `form_off · |a|` is off by that over twice the root, and never by more
+    // than the root of that: all there is to say at the apex, where the root is 0.
+    let error = (0.5 * form_off / root).min((form_off / a.abs()).sqrt());
     // The root whose terms do not cancel, and the other from the product c / a.
     let q = -(b + root.copysign(b));
     let (t1, t2) = if q == 0.0 { (0.0, 0.0) } else { (q / a, c / q) };

@@ -3,6 +3,10 @@
 use crate::math::{DVec3, Ray, Size};
 use crate::scene::{Camera, FieldSpan};
 
+/// The largest tangent of half an angle. From 1e16 on the angle is 180° within rounding; this leaves room for the
+/// square of a tangent that the other one's aspect multiplies.
+const WIDEST: f64 = 1e100;
+
 /// The raster of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Picture {
@@ -50,7 +54,7 @@ impl Lens {
         let right = forward.cross(up).normalize_or(forward.any_orthonormal_vector());
         let Size { width, height } = picture.dots;
         let half = |degrees: f64, dots: u32| {
-            libm::tan(0.5 * degrees.to_radians()) / camera.zoom * reach(camera.span, dots)
+            (libm::tan(0.5 * degrees.to_radians()) / camera.zoom * reach(camera.span, dots)).min(WIDEST)
         };
         let (tx, ty) = (half(camera.field[0], width), half(camera.field[1], height));
         let aspect = picture.aspect();
@@ -150,5 +154,17 @@ mod tests {
         let plain = Lens::new(&camera([40.0, 25.0]), &picture);
         let near = Lens::new(&Camera { zoom: 2.0, ..camera([40.0, 25.0]) }, &picture);
         assert_eq!(plain.tangents.map(|t| t / 2.0), near.tangents);
+    }
+
+    // A zoom of 1e-200 overflowed the square of a ray's direction, which came out as 0.
+    #[test]
+    fn rays_have_a_direction_at_any_zoom() {
+        for zoom in [5e-324, 1e-200, 1.0, 1e200, f64::MAX] {
+            let picture = Picture { dots: Size::new(32_768, 1), dot_aspect: 1.0 };
+            let lens = Lens::new(&Camera { zoom, ..camera([40.0, 25.0]) }, &picture);
+            for (x, y) in [(0.0, 0.0), (0.5, 0.5), (32_768.0, 1.0)] {
+                assert!((lens.ray(x, y).d.length() - 1.0).abs() < 1e-15, "{zoom} {x} {y}");
+            }
+        }
     }
 }

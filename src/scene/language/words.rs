@@ -216,7 +216,7 @@ pub static WORDS: &[Word] = &[
 ];
 
 const FLAT: &str = "it is flat, and ray13 shows solids";
-const MESHED: &str = "it is not made of half-spaces";
+const MESHED: &str = "only OpenSCAD can work its shape out";
 const OTHER_FILE: &str = "it takes its shape from another file";
 
 /// Words of OpenSCAD that ray13 knows and can not show, and why.

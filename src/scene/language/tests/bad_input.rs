@@ -84,7 +84,7 @@ fn unsupported_words_can_be_left_out() {
     assert_eq!(
         scene.notes,
         [
-            "line 2: `hull` is left out: it is not made of half-spaces",
+            "line 2: `hull` is left out: only OpenSCAD can work its shape out",
             "line 3: `text` is left out: it is flat, and ray13 shows solids"
         ]
     );

@@ -108,7 +108,7 @@ const fn name(shading: Shading) -> &'static str {
         Shading::Lambert => "diffuse",
         Shading::Depth => "depth",
         Shading::Phong => "highlight",
-        Shading::Whitted => "mirror, glass",
+        Shading::Whitted => "mirrors",
     }
 }
 

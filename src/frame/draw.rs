@@ -24,6 +24,7 @@ impl Studio {
         let start = Instant::now();
         let (lens, plan) = self.plan(request);
         let viewed = Instant::now();
+        let cut_before = self.built().cutting;
         let (structure, over_budget) = self.structure(plan.structure);
         let engine = Exact::new(&self.assembly, structure);
         let tracing = Instant::now();
@@ -46,8 +47,7 @@ impl Studio {
             _ => glyph::compose(&light, request.glyphs, request.palette, request.tone),
         };
         let mut times = shared_out(&times, trace);
-        times[Stage::Objects] = self.built().assembling;
-        times[Stage::Lattice] = self.built().cutting;
+        times[Stage::Lattice] = self.built().cutting - cut_before;
         times[Stage::View] = viewed - start;
         times[Stage::Dither] = dithering.elapsed();
         Frame {

@@ -54,7 +54,7 @@ pub struct Frame {
     pub cells: Grid<Cell>,
     /// What was counted.
     pub counts: Counts,
-    /// Where the time went. The stages from RAY to SHADE share the time of tracing as a sample of the tiles
+    /// Where the time of this picture went: LATTICE only in the one that built it. The stages from RAY to SHADE share the time of tracing as a sample of the tiles
     /// spent it.
     pub times: StageTimes,
     /// Objects in the lattice.

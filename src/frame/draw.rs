@@ -47,7 +47,7 @@ impl Studio {
             _ => glyph::compose(&light, request.glyphs, request.palette, request.tone),
         };
         let mut times = shared_out(&times, trace);
-        times[Stage::Lattice] = self.built().cutting - cut_before;
+        times[Stage::Lattice] = self.built().cutting.saturating_sub(cut_before);
         times[Stage::View] = viewed - start;
         times[Stage::Dither] = dithering.elapsed();
         Frame {

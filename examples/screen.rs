@@ -37,7 +37,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let frame = studio.draw(&Request {
         camera: studio.camera(0, cell_aspect * f64::from(SCREEN.width) / f64::from(SCREEN.height)),
         dots: Size::new(SCREEN.width * per_cell.width, SCREEN.height * per_cell.height),
-        dot_aspect: cell_aspect * f64::from(per_cell.height) / f64::from(per_cell.width),
+        dot_aspect: glyphs.dot_aspect(cell_aspect),
         options: Options { samples: 2, ..Options::default() },
         glyphs,
         palette: Palette::Dos,

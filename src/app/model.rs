@@ -7,14 +7,11 @@ use super::layout::Layout;
 use super::motion::{self, FLY_STEP, ORBIT_STEP, ZOOM_STEP};
 use super::{Painter, Settings};
 use crate::frame::Request;
-use crate::glyph::GlyphMode;
+use crate::glyph::{CELL_ASPECT, GlyphMode};
 use crate::math;
 use crate::plan::Shading;
 use crate::scene::Camera;
 use crate::view::{Lens, Picture};
-
-/// Width of a cell divided by its height, where the terminal does not say.
-const CELL_ASPECT: f64 = 0.5;
 
 /// The widths of a cell divided by its height that are believed: fonts for text are taller than wide, up to the
 /// square cells of some consoles; terminals that report nonsense report it far outside.
@@ -141,7 +138,7 @@ impl Model {
         (dots.area() > 0).then(|| Request {
             camera: self.camera.clone(),
             dots,
-            dot_aspect: self.cell_aspect * f64::from(per_cell.height) / f64::from(per_cell.width),
+            dot_aspect: self.settings.glyphs.dot_aspect(self.cell_aspect),
             options: self.settings.options,
             glyphs: self.settings.glyphs,
             palette: self.settings.palette,

@@ -3,7 +3,7 @@
 use clap::ValueEnum;
 
 use crate::frame::{Request, Studio, pcat};
-use crate::glyph::{ColorDepth, GlyphMode, Palette};
+use crate::glyph::{CELL_ASPECT, ColorDepth, GlyphMode, Palette};
 use crate::math::Size;
 use crate::plan::{Options, Shading, StructureChoice};
 use crate::scene::{Camera, FieldSpan, Scene};
@@ -15,9 +15,6 @@ use super::values::MOST_DOTS;
 
 /// The screen that is assumed where there is none.
 const SCREEN: Size = Size::new(80, 25);
-
-/// Width of a character cell divided by its height, where nothing better is known.
-const CELL_ASPECT: f64 = 0.5;
 
 /// The glyph modes by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -172,7 +169,7 @@ impl PictureArguments {
         } else {
             let cells = self.cells.unwrap_or_else(screen);
             let dots = Size::new(cells.width * per_cell.width, cells.height * per_cell.height);
-            (dots, CELL_ASPECT * f64::from(per_cell.height) / f64::from(per_cell.width))
+            (dots, glyphs.dot_aspect(CELL_ASPECT))
         };
         if dots.area() > MOST_DOTS {
             let Size { width, height } = dots;

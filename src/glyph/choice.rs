@@ -3,6 +3,10 @@
 use super::paint::{ColorDepth, Paint};
 use crate::math::Size;
 
+/// Width of a character cell divided by its height, where nothing better is known: most fonts of terminals are
+/// about twice as high as wide.
+pub const CELL_ASPECT: f64 = 0.5;
+
 /// Which characters draw the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum GlyphMode {
@@ -27,6 +31,12 @@ impl GlyphMode {
     /// All modes, in the order the viewer steps through.
     pub const ALL: [Self; 7] =
         [Self::Blocks, Self::Cp437, Self::Quadrant, Self::Half, Self::Shade, Self::Braille, Self::Ascii];
+
+    /// Width of a traced dot on the screen divided by its height, where a cell's is `cell_aspect`.
+    pub fn dot_aspect(self, cell_aspect: f64) -> f64 {
+        let dots = self.dots_per_cell();
+        cell_aspect * f64::from(dots.height) / f64::from(dots.width)
+    }
 
     /// Traced dots per cell.
     pub const fn dots_per_cell(self) -> Size {

@@ -14,7 +14,7 @@ mod shape;
 
 pub use appearance::appearance;
 pub use cell::Cell;
-pub use choice::{GlyphMode, Palette};
+pub use choice::{CELL_ASPECT, GlyphMode, Palette};
 pub use compose::{compose, compose_color};
 pub use paint::{ColorDepth, Paint};
 pub use shape::{Coverage, coverage};

@@ -37,8 +37,9 @@ pub struct Memory {
 }
 
 impl Memory {
-    /// Forgets the last ray.
-    fn start_ray(&mut self) {
+    /// Forgets the last ray; the next one may meet so many objects.
+    fn start_ray(&mut self, objects: usize) {
+        self.tested.resize(objects, 0);
         self.nearest.clear();
         self.best = f64::INFINITY;
         self.ray = self.ray.wrapping_add(1);
@@ -147,8 +148,7 @@ impl<'a> Exact<'a> {
         memory: &mut Memory,
         meter: &mut Meter<impl Probe>,
     ) -> Option<Hit> {
-        memory.tested.resize(self.assembly.objects.len(), 0);
-        memory.start_ray();
+        memory.start_ray(self.assembly.objects.len());
         let test = |object: u32, memory: &mut Memory, meter: &mut Meter<_>| {
             let to = memory.best + SLACK;
             if let Some(crossing) = self.object(object, ray, departure, to, memory, meter) {
@@ -222,8 +222,7 @@ impl Engine for Exact<'_> {
         memory: &mut Memory,
         meter: &mut Meter<impl Probe>,
     ) -> bool {
-        memory.tested.resize(self.assembly.objects.len(), 0);
-        memory.start_ray();
+        memory.start_ray(self.assembly.objects.len());
         let blocks = |c: Crossing| c.t + c.error < distance;
         if let Structure::None = self.structure {
             return (0..self.assembly.objects.len() as u32).any(|object| {

@@ -148,7 +148,7 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
     /// The surface of the last hit.
     pub(super) fn met(&self, ray: &Ray, hit: Hit, memory: &Memory<E>) -> Met {
         let hit = self.shown(hit, |finish| finish.kt, memory);
-        let p = ray.at(hit.t);
+        let p = hit.p;
         Met { hit, p, normal: self.assembly.turned_normal(hit.primitive, hit.surface, p, ray.d) }
     }
 

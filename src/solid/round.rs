@@ -284,14 +284,16 @@ fn side_span(ray: &Centred, middle: f64, slope: f64) -> Option<Span> {
     let across = d.x * o.y - d.y * o.x;
     let along = (squared(d.x * rho - d_rho * o.x) + squared(d.y * rho - d_rho * o.y)).sqrt();
     let discriminant = (along - across.abs()) * (along + across.abs());
-    // The gradient of the form x² + y² − ρ² is 2·(x, y, −ρ·slope), and x and y are at most ρ on the side and within
-    // it: so much is the form off at a point, and near an apex hardly at all.
-    let off = ray.off.x + ray.off.y + slope.abs() * ray.off.z;
-    let form_off = |t: f64| off * (2.0 * (rho + t * d_rho).abs() + off);
+    // A point moved by `off` changes the form x² + y² − ρ² by (2|x| + off.x)·off.x, and so for y and ρ: near an apex
+    // hardly at all, and at the long end of an ellipse by the long axis' off only.
+    let off = DVec3::new(ray.off.x, ray.off.y, slope.abs() * ray.off.z);
+    let form_off = |t: f64, off: DVec3| {
+        let p = DVec3::new(o.x + t * d.x, o.y + t * d.y, rho + t * d_rho);
+        (2.0 * p.abs() + off).dot(off)
+    };
     // A chord is none where the form at its middle, −discriminant / a at t = −b / a, may be 0.
-    let seeming = off * ray.seeming;
-    let form_off_at_middle = seeming * (2.0 * (rho * a - b * d_rho).abs() + seeming * a);
-    if discriminant.is_nan() || (a > 0.0 && discriminant <= form_off_at_middle) {
+    let is_chord = || discriminant > 0.0 && discriminant > a * form_off(-b / a, ray.seeming * off);
+    if discriminant.is_nan() || (a > 0.0 && !is_chord()) {
         return None;
     }
     // A line along or inside the cone always crosses it: below 0 there is rounding only.
@@ -299,7 +301,7 @@ fn side_span(ray: &Centred, middle: f64, slope: f64) -> Option<Span> {
     // The root of a number that is off by `form_off · |a|` is off by that over twice the root, and never by more than
     // the root of that: all there is to say at the apex, where the root is 0.
     let error = |t: f64| {
-        let form_off = form_off(t);
+        let form_off = form_off(t, off);
         if discriminant < form_off * a.abs() { (form_off / a.abs()).sqrt() } else { 0.5 * form_off / root }
     };
     // The root whose terms do not cancel, and the other from the product c / a.
@@ -319,7 +321,7 @@ fn side_span(ray: &Centred, middle: f64, slope: f64) -> Option<Span> {
     } else if b != 0.0 {
         // Parallel to the side, or to the axis of a cylinder: 2bt + c ≤ 0.
         let t = -0.5 * c / b;
-        let end = end(t, 0.5 * form_off(t) / b.abs());
+        let end = end(t, 0.5 * form_off(t, off) / b.abs());
         Some(if b > 0.0 { Span { leave: end, ..Span::LINE } } else { Span { enter: end, ..Span::LINE } })
     } else {
         (c < 0.0).then_some(Span::LINE)

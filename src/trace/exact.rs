@@ -67,13 +67,14 @@ impl Memory {
 
     /// The nearest hit; of those that coincide with it within their errors, the first object's in the file. Only
     /// these are kept.
-    fn chosen(&mut self) -> Option<Hit> {
+    fn chosen(&mut self, ray: &Ray) -> Option<Hit> {
         let best = self.nearest.iter().min_by(|a, b| a.1.t.total_cmp(&b.1.t))?.1;
         self.nearest.retain(|(_, c)| c.t - c.error <= best.t + best.error);
         let (object, c) = *self.nearest.iter().min_by_key(|(object, _)| *object)?;
         Some(Hit {
             t: c.t,
             error: c.error,
+            p: ray.at(c.t),
             object,
             primitive: c.primitive,
             surface: c.surface,
@@ -160,7 +161,7 @@ impl<'a> Exact<'a> {
             for object in 0..self.assembly.objects.len() as u32 {
                 test(object, memory, meter);
             }
-            return memory.chosen();
+            return memory.chosen(ray);
         }
         meter.at(Stage::Cell);
         let mut visited = 0;
@@ -177,7 +178,7 @@ impl<'a> Exact<'a> {
             ControlFlow::Continue(())
         });
         meter.counts.cells_visited += visited;
-        memory.chosen()
+        memory.chosen(ray)
     }
 }
 
@@ -191,13 +192,15 @@ impl Engine for Exact<'_> {
     fn first(&self, ray: &Ray, memory: &mut Memory, meter: &mut Meter<impl Probe>) -> Option<Hit> {
         meter.at(Stage::Clip);
         let (near, way) = moved_nearer(ray);
+        let [far, left] = way;
         let Some(entry) = lattice::entry(&near, &self.limit) else {
             meter.counts.clipped_rays += 1;
             memory.nearest.clear();
             return None;
         };
         let hit = self.closest(&near, entry, None, memory, meter)?;
-        Some(Hit { t: way + hit.t, ..hit })
+        // Of a long way each distance is rounded once.
+        Some(Hit { t: far + (left + hit.t), error: hit.error + 0.5 * f64::EPSILON * far, ..hit })
     }
 
     fn next(
@@ -248,19 +251,19 @@ impl Engine for Exact<'_> {
     }
 }
 
-/// The same ray from a start that is not far from the world, and the way there.
+/// The same ray from a start that is not far from the world, and the way there in two parts.
 ///
 /// Over a long way the product is larger than the sum, and each coordinate takes one rounding of the sum alone: a
 /// fused multiply-add, in software where the processor has none, gives the same bits everywhere. The length of the way
 /// is itself rounded, which moves the start along the ray; what is left of that is gone over again.
-fn moved_nearer(ray: &Ray) -> (Ray, f64) {
+fn moved_nearer(ray: &Ray) -> (Ray, [f64; 2]) {
     let far = -ray.o.dot(ray.d) - LIMIT;
     if far.is_nan() || far <= FAR {
-        return (*ray, 0.0);
+        return (*ray, [0.0; 2]);
     }
     let fused = |d: f64, o: f64| libm::fma(far, d, o);
     let start = DVec3::new(fused(ray.d.x, ray.o.x), fused(ray.d.y, ray.o.y), fused(ray.d.z, ray.o.z));
     let left = -start.dot(ray.d) - LIMIT;
     let start = start + left * ray.d;
-    (Ray::new(start, ray.d), far + left)
+    (Ray::new(start, ray.d), [far, left])
 }

@@ -5,7 +5,7 @@ mod exact;
 
 pub use exact::{Exact, Memory};
 
-use crate::math::Ray;
+use crate::math::{DVec3, Ray};
 use crate::solid::{Crossing, Departure};
 use crate::stage::{Meter, Probe};
 
@@ -16,6 +16,9 @@ pub struct Hit {
     pub t: f64,
     /// The exact distance lies within `t ± error`.
     pub error: f64,
+    /// Where it is, in the assembly's coordinates: as near to the surface as numbers can say, from however far away the
+    /// ray comes.
+    pub p: DVec3,
     /// The object's index in the assembly.
     pub object: u32,
     /// The primitive's index in the assembly.

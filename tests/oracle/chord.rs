@@ -1,0 +1,103 @@
+//! One convex primitive and one line: where the line is inside, and how nearly it is not.
+
+use ray13::math::{DVec3, Ray};
+use ray13::scene::{Primitive, Shape};
+
+use super::number::{Number, cross, dot};
+use super::side::{Row, Side, along, direction, inverse, place, point, sides};
+
+/// One end of a chord.
+#[derive(Clone, Debug)]
+pub struct End<N> {
+    /// Where it is, in lengths of the ray's direction.
+    pub t: N,
+    /// The number of the face, as the program numbers them.
+    pub face: u32,
+}
+
+/// The part of a line that is inside a convex primitive.
+#[derive(Clone, Debug)]
+pub struct Chord<N> {
+    pub enter: End<N>,
+    pub leave: End<N>,
+}
+
+/// What a ray and a primitive come to when the primitive may be off by a little in its own coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// The ray meets even the shrunk primitive.
+    Hit,
+    /// The ray misses even the grown primitive.
+    Miss,
+    /// It passes too near the rim to say.
+    Either,
+}
+
+/// Where the line of the ray is inside a convex primitive grown by `growth` in its own coordinates (`sides`). None
+/// where it only touches it.
+pub fn chord<N: Number>(primitive: &Primitive, ray: &Ray, growth: f64) -> Option<Chord<N>> {
+    let (o, d) = (point(ray.o), direction(ray.d));
+    let sides: Vec<Side<N>> = sides(&primitive.shape, &primitive.map, growth);
+    let mut ends: Vec<End<N>> = Vec::new();
+    for (face, side) in sides.iter().enumerate() {
+        ends.extend(side.crossings(&o, &d).into_iter().map(|t| End { t, face: face as u32 }));
+    }
+    ends.sort_by(|a, b| a.t.partial_cmp(&b.t).expect("roots are numbers"));
+    let half = N::from(0.5);
+    let is_inside = |pair: &[End<N>]| {
+        let middle = (pair[0].t.clone() + pair[1].t.clone()) * half.clone();
+        let p = along(&o, &d, &middle);
+        pair[0].t < pair[1].t && sides.iter().all(|side| side.at(&p).sign() <= 0)
+    };
+    let inside: Vec<&[End<N>]> = ends.windows(2).filter(|pair| is_inside(pair)).collect();
+    Some(Chord { enter: inside.first()?[0].clone(), leave: inside.last()?[1].clone() })
+}
+
+/// Whether the ray, from its start on, must meet the primitive, must miss it, or neither, when every side may be off
+/// by `off` in the primitive's own coordinates, and the start by nothing.
+pub fn verdict<N: Number>(primitive: &Primitive, ray: &Ray, off: f64) -> Verdict {
+    let ahead = |growth| chord::<N>(primitive, ray, growth).is_some_and(|c| c.leave.t.sign() > 0);
+    match (ahead(-off), ahead(off)) {
+        (true, _) => Verdict::Hit,
+        (_, false) => Verdict::Miss,
+        _ => Verdict::Either,
+    }
+}
+
+/// How far a line passes from the middle of a curved surface, as a share of what it may without missing it: below 1 it
+/// crosses the surface, at 1 it touches its silhouette.
+///
+/// For a sphere or ellipsoid it is the distance from the centre in the unit space. For the side of a frustum, extended
+/// beyond its caps, it is `|dₓo_y − d_yo_x|` over `|d ρ − ρ′ o|` in the cross-section, where `ρ` is the radius at the
+/// start and `ρ′` its change along the direction: both are the same from every point of the line, and for a cylinder
+/// their quotient is the distance from the axis in radii.
+pub fn silhouette<N: Number>(primitive: &Primitive, ray: &Ray) -> Option<f64> {
+    let rows = inverse::<N>(&primitive.map);
+    let (world_o, world_d): (Row<N>, Row<N>) = (point(ray.o), direction(ray.d));
+    let o: [N; 3] = std::array::from_fn(|i| dot(&rows[i], &world_o));
+    let d: [N; 3] = std::array::from_fn(|i| dot(&rows[i], &world_d));
+    match &primitive.shape {
+        Shape::Sphere => {
+            let across = cross(&o, &d);
+            Some((dot(&across, &across) / dot(&d, &d)).sqrt().value())
+        }
+        Shape::Frustum { bottom, top } | Shape::Tube { bottom, top } => {
+            let (half, bottom, top) = (N::from(0.5), N::from(*bottom), N::from(*top));
+            let slope = half.clone() * (top.clone() - bottom.clone());
+            let rho = half * (top + bottom) + slope.clone() * o[2].clone();
+            let change = slope * d[2].clone();
+            let across = (d[0].clone() * o[1].clone() - d[1].clone() * o[0].clone()).abs();
+            let along: [N; 2] =
+                std::array::from_fn(|i| d[i].clone() * rho.clone() - change.clone() * o[i].clone());
+            let along = dot(&along, &along).sqrt();
+            // Along the axis of a cylinder nothing is crossed.
+            (!along.is_zero()).then(|| (across / along).value())
+        }
+        _ => None,
+    }
+}
+
+/// The point of the ray at `t`, rounded once.
+pub fn point_at<N: Number>(ray: &Ray, t: &N) -> DVec3 {
+    DVec3::from_array(place(&along(&point(ray.o), &direction(ray.d), t)).map(|x: N| x.value()))
+}

@@ -125,8 +125,9 @@ impl<'a, N: Number> Oracle<'a, N> {
         let ray = Ray { o: &o, d: &d, origin: origin / self.unit, toward };
         let opens = self.pieces.iter().enumerate().filter_map(|(index, piece)| {
             let Surface::Open(open) = &piece.surface else { return None };
-            let (t, normal) = if piece.may_meet(&ray) { open.first(&o, &d, toward)? } else { return None };
-            let slack = self.slack(piece, normal, toward);
+            let (t, plane, normal) =
+                if piece.may_meet(&ray) { open.first(&o, &d, toward)? } else { return None };
+            let slack = self.slack(piece, plane, toward);
             let hit = Hit {
                 t: t.value(),
                 object: piece.object as u32 + 1,

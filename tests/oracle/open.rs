@@ -34,8 +34,9 @@ impl<N: Number> Open<N> {
         }
     }
 
-    /// Where the ray first meets it, and the normal there, turned to the side that the ray comes from.
-    pub fn first(&self, o: &Row<N>, d: &Row<N>, toward: DVec3) -> Option<(N, DVec3)> {
+    /// Where the ray first meets it; the normal of the surface there; and the normal that it shows, turned to the side
+    /// that the ray comes from.
+    pub fn first(&self, o: &Row<N>, d: &Row<N>, toward: DVec3) -> Option<(N, DVec3, DVec3)> {
         match self {
             Self::Tube(sides) => {
                 let (wall, caps) = sides.split_first()?;
@@ -43,7 +44,8 @@ impl<N: Number> Open<N> {
                 let on_wall = crossings.map(|t| (t.clone(), along(o, d, &t)));
                 let between = on_wall.filter(|(_, p)| caps.iter().all(|cap| cap.at(p).sign() <= 0));
                 let (t, p) = between.reduce(|a, b| if b.0 < a.0 { b } else { a })?;
-                Some((t, against(unit(&wall.gradient(&p)), toward)))
+                let normal = against(unit(&wall.gradient(&p)), toward);
+                Some((t, normal, normal))
             }
             Self::Polygon { fan, normals } => {
                 let inside = fan.iter().filter(|triangle| triangle.crossing(o, d).is_some()).count();
@@ -61,7 +63,7 @@ impl<N: Number> Open<N> {
                     let away = mean.dot(toward) / toward.length_squared();
                     if away > 0.0 { (mean - away * toward).normalize() } else { mean }
                 });
-                (t.sign() > 0).then_some((t, normal))
+                (t.sign() > 0).then_some((t, plane, normal))
             }
         }
     }

@@ -13,6 +13,9 @@ pub struct End<N> {
     pub t: N,
     /// The number of the face, as the program numbers them.
     pub face: u32,
+    /// The tangent of the angle between the ray and the face's normal in the primitive's own coordinates: how much
+    /// farther along the ray the end moves than the face does. `l / √(1 − l²)` on a sphere.
+    pub tangent: f64,
 }
 
 /// The part of a line that is inside a convex primitive.
@@ -38,26 +41,42 @@ pub enum Verdict {
 pub fn chord<N: Number>(primitive: &Primitive, ray: &Ray, growth: f64) -> Option<Chord<N>> {
     let (o, d) = (point(ray.o), direction(ray.d));
     let sides: Vec<Side<N>> = sides(&primitive.shape, &primitive.map, growth);
-    let mut ends: Vec<End<N>> = Vec::new();
+    let mut ends: Vec<(N, usize)> = Vec::new();
     for (face, side) in sides.iter().enumerate() {
-        ends.extend(side.crossings(&o, &d).into_iter().map(|t| End { t, face: face as u32 }));
+        ends.extend(side.crossings(&o, &d).into_iter().map(|t| (t, face)));
     }
-    ends.sort_by(|a, b| a.t.partial_cmp(&b.t).expect("roots are numbers"));
+    ends.sort_by(|a, b| a.0.partial_cmp(&b.0).expect("roots are numbers"));
     let half = N::from(0.5);
-    let is_inside = |pair: &[End<N>]| {
-        let middle = (pair[0].t.clone() + pair[1].t.clone()) * half.clone();
+    let is_inside = |pair: &[(N, usize)]| {
+        let middle = (pair[0].0.clone() + pair[1].0.clone()) * half.clone();
         let p = along(&o, &d, &middle);
-        pair[0].t < pair[1].t && sides.iter().all(|side| side.at(&p).sign() <= 0)
+        pair[0].0 < pair[1].0 && sides.iter().all(|side| side.at(&p).sign() <= 0)
     };
-    let inside: Vec<&[End<N>]> = ends.windows(2).filter(|pair| is_inside(pair)).collect();
-    Some(Chord { enter: inside.first()?[0].clone(), leave: inside.last()?[1].clone() })
+    let inside: Vec<&[(N, usize)]> = ends.windows(2).filter(|pair| is_inside(pair)).collect();
+    let end = |(t, face): &(N, usize)| {
+        let outward = sides[*face].gradient(&along(&o, &d, t));
+        End { t: t.clone(), face: *face as u32, tangent: tangent(primitive, &d, &outward) }
+    };
+    Some(Chord { enter: end(&inside.first()?[0]), leave: end(&inside.last()?[1]) })
+}
+
+/// The tangent of the angle between a direction and a gradient, both given in the world, in the primitive's own
+/// coordinates.
+fn tangent<N: Number>(primitive: &Primitive, d: &Row<N>, outward: &[N; 3]) -> f64 {
+    let d: [N; 3] = inverse::<N>(&primitive.map).map(|row| dot(&row, d));
+    let matrix = primitive.map.matrix3;
+    let columns = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(|c| c.to_array().map(N::from));
+    let normal = columns.map(|column| dot(&column, outward));
+    let (across, along) = (cross(&d, &normal), dot(&d, &normal).abs());
+    if along.is_zero() { f64::INFINITY } else { (dot(&across, &across).sqrt() / along).value() }
 }
 
 /// Whether the ray, from its start on, must meet the primitive, must miss it, or neither, when every side may be off
 /// by `off` in the primitive's own coordinates, and the start by nothing.
 pub fn verdict<N: Number>(primitive: &Primitive, ray: &Ray, off: f64) -> Verdict {
     let ahead = |growth| chord::<N>(primitive, ray, growth).is_some_and(|c| c.leave.t.sign() > 0);
-    match (ahead(-off), ahead(off)) {
+    // Shrunk by its half-size nothing is left of a primitive.
+    match (off < 1.0 && ahead(-off), ahead(off)) {
         (true, _) => Verdict::Hit,
         (_, false) => Verdict::Miss,
         _ => Verdict::Either,

@@ -19,7 +19,7 @@ use ray13::math::DVec3;
 use ray13::scene::{Primitive, Scene, Shape, Solid};
 
 pub use big::Big;
-pub use chord::{Verdict, chord, point_at, silhouette, verdict};
+pub use chord::{Chord, Verdict, chord, point_at, silhouette, verdict};
 pub use number::Number;
 pub use wide::Wide;
 

@@ -186,6 +186,7 @@ fn a_chord_is_rounded_once_from_whatever_far() {
     assert!((found.leave.t.clone() - found.enter.t.clone() - half.clone() - half).abs() < Big::from(1e-150));
     assert!((point_at(&ray, &found.enter.t) - DVec3::new(-0.8, 0.0, 0.6)).length() < 1e-15);
     assert_eq!(silhouette::<Big>(&ball, &ray), Some(0.6));
+    assert!((found.enter.tangent - 0.75).abs() < 1e-15, "{}", found.enter.tangent);
     // A scale and a ratio at which no square is an f64.
     let needle = primitive(Shape::Sphere, DVec3::new(1e300, 1e-300, 1e-300));
     let across = Ray::new(DVec3::new(0.0, -1e-299, 0.0), DVec3::Y);

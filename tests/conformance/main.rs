@@ -1,0 +1,82 @@
+//! What every engine must do, written once: each row below is a test of each engine that is named at the bottom.
+//!
+//! `RAY13_LONG=1 cargo test --release --test conformance -- --nocapture` runs a hundred times as many cases and
+//! prints figures.
+
+mod aim;
+mod chance;
+mod distance;
+mod engine;
+mod long;
+#[path = "../oracle/mod.rs"]
+mod oracle;
+mod solids;
+mod tally;
+
+/// The rows, as tests of one engine.
+macro_rules! conformance {
+    ($name:ident, $subject:ty) => {
+        mod $name {
+            use ray13::scene::Shape;
+
+            use crate::{distance, solids};
+
+            #[test]
+            fn spheres_at_any_distance() {
+                distance::at_any_distance::<$subject>("sphere", &Shape::Sphere, true);
+            }
+
+            #[test]
+            fn ellipsoids_at_any_distance() {
+                distance::at_any_distance::<$subject>("ellipsoid", &Shape::Sphere, false);
+            }
+
+            #[test]
+            fn cylinders_at_any_distance() {
+                distance::at_any_distance::<$subject>("cylinder", &solids::CYLINDER, false);
+            }
+
+            #[test]
+            fn cones_at_any_distance() {
+                distance::at_any_distance::<$subject>("cone", &solids::CONE, false);
+            }
+
+            #[test]
+            fn frustums_at_any_distance() {
+                distance::at_any_distance::<$subject>("frustum", &solids::FRUSTUM, false);
+            }
+
+            #[test]
+            fn boxes_at_any_distance() {
+                distance::at_any_distance::<$subject>("box", &Shape::Cube, false);
+            }
+
+            #[test]
+            fn prisms_at_any_distance() {
+                distance::at_any_distance::<$subject>("prism", &solids::prism(), false);
+            }
+
+            #[test]
+            fn ellipsoids_of_any_ratio() {
+                distance::at_any_ratio::<$subject>("thin ellipsoid", &Shape::Sphere);
+            }
+
+            #[test]
+            fn cylinders_of_any_ratio() {
+                distance::at_any_ratio::<$subject>("thin cylinder", &solids::CYLINDER);
+            }
+
+            #[test]
+            fn cones_of_any_ratio() {
+                distance::at_any_ratio::<$subject>("thin cone", &solids::CONE);
+            }
+
+            #[test]
+            fn boxes_of_any_ratio() {
+                distance::at_any_ratio::<$subject>("thin box", &Shape::Cube);
+            }
+        }
+    };
+}
+
+conformance!(exact, crate::engine::ExactEngine);

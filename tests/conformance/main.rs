@@ -7,9 +7,11 @@ mod aim;
 mod chance;
 mod distance;
 mod engine;
+mod leaving;
 mod long;
 #[path = "../oracle/mod.rs"]
 mod oracle;
+mod planes;
 mod solids;
 mod tally;
 
@@ -19,7 +21,7 @@ macro_rules! conformance {
         mod $name {
             use ray13::scene::Shape;
 
-            use crate::{distance, solids};
+            use crate::{distance, leaving, planes, solids};
 
             #[test]
             fn spheres_at_any_distance() {
@@ -74,6 +76,31 @@ macro_rules! conformance {
             #[test]
             fn boxes_of_any_ratio() {
                 distance::at_any_ratio::<$subject>("thin box", &Shape::Cube);
+            }
+
+            #[test]
+            fn a_surface_is_left_once() {
+                leaving::surfaces_are_left_once::<$subject>();
+            }
+
+            #[test]
+            fn a_reversed_ray_finds_the_same_ends() {
+                leaving::a_reversed_ray_finds_the_same_ends::<$subject>();
+            }
+
+            #[test]
+            fn one_of_two_abutting_boxes_claims_a_ray() {
+                planes::one_of_two_abutting_boxes_claims_a_ray::<$subject>();
+            }
+
+            #[test]
+            fn faces_are_half_open() {
+                planes::faces_are_half_open::<$subject>();
+            }
+
+            #[test]
+            fn a_union_of_boxes_is_one() {
+                planes::a_union_of_boxes_is_one::<$subject>();
             }
         }
     };

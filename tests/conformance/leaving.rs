@@ -1,12 +1,13 @@
 //! Rays that leave a surface, and rays that come from the other side.
 
 use ray13::math::{DMat3, DVec3, Ray};
-use ray13::scene::{Scene, Shape, Solid};
+use ray13::scene::{Primitive, Scene, Shape, Solid};
 
 use crate::aim::aimed;
 use crate::chance::Chance;
 use crate::engine::{Cut, Found, Start, Subject};
 use crate::long::{cases, report};
+use crate::oracle::{Big, Verdict, verdict};
 use crate::solids::{CONE, CYLINDER, FRUSTUM, placed, primitive, prism, scene};
 use crate::tally::{said, ulp};
 
@@ -25,7 +26,7 @@ fn any_convex(chance: &mut Chance) -> (Shape, DMat3) {
 /// Row 3: radii and places over 16 decades. A convex solid is not met again by a ray that leaves it to its outer
 /// side, and by one to its inner side it is left once.
 pub fn surfaces_are_left_once<S: Subject>() {
-    let (mut left, mut faults) = (0_usize, Vec::new());
+    let (mut left, mut at_rim, mut faults) = (0_usize, 0_usize, Vec::new());
     for case in 0..cases(300, 4) {
         let chance = &mut Chance::new("leaving", case as u64);
         let (shape, linear) = any_convex(chance);
@@ -47,6 +48,10 @@ pub fn surfaces_are_left_once<S: Subject>() {
             let own = next.filter(|found| found.primitive == 0);
             let inward = subject.inward(start);
             left += 1;
+            if inward && own.is_none() && starts_at_rim(&subject, &solid, start) {
+                at_rim += 1;
+                continue;
+            }
             if own.is_some() != inward || own.is_some_and(|found| found.entering) {
                 faults.push(format!(
                     "inward {inward}, then {next:?}, after {:?} toward {:?}: {}",
@@ -66,9 +71,20 @@ pub fn surfaces_are_left_once<S: Subject>() {
             }
         }
     }
-    report(|| format!("leaving: {left} rays, {} faults", faults.len()));
-    assert!(left > 1000, "{left}");
+    report(|| format!("leaving: {left} rays, {at_rim} from a rim, {} faults", faults.len()));
+    assert!(left > 1000 && at_rim * 100 < left, "{left}, {at_rim} of them from a rim");
     assert!(faults.is_empty(), "{} of {left}:\n{}", faults.len(), faults[..faults.len().min(4)].join("\n"));
+}
+
+/// Whether the ray starts so near an edge, and crosses it so nearly along the surface, that it may as well be outside:
+/// of the solid shrunk by the engine's bound nothing is ahead.
+fn starts_at_rim(subject: &impl Subject, solid: &Primitive, start: &Start) -> bool {
+    let from = Ray::new(start.ray.at(start.hit.t), start.toward);
+    let inverse = solid.map.matrix3.inverse();
+    let stretch = [0, 1, 2].iter().map(|&i| inverse.col(i).length()).sum::<f64>();
+    // Here the start is a point of the scene; each of its coordinates is rounded.
+    let rounded = f64::EPSILON * from.o.length() * stretch;
+    verdict::<Big>(solid, &from, subject.rim(solid, &start.ray) + rounded) != Verdict::Hit
 }
 
 /// The solid alone; beside another; or as part of an expression.

@@ -100,7 +100,7 @@ impl Solids {
 
     /// A surface whose corners are in the world already.
     fn surface(&mut self, shape: Shape, material: MaterialId) {
-        let solid = Solid::Primitive(Primitive { shape, map: DAffine3::IDENTITY, material });
+        let solid = Solid::Primitive(Primitive::new(shape, DAffine3::IDENTITY, material));
         self.objects.push(Object { name: None, solid });
     }
 
@@ -115,7 +115,8 @@ impl Solids {
         if !(bounds.lo.is_finite() && bounds.hi.is_finite()) {
             return Err(entity.wrong(entity.keyword, "it reaches farther than a 64-bit float holds"));
         }
-        self.objects.push(Object { name: None, solid: Solid::Primitive(Primitive { shape, map, material }) });
+        self.objects
+            .push(Object { name: None, solid: Solid::Primitive(Primitive::new(shape, map, material)) });
         Ok(())
     }
 

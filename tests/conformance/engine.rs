@@ -7,7 +7,7 @@ use ray13::lattice::{Lattice, Structure, SubLattices, Tree};
 use ray13::math::{DVec3, Ray, Size};
 use ray13::plan::{Options, StructureChoice};
 use ray13::scene::{Camera, Primitive, Scene};
-use ray13::solid::{Assembly, Departure, ROUNDING};
+use ray13::solid::{Assembly, Datum, Departure, ROUNDING};
 use ray13::stage::{Meter, Silent};
 use ray13::tone::Tone;
 use ray13::trace::{Engine, Exact, Hit};
@@ -79,9 +79,9 @@ pub trait Subject: Sized {
     /// Whether a ray that leaves a hit along `toward` goes to the inside of the primitive that was hit.
     fn inward(&self, start: &Start) -> bool;
 
-    /// How far, in a primitive's own coordinates, a ray may pass on the other side of its rim and still be said to
-    /// meet it, or not to.
-    fn rim(&self, primitive: &Primitive, ray: &Ray) -> f64;
+    /// How far along the axes of a primitive's own coordinates a ray may pass on the other side of its rim and still be
+    /// said to meet it, or not to.
+    fn rim(&self, primitive: &Primitive, ray: &Ray) -> DVec3;
 
     /// A picture.
     fn draw(scene: &Scene, camera: &Camera, dots: Size, cut: Cut) -> Frame;
@@ -96,6 +96,10 @@ pub struct ExactEngine {
     tree: Tree,
     subs: SubLattices,
 }
+
+/// How far from the assembly's origin a ray starts at most, in the assembly's unit: within 1 of a box whose corners are
+/// within √12.
+const WORLD: f64 = 5.0;
 
 impl ExactEngine {
     fn structure(&self) -> Structure<'_> {
@@ -169,24 +173,19 @@ impl Subject for ExactEngine {
         self.leaving(start).1.inward
     }
 
-    /// A crossing's coordinates are off by [`ROUNDING`] of the lengths that they were computed from: the way from the
-    /// ray's start to the primitive, where the start was first moved to half a unit before the world at most; and
-    /// how far the primitive reaches from the origin. In the primitive's own coordinates that is multiplied by the
-    /// norm of the inverse map. Where the origin was moved, the eye's place is rounded too.
+    /// A point of a primitive seems off its place by [`ROUNDING`] of the lengths of the world and of the way from its
+    /// origin to the primitive's, which is what is rounded since the ray's start, and by what was rounded in the map. Where the origin was moved, the primitive's place and the eye's were rounded once more. Along an axis of
+    /// the primitive's own coordinates that is multiplied by the length of the inverse map's row.
     ///
     /// A chord that such an error could have made counts as none: on a sphere where the ray passes within once the
-    /// error of the silhouette, on the side of a frustum within twice. Its own error comes on top.
-    fn rim(&self, primitive: &Primitive, ray: &Ray) -> f64 {
-        let Assembly { datum, limit, .. } = &self.assembly;
-        let (linear, center) = (primitive.map.matrix3, primitive.map.translation);
-        let inverse = linear.inverse();
-        let stretch = libm::sqrt([0, 1, 2].iter().map(|&i| inverse.col(i).length_squared()).sum::<f64>());
-        let world = (limit.hi - limit.lo).length();
-        let way = ray.o.distance(center).min((0.5 + world) * datum.unit);
-        let size: f64 = [0, 1, 2].iter().map(|&i| linear.col(i).length()).sum();
-        let reach = center.distance(datum.origin) + size;
-        let eye = if datum.origin == DVec3::ZERO { 0.0 } else { ray.o.distance(datum.origin) };
-        3.0 * stretch * (ROUNDING * (way + reach) + f64::EPSILON * eye)
+    /// error of the silhouette, on the side of a frustum within twice. The ray's own error comes on top.
+    fn rim(&self, primitive: &Primitive, ray: &Ray) -> DVec3 {
+        let Datum { origin, unit } = self.assembly.datum;
+        let (from_origin, eye) = (primitive.map.translation.distance(origin), ray.o.distance(origin));
+        let shifted = if origin == DVec3::ZERO { 0.0 } else { ROUNDING * from_origin + f64::EPSILON * eye };
+        let off = ROUNDING * (WORLD * unit + from_origin) + primitive.map_error + shifted;
+        let inverse = primitive.map.matrix3.inverse();
+        DVec3::from_array([0, 1, 2].map(|i| inverse.row(i).length())) * (3.0 * off)
     }
 
     fn draw(scene: &Scene, camera: &Camera, dots: Size, cut: Cut) -> Frame {

@@ -81,9 +81,9 @@ pub fn surfaces_are_left_once<S: Subject>() {
 fn starts_at_rim(subject: &impl Subject, solid: &Primitive, start: &Start) -> bool {
     let from = Ray::new(start.ray.at(start.hit.t), start.toward);
     let inverse = solid.map.matrix3.inverse();
-    let stretch = [0, 1, 2].iter().map(|&i| inverse.col(i).length()).sum::<f64>();
     // Here the start is a point of the scene; each of its coordinates is rounded.
-    let rounded = f64::EPSILON * from.o.length() * stretch;
+    let rounded =
+        DVec3::from_array([0, 1, 2].map(|i| inverse.row(i).length())) * f64::EPSILON * from.o.length();
     verdict::<Big>(solid, &from, subject.rim(solid, &start.ray) + rounded) != Verdict::Hit
 }
 

@@ -35,7 +35,7 @@ pub fn mesh() -> Shape {
 
 pub fn primitive(shape: &Shape, linear: DMat3, center: DVec3) -> Primitive {
     let map = DAffine3::from_mat3_translation(linear, center);
-    Primitive { shape: shape.clone(), map, material: MaterialId(0) }
+    Primitive::new(shape.clone(), map, MaterialId(0))
 }
 
 pub fn solid(shape: &Shape, linear: DMat3, center: DVec3) -> Solid {
@@ -56,7 +56,7 @@ pub fn scene(solids: impl IntoIterator<Item = Solid>) -> Scene {
 pub fn mapped(solid: &Solid, change: &impl Fn(&DAffine3) -> DAffine3) -> Solid {
     let all = |parts: &[Solid]| parts.iter().map(|part| mapped(part, change)).collect();
     match solid {
-        Solid::Primitive(p) => Solid::Primitive(Primitive { map: change(&p.map), ..p.clone() }),
+        Solid::Primitive(p) => Solid::Primitive(Primitive::new(p.shape.clone(), change(&p.map), p.material)),
         Solid::Union(parts) => Solid::Union(all(parts)),
         Solid::Intersection(parts) => Solid::Intersection(all(parts)),
         Solid::Difference(parts) => Solid::Difference(all(parts)),

@@ -1,6 +1,6 @@
 //! An engine's answers about one primitive, held against the oracle's.
 
-use ray13::math::Ray;
+use ray13::math::{DVec3, Ray};
 use ray13::scene::Primitive;
 
 use crate::engine::{Found, Subject};
@@ -43,7 +43,7 @@ impl Tally {
         found: Option<Found>,
     ) {
         self.rays += 1;
-        let exact = chord::<Big>(primitive, ray, 0.0).filter(|c| c.leave.t.sign() > 0);
+        let exact = chord::<Big>(primitive, ray, DVec3::ZERO).filter(|c| c.leave.t.sign() > 0);
         if exact.is_some() != found.is_some() {
             match verdict::<Big>(primitive, ray, subject.rim(primitive, ray)) {
                 Verdict::Either => self.wrong_at_rim += 1,
@@ -130,9 +130,9 @@ impl Tally {
 }
 
 /// By how much the bound would have to be larger, as a power of two.
-fn beyond(primitive: &Primitive, ray: &Ray, bound: f64) -> f64 {
+fn beyond(primitive: &Primitive, ray: &Ray, bound: DVec3) -> f64 {
     let mut factor = 1.0;
-    while factor < 1e15 && verdict::<Big>(primitive, ray, factor * bound) != Verdict::Either {
+    while factor < 1e15 && verdict::<Big>(primitive, ray, bound * factor) != Verdict::Either {
         factor *= 2.0;
     }
     factor

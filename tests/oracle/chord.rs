@@ -36,9 +36,9 @@ pub enum Verdict {
     Either,
 }
 
-/// Where the line of the ray is inside a convex primitive grown by `growth` in its own coordinates (`sides`). None
+/// Where the line of the ray is inside a convex primitive grown by `growth` along the axes of its own coordinates (`sides`). None
 /// where it only touches it.
-pub fn chord<N: Number>(primitive: &Primitive, ray: &Ray, growth: f64) -> Option<Chord<N>> {
+pub fn chord<N: Number>(primitive: &Primitive, ray: &Ray, growth: DVec3) -> Option<Chord<N>> {
     let (o, d) = (point(ray.o), direction(ray.d));
     let sides: Vec<Side<N>> = sides(&primitive.shape, &primitive.map, growth);
     let mut ends: Vec<(N, usize)> = Vec::new();
@@ -71,12 +71,12 @@ fn tangent<N: Number>(primitive: &Primitive, d: &Row<N>, outward: &[N; 3]) -> f6
     if along.is_zero() { f64::INFINITY } else { (dot(&across, &across).sqrt() / along).value() }
 }
 
-/// Whether the ray, from its start on, must meet the primitive, must miss it, or neither, when every side may be off
-/// by `off` in the primitive's own coordinates, and the start by nothing.
-pub fn verdict<N: Number>(primitive: &Primitive, ray: &Ray, off: f64) -> Verdict {
+/// Whether the ray, from its start on, must meet the primitive, must miss it, or neither, when every point
+/// of it may be off by `off` along the axes of its own coordinates, and the start by nothing.
+pub fn verdict<N: Number>(primitive: &Primitive, ray: &Ray, off: DVec3) -> Verdict {
     let ahead = |growth| chord::<N>(primitive, ray, growth).is_some_and(|c| c.leave.t.sign() > 0);
     // Shrunk by its half-size nothing is left of a primitive.
-    match (off < 1.0 && ahead(-off), ahead(off)) {
+    match (off.max_element() < 1.0 && ahead(-off), ahead(off)) {
         (true, _) => Verdict::Hit,
         (_, false) => Verdict::Miss,
         _ => Verdict::Either,

@@ -50,6 +50,7 @@ pub struct Oracle<'a, N = Wide> {
     pieces: Vec<Piece<N>>,
     /// The length in the scene's unit that is 1 here: a power of two near the scene's size.
     unit: f64,
+    /// So many times its rounding a surface may move.
     tolerance: f64,
 }
 
@@ -61,6 +62,8 @@ struct Piece<N> {
     /// A ball around it.
     center: DVec3,
     radius: f64,
+    /// How far rounding may have moved it.
+    map_error: f64,
 }
 
 #[derive(Debug)]
@@ -88,21 +91,14 @@ struct Crossing<N> {
 /// a candidate too many changes no membership.
 const SLACK: f64 = 1e-9;
 
-/// Surfaces that are meant to coincide do so within the rounding of their maps' numbers. Of one that comes from a
-/// product of maps, each entry is off by 4 half-ulps of the lengths it is summed from per factor; four factors, and
-/// the point's own place on it, make 16 ulps of `f64::EPSILON` at most between two of them, as a share of the
-/// distance of the piece's farthest point from the scene's origin.
-pub const MAP_ROUNDING: f64 = 16.0 * f64::EPSILON;
-
 impl<'a, N: Number> Oracle<'a, N> {
-    /// An oracle to which stretches of a ray are of no account that would vanish if surfaces moved by
-    /// [`MAP_ROUNDING`].
+    /// An oracle to which a stretch of a ray is of no account that vanishes when surfaces move by what was rounded in
+    /// their maps, which the scene says of each primitive.
     pub fn new(scene: &'a Scene) -> Self {
-        Self::with_tolerance(scene, MAP_ROUNDING)
+        Self::with_tolerance(scene, 1.0)
     }
 
-    /// The same with another share of a piece's reach in place of [`MAP_ROUNDING`]; 0 takes the scene's numbers at
-    /// their word.
+    /// The same with so many times the scene's [`map_error`](Primitive::map_error); 0 takes its numbers at their word.
     pub fn with_tolerance(scene: &'a Scene, tolerance: f64) -> Self {
         let mut size = 0.0_f64;
         for object in &scene.objects {
@@ -149,7 +145,7 @@ impl<'a, N: Number> Oracle<'a, N> {
     /// the whole piece.
     fn slack(&self, piece: &Piece<N>, normal: DVec3, toward: DVec3) -> f64 {
         let length = toward.length();
-        let off = self.tolerance * (piece.center.length() + piece.radius);
+        let off = self.tolerance * piece.map_error;
         let sine = (normal.dot(toward) / length).abs();
         (off / sine.max(f64::MIN_POSITIVE)).min(2.0 * piece.radius) / length
     }
@@ -272,12 +268,12 @@ impl<N: Number> Piece<N> {
         let surface = match &primitive.shape {
             Shape::Mesh(mesh) => Surface::Parity(Triangle::of(mesh, &map)),
             open if open.is_surface() => Surface::Open(Open::new(open, &map)),
-            convex => Surface::Convex(sides(convex, &map, 0.0)),
+            convex => Surface::Convex(sides(convex, &map, DVec3::ZERO)),
         };
         let corners = primitive.shape.bounds().corners().map(|corner| map.transform_point3(corner));
         let center = corners.iter().fold(DVec3::ZERO, |sum, &p| sum + p / 8.0);
         let radius = corners.iter().map(|p| p.distance(center)).fold(0.0, f64::max);
-        Self { object, surface, center, radius }
+        Self { object, surface, center, radius, map_error: primitive.map_error / unit }
     }
 
     /// Whether a ray comes near the ball; a hundredth of its radius, and what rounding takes from the way there, are

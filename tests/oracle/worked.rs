@@ -170,7 +170,7 @@ fn a_sheared_map_is_inverted() {
 }
 
 fn primitive(shape: Shape, half: DVec3) -> Primitive {
-    Primitive { shape, map: DAffine3::from_scale(half), material: MaterialId(0) }
+    Primitive::new(shape, DAffine3::from_scale(half), MaterialId(0))
 }
 
 #[test]
@@ -178,7 +178,7 @@ fn a_chord_is_rounded_once_from_whatever_far() {
     // From 1e9 radii away at height 0.6: 1e9 − 0.8 and 1e9 + 0.8, whose squares differ by 1 part in 1e18.
     let ball = primitive(Shape::Sphere, DVec3::ONE);
     let ray = Ray::new(DVec3::new(-1e9, 0.0, 0.6), DVec3::X);
-    let found = chord::<Big>(&ball, &ray, 0.0).unwrap();
+    let found = chord::<Big>(&ball, &ray, DVec3::ZERO).unwrap();
     // 0.6 is not six tenths: 1 − 0.6² is near 0.64 only.
     let half = (Big::from(1.0) - Big::from(0.6) * Big::from(0.6)).sqrt();
     assert_eq!(found.enter.t.value(), (Big::from(1e9) - half.clone()).value());
@@ -190,14 +190,14 @@ fn a_chord_is_rounded_once_from_whatever_far() {
     // A scale and a ratio at which no square is an f64.
     let needle = primitive(Shape::Sphere, DVec3::new(1e300, 1e-300, 1e-300));
     let across = Ray::new(DVec3::new(0.0, -1e-299, 0.0), DVec3::Y);
-    let found = chord::<Big>(&needle, &across, 0.0).unwrap();
+    let found = chord::<Big>(&needle, &across, DVec3::ZERO).unwrap();
     assert_eq!(found.enter.t.value(), (Big::from(1e-299) - Big::from(1e-300)).value());
 }
 
 #[test]
 fn a_chord_names_its_faces() {
     let faces = |shape: Shape, o: [f64; 3], d: [f64; 3]| {
-        let found = chord::<Wide>(&primitive(shape, DVec3::ONE), &Ray::new(o.into(), d.into()), 0.0)?;
+        let found = chord::<Wide>(&primitive(shape, DVec3::ONE), &Ray::new(o.into(), d.into()), DVec3::ZERO)?;
         Some((found.enter.t.value(), found.enter.face, found.leave.t.value(), found.leave.face))
     };
     assert_eq!(faces(Shape::Cube, [-3.0, 0.1, 0.2], [1.0, 0.0, 0.0]), Some((2.0, 0, 4.0, 1)));
@@ -230,7 +230,7 @@ fn a_verdict_leaves_the_rim_open() {
         let at_height = |y: f64| {
             let ray = Ray::new(DVec3::new(-9.0, y, -1.0 + 1e-3), DVec3::X);
             let lowered = if shape == Shape::Sphere { Ray::new(ray.o.with_z(0.0), ray.d) } else { ray };
-            verdict::<Big>(&primitive(shape.clone(), DVec3::ONE), &lowered, 1e-2)
+            verdict::<Big>(&primitive(shape.clone(), DVec3::ONE), &lowered, DVec3::splat(1e-2))
         };
         // The caps are that near too, and the cone is a little narrower there.
         let within = if shape == Shape::Sphere { Verdict::Hit } else { Verdict::Either };
@@ -239,7 +239,10 @@ fn a_verdict_leaves_the_rim_open() {
         assert_eq!(at_height(1.02), Verdict::Miss, "{shape:?}");
     }
     let behind = Ray::new(DVec3::new(9.0, 0.0, 0.0), DVec3::X);
-    assert_eq!(verdict::<Big>(&primitive(Shape::Sphere, DVec3::ONE), &behind, 1e-2), Verdict::Miss);
+    assert_eq!(
+        verdict::<Big>(&primitive(Shape::Sphere, DVec3::ONE), &behind, DVec3::splat(1e-2)),
+        Verdict::Miss
+    );
 }
 
 #[test]
@@ -261,7 +264,7 @@ fn what_is_of_no_account_is_the_caller_s_to_say() {
         let oracle = Oracle::<Big>::with_tolerance(&scene, tolerance);
         oracle.hit(DVec3::new(0.2, 0.1, 5.0), DVec3::NEG_Z).map(|hit| (hit.t, hit.primitive, hit.entering))
     };
-    assert_eq!(hit(super::MAP_ROUNDING), None);
+    assert_eq!(hit(1.0), None);
     assert_eq!(hit(0.0), Some((4.0, 0, true)));
 }
 

@@ -9,11 +9,15 @@ mod distance;
 mod engine;
 mod leaving;
 mod long;
+mod nothing;
 #[path = "../oracle/mod.rs"]
 mod oracle;
+mod order;
 mod planes;
+mod scale;
 mod solids;
 mod tally;
+mod trees;
 
 /// The rows, as tests of one engine.
 macro_rules! conformance {
@@ -21,7 +25,7 @@ macro_rules! conformance {
         mod $name {
             use ray13::scene::Shape;
 
-            use crate::{distance, leaving, planes, solids};
+            use crate::{distance, leaving, nothing, order, planes, scale, solids, trees};
 
             #[test]
             fn spheres_at_any_distance() {
@@ -101,6 +105,51 @@ macro_rules! conformance {
             #[test]
             fn a_union_of_boxes_is_one() {
                 planes::a_union_of_boxes_is_one::<$subject>();
+            }
+
+            #[test]
+            fn a_sponge_is_one_in_any_order() {
+                order::a_sponge_is_one_in_any_order::<$subject>();
+            }
+
+            #[test]
+            fn the_laws_of_sets_hold() {
+                order::the_laws_of_sets_hold::<$subject>();
+            }
+
+            #[test]
+            fn random_expressions_agree_with_the_oracle() {
+                trees::random_expressions_agree_with_the_oracle::<$subject>();
+            }
+
+            #[test]
+            fn a_picture_is_the_same_at_any_scale() {
+                scale::a_picture_is_the_same_at_any_scale::<$subject>();
+            }
+
+            #[test]
+            fn a_picture_is_the_same_anywhere() {
+                scale::a_picture_is_the_same_anywhere::<$subject>();
+            }
+
+            #[test]
+            fn a_solid_minus_itself_is_nothing() {
+                nothing::a_solid_minus_itself_is_nothing::<$subject>();
+            }
+
+            #[test]
+            fn a_solid_and_itself_is_the_solid() {
+                nothing::a_solid_and_itself_is_the_solid::<$subject>();
+            }
+
+            #[test]
+            fn a_flush_hole_is_open() {
+                nothing::a_flush_hole_is_open::<$subject>();
+            }
+
+            #[test]
+            fn a_flush_hole_is_open_under_other_maps() {
+                nothing::a_flush_hole_is_open_under_other_maps::<$subject>();
             }
         }
     };

@@ -1,0 +1,125 @@
+//! Random expressions against the oracle.
+
+use ray13::math::{DAffine3, DMat3, DVec3, Ray};
+use ray13::scene::{Scene, Shape, Solid};
+
+use crate::chance::Chance;
+use crate::engine::{Cut, Found, Subject};
+use crate::long::{cases, report};
+use crate::oracle::{Big, Hit, Oracle};
+use crate::solids::{CONE, CYLINDER, FRUSTUM, mesh, moved, prism, scene, solid};
+use crate::tally::ulp;
+
+/// Axes permuted and reversed, or any turn.
+pub fn any_turn(chance: &mut Chance) -> DMat3 {
+    if chance.below(2) == 0 {
+        return chance.turn();
+    }
+    let first = chance.below(3);
+    let second = (first + 1 + chance.below(2)) % 3;
+    let (x, y) = (DVec3::AXES[first] * chance.sign(), DVec3::AXES[second] * chance.sign());
+    DMat3::from_cols(x, y, x.cross(y))
+}
+
+/// On a coarse grid, so that faces are flush, edges meet and solids coincide.
+fn any_primitive(chance: &mut Chance) -> Solid {
+    let shape = chance.one_of(&[
+        Shape::Sphere,
+        Shape::Sphere,
+        Shape::Cube,
+        Shape::Cube,
+        Shape::Cube,
+        CYLINDER,
+        CYLINDER,
+        CONE,
+        FRUSTUM,
+        prism(),
+        mesh(),
+    ]);
+    let turn = if chance.below(4) > 0 { DMat3::IDENTITY } else { any_turn(chance) };
+    let mut step = |from: i64, count: usize| 0.5 * (from + chance.below(count) as i64) as f64;
+    let half = DVec3::new(step(1, 3), step(1, 3), step(1, 3));
+    let center = DVec3::new(step(-2, 5), step(-2, 5), step(-2, 5));
+    solid(&shape, turn * DMat3::from_diagonal(half), center)
+}
+
+/// An expression so many operators deep at most, with one to three operands each.
+pub fn any_solid(chance: &mut Chance, depth: usize) -> Solid {
+    if depth == 0 || chance.below(4) == 0 {
+        return any_primitive(chance);
+    }
+    let parts: Vec<Solid> = (0..1 + chance.below(3)).map(|_| any_solid(chance, depth - 1)).collect();
+    match chance.below(3) {
+        0 => Solid::Union(parts),
+        1 => Solid::Intersection(parts),
+        _ => Solid::Difference(parts),
+    }
+}
+
+/// So many times the rounding of a scene's maps an engine's own rounding comes to: its bound for a point is 80 ulps of
+/// the world against 4 of the map, and the world may be four times as large as the solid.
+const ENGINE: f64 = 64.0;
+
+/// Row 7: at random scales and turned, in four of ten from inside or far away.
+pub fn random_expressions_agree_with_the_oracle<S: Subject>() {
+    let mut faults = Vec::new();
+    let (mut hits, mut count, mut in_doubt) = (0_usize, 0_usize, 0_usize);
+    for case in 0..cases(250, 100) {
+        let chance = &mut Chance::new("trees", case as u64);
+        let scale = if chance.below(2) == 0 { 1.0 } else { chance.decade(-100.0, 100.0) };
+        let by = DAffine3::from_mat3(any_turn(chance) * scale);
+        let solids = (0..1 + chance.below(2)).map(|_| moved(&any_solid(chance, 4), &by));
+        let world: Scene = scene(solids.collect::<Vec<_>>());
+        let rays: Vec<Ray> = (0..20).map(|_| any_ray(&by, chance)).collect();
+        let oracle = Oracle::<Big>::new(&world);
+        let found = S::new(&world, chance.one_of(&Cut::ALL)).first(&rays);
+        for (ray, found) in rays.iter().zip(found) {
+            let expected = oracle.hit(ray.o, ray.d);
+            count += 1;
+            hits += usize::from(expected.is_some());
+            if agrees(found, expected, ray) {
+                continue;
+            }
+            // Where other surfaces than the oracle's own tolerance makes one are one to the engine too, it may be right.
+            let others = [0.0, 1.0 / ENGINE, ENGINE]
+                .map(|factor| Oracle::<Big>::with_tolerance(&world, factor).hit(ray.o, ray.d));
+            if others.iter().any(|&other| agrees(found, other, ray)) {
+                in_doubt += 1;
+            } else {
+                faults.push(format!("case {case}: {found:?}, expected {expected:?}, {ray:?}"));
+            }
+        }
+    }
+    report(|| format!("trees: {count} rays, {hits} hits, {in_doubt} in doubt, {} faults", faults.len()));
+    assert!(hits * 4 > count, "{hits} of {count}");
+    assert!(in_doubt * 200 < count, "{in_doubt} of {count}");
+    assert!(faults.is_empty(), "{} of {count}:\n{}", faults.len(), faults[..faults.len().min(6)].join("\n"));
+}
+
+/// Most from outside, aimed at the grid's points now and then; some from within, some from afar.
+fn any_ray(by: &DAffine3, chance: &mut Chance) -> Ray {
+    let mut target = chance.point() * 1.5;
+    if chance.below(4) == 0 {
+        target = (target * 2.0).round() / 2.0;
+    }
+    let d =
+        if chance.below(8) == 0 { DVec3::AXES[chance.below(3)] * chance.sign() } else { chance.direction() };
+    let distance = match chance.below(10) {
+        0 | 1 => 0.0,
+        2 | 3 => chance.decade(1.0, 6.0),
+        _ => 8.0,
+    };
+    Ray::new(by.transform_point3(target - d * distance), by.transform_vector3(d).normalize())
+}
+
+fn agrees(found: Option<Found>, expected: Option<Hit>, ray: &Ray) -> bool {
+    match (found, expected) {
+        (None, None) => true,
+        (Some(found), Some(hit)) => {
+            // A ray that starts afar was rounded there, and so is its length.
+            let off = found.error + 4.0 * ulp(found.t) + 4.0 * ulp(ray.o.abs().max_element());
+            (found.t - hit.t).abs() <= off && found.object + 1 == hit.object && found.entering == hit.entering
+        }
+        _ => false,
+    }
+}

@@ -2,7 +2,9 @@
 
 use ray13::frame::Frame;
 use ray13::math::{DAffine3, DMat3, DVec3, Size};
-use ray13::scene::{Anchor, Camera, FieldSpan, Light, Object, Scene, Shape, Solid, embedded, read};
+use ray13::scene::{
+    Anchor, Camera, FieldSpan, Light, Object, Primitive, Scene, Shape, Solid, embedded, read,
+};
 use ray13::tone::Tone;
 
 use crate::engine::{Cut, Subject};
@@ -75,7 +77,10 @@ fn changed(
     scale: f64,
 ) -> View {
     let View { name, scene, camera } = view;
-    let object = |object: &Object| Object { name: None, solid: mapped(&object.solid, map) };
+    // The change rounds nothing, or as little as a scale does: the maps are as good as they were.
+    let primitive =
+        |p: &Primitive| Primitive { map: map(&p.map), map_error: p.map_error * scale, ..p.clone() };
+    let object = |object: &Object| Object { name: None, solid: mapped(&object.solid, &primitive) };
     let light = |light: &Light| match light.anchor {
         Anchor::World(p) => Light { anchor: Anchor::World(place(p)), ..light.clone() },
         Anchor::Eye(_) => light.clone(),

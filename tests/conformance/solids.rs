@@ -52,11 +52,11 @@ pub fn scene(solids: impl IntoIterator<Item = Solid>) -> Scene {
     Scene { objects, materials: vec![Material::default()], ..Scene::default() }
 }
 
-/// The same solid with every primitive's map changed.
-pub fn mapped(solid: &Solid, change: &impl Fn(&DAffine3) -> DAffine3) -> Solid {
+/// The same solid with every primitive changed.
+pub fn mapped(solid: &Solid, change: &impl Fn(&Primitive) -> Primitive) -> Solid {
     let all = |parts: &[Solid]| parts.iter().map(|part| mapped(part, change)).collect();
     match solid {
-        Solid::Primitive(p) => Solid::Primitive(Primitive::new(p.shape.clone(), change(&p.map), p.material)),
+        Solid::Primitive(p) => Solid::Primitive(change(p)),
         Solid::Union(parts) => Solid::Union(all(parts)),
         Solid::Intersection(parts) => Solid::Intersection(all(parts)),
         Solid::Difference(parts) => Solid::Difference(all(parts)),
@@ -65,5 +65,5 @@ pub fn mapped(solid: &Solid, change: &impl Fn(&DAffine3) -> DAffine3) -> Solid {
 
 /// The same solid moved.
 pub fn moved(solid: &Solid, by: &DAffine3) -> Solid {
-    mapped(solid, &|map| *by * *map)
+    mapped(solid, &|p| Primitive::new(p.shape.clone(), *by * p.map, p.material))
 }

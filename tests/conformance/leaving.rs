@@ -10,6 +10,7 @@ use crate::long::{cases, report};
 use crate::oracle::{Big, Verdict, verdict};
 use crate::solids::{CONE, CYLINDER, FRUSTUM, placed, primitive, prism, scene};
 use crate::tally::{said, ulp};
+use crate::trees::any_solid;
 
 /// All shapes of convex solids, turned and not.
 fn any_convex(chance: &mut Chance) -> (Shape, DMat3) {
@@ -95,6 +96,52 @@ fn alone_or_not(solid: Solid, place: DVec3, radius: f64, chance: &mut Chance) ->
         1 => scene([solid, other]),
         _ => scene([Solid::Union(vec![solid, other])]),
     }
+}
+
+/// A way is blocked by what the next hit is, if that is nearer than its end, whatever structure is asked.
+pub fn a_way_is_blocked_by_the_next_hit<S: Subject>() {
+    let (mut asked, mut blocked) = (0_usize, 0_usize);
+    for case in 0..cases(60, 100) {
+        let chance = &mut Chance::new("blocked", case as u64);
+        let world = scene((0..3).map(|_| any_solid(chance, 3)).collect::<Vec<_>>());
+        let rays: Vec<Ray> = (0..30)
+            .map(|_| {
+                let d = chance.direction();
+                Ray::new(chance.point() * 1.5 - d * 8.0, d)
+            })
+            .collect();
+        let subject = S::new(&world, Cut::None);
+        let hits = subject.first(&rays);
+        let starts: Vec<Start> = rays
+            .iter()
+            .zip(hits)
+            .filter_map(|(ray, hit)| Some(Start { ray: *ray, hit: hit?, toward: chance.direction() }))
+            .collect();
+        let next = subject.next(&starts);
+        for (share, is_expected) in [(0.5, false), (2.0, true)] {
+            let distance = |found: &Option<Found>| found.map_or(100.0, |found| found.t * share);
+            let ways: Vec<(Start, f64)> =
+                starts.iter().zip(&next).map(|(start, found)| (*start, distance(found))).collect();
+            // Where nothing is ahead nothing blocks; a hit nearer than its own error says nothing.
+            let clear = |found: Option<Found>| found.is_none_or(|found| found.t > 4.0 * found.error);
+            for cut in Cut::ALL {
+                let answers = S::new(&world, cut).blocked(&ways);
+                for ((way, found), answer) in ways.iter().zip(&next).zip(answers) {
+                    asked += 1;
+                    blocked += usize::from(answer);
+                    if clear(*found) {
+                        assert_eq!(
+                            answer,
+                            is_expected && found.is_some(),
+                            "case {case}, {cut:?}: {way:?} {found:?}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+    report(|| format!("blocked: {asked} ways, {blocked} blocked"));
+    assert!(blocked * 20 > asked, "{blocked} of {asked}");
 }
 
 /// Row 4: from the other end of a line the same two ends are found.

@@ -108,6 +108,16 @@ macro_rules! conformance {
             }
 
             #[test]
+            fn a_way_is_blocked_by_the_next_hit() {
+                leaving::a_way_is_blocked_by_the_next_hit::<$subject>();
+            }
+
+            #[test]
+            fn random_surfaces_agree_with_the_oracle() {
+                trees::random_surfaces_agree_with_the_oracle::<$subject>();
+            }
+
+            #[test]
             fn a_sponge_is_one_in_any_order() {
                 order::a_sponge_is_one_in_any_order::<$subject>();
             }

@@ -37,8 +37,8 @@ pub struct Hit {
     pub object: u32,
     /// The primitive whose surface it is, by its place in the scene, counted from 0.
     pub primitive: u32,
-    /// Whether the object is entered; of a surface that bounds no solid, true.
-    pub entering: bool,
+    /// Whether the object is entered; a surface that bounds no solid is not.
+    pub entering: Option<bool>,
     /// Of length 1, turned to the side that the ray comes from. Zero at the tip of a cone.
     pub normal: DVec3,
 }
@@ -128,7 +128,7 @@ impl<'a, N: Number> Oracle<'a, N> {
                 t: t.value(),
                 object: piece.object as u32 + 1,
                 primitive: index as u32,
-                entering: true,
+                entering: None,
                 normal,
             };
             Some((t, slack, hit))
@@ -229,7 +229,7 @@ impl<'a, N: Number> Oracle<'a, N> {
             t: here[0].t.value(),
             object: object as u32 + 1,
             primitive: shown.piece as u32,
-            entering: self.in_objects(after)[object],
+            entering: Some(self.in_objects(after)[object]),
             normal: if normal.dot(toward) > 0.0 { -normal } else { normal },
         };
         (here[0].t.clone(), here[0].slack, hit)

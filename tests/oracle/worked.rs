@@ -265,7 +265,7 @@ fn what_is_of_no_account_is_the_caller_s_to_say() {
         oracle.hit(DVec3::new(0.2, 0.1, 5.0), DVec3::NEG_Z).map(|hit| (hit.t, hit.primitive, hit.entering))
     };
     assert_eq!(hit(1.0), None);
-    assert_eq!(hit(0.0), Some((4.0, 0, true)));
+    assert_eq!(hit(0.0), Some((4.0, 0, Some(true))));
 }
 
 #[test]

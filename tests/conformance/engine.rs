@@ -4,7 +4,7 @@
 use ray13::frame::{Frame, Request, Studio};
 use ray13::glyph::{GlyphMode, Palette};
 use ray13::lattice::{Lattice, Structure, SubLattices, Tree};
-use ray13::math::{DVec3, Ray, Size};
+use ray13::math::{DVec3, Placement, Ray, Size};
 use ray13::plan::{Options, StructureChoice};
 use ray13::scene::{Camera, Primitive, Scene};
 use ray13::solid::{Assembly, Datum, Departure, ROUNDING};
@@ -97,9 +97,9 @@ pub struct ExactEngine {
     subs: SubLattices,
 }
 
-/// How far from the assembly's origin a ray starts at most, in the assembly's unit: within 1 of a box whose corners are
-/// within √12.
-const WORLD: f64 = 5.0;
+/// How far from the assembly's origin everything lies that is computed with, in the assembly's unit: starts of rays at
+/// most 1 before a ball around the world.
+const WORLD: f64 = 6.0;
 
 impl ExactEngine {
     fn structure(&self) -> Structure<'_> {
@@ -184,7 +184,8 @@ impl Subject for ExactEngine {
         let (from_origin, eye) = (primitive.map.translation.distance(origin), ray.o.distance(origin));
         let shifted = if origin == DVec3::ZERO { 0.0 } else { ROUNDING * from_origin + f64::EPSILON * eye };
         let off = ROUNDING * (WORLD * unit + from_origin) + primitive.map_error + shifted;
-        let inverse = primitive.map.matrix3.inverse();
+        // At the ends of f64 only this inverse is one.
+        let inverse = Placement::new(&primitive.map).unwrap().inverse;
         DVec3::from_array([0, 1, 2].map(|i| inverse.row(i).length())) * (3.0 * off)
     }
 

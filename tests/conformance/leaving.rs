@@ -6,11 +6,11 @@ use ray13::scene::{Primitive, Scene, Shape, Solid};
 use crate::aim::aimed;
 use crate::chance::Chance;
 use crate::engine::{Cut, Found, Start, Subject};
+use crate::expressions::random::any_solid;
 use crate::long::{cases, report};
 use crate::oracle::{Big, Verdict, verdict};
 use crate::solids::{CONE, CYLINDER, FRUSTUM, placed, primitive, prism, scene};
 use crate::tally::{said, ulp};
-use crate::trees::any_solid;
 
 /// All shapes of convex solids, turned and not.
 fn any_convex(chance: &mut Chance) -> (Shape, DMat3) {

@@ -5,19 +5,18 @@
 
 mod aim;
 mod chance;
+mod coincidence;
 mod distance;
 mod engine;
+mod expressions;
 mod leaving;
 mod long;
-mod nothing;
 #[path = "../oracle/mod.rs"]
 mod oracle;
-mod order;
 mod planes;
 mod scale;
 mod solids;
 mod tally;
-mod trees;
 
 /// The rows, as tests of one engine.
 macro_rules! conformance {
@@ -25,7 +24,8 @@ macro_rules! conformance {
         mod $name {
             use ray13::scene::Shape;
 
-            use crate::{distance, leaving, nothing, order, planes, scale, solids, trees};
+            use crate::expressions::{laws, random};
+            use crate::{coincidence, distance, leaving, planes, scale, solids};
 
             #[test]
             fn spheres_at_any_distance() {
@@ -114,22 +114,22 @@ macro_rules! conformance {
 
             #[test]
             fn random_surfaces_agree_with_the_oracle() {
-                trees::random_surfaces_agree_with_the_oracle::<$subject>();
+                random::random_surfaces_agree_with_the_oracle::<$subject>();
             }
 
             #[test]
             fn a_sponge_is_one_in_any_order() {
-                order::a_sponge_is_one_in_any_order::<$subject>();
+                laws::a_sponge_is_one_in_any_order::<$subject>();
             }
 
             #[test]
             fn the_laws_of_sets_hold() {
-                order::the_laws_of_sets_hold::<$subject>();
+                laws::the_laws_of_sets_hold::<$subject>();
             }
 
             #[test]
             fn random_expressions_agree_with_the_oracle() {
-                trees::random_expressions_agree_with_the_oracle::<$subject>();
+                random::random_expressions_agree_with_the_oracle::<$subject>();
             }
 
             #[test]
@@ -144,22 +144,22 @@ macro_rules! conformance {
 
             #[test]
             fn a_solid_minus_itself_is_nothing() {
-                nothing::a_solid_minus_itself_is_nothing::<$subject>();
+                coincidence::a_solid_minus_itself_is_nothing::<$subject>();
             }
 
             #[test]
             fn a_solid_and_itself_is_the_solid() {
-                nothing::a_solid_and_itself_is_the_solid::<$subject>();
+                coincidence::a_solid_and_itself_is_the_solid::<$subject>();
             }
 
             #[test]
             fn a_flush_hole_is_open() {
-                nothing::a_flush_hole_is_open::<$subject>();
+                coincidence::a_flush_hole_is_open::<$subject>();
             }
 
             #[test]
             fn a_flush_hole_is_open_under_other_maps() {
-                nothing::a_flush_hole_is_open_under_other_maps::<$subject>();
+                coincidence::a_flush_hole_is_open_under_other_maps::<$subject>();
             }
         }
     };

@@ -131,9 +131,15 @@ fn panel(picture: &mut Picture, chart: &Chart, left: u32) {
         let x = across(place);
         fill(picture, (x, y0), Size::new(1, height), RULE);
         // Every label is as wide as two or three steps.
-        if place % (1 + decades.len() / 9) == 0 {
+        if place % 2 == 0 {
             let label = format!("1E{decade}");
-            write(picture, (x - STEP * label.len() as u32 / 2, y0 + height + 8), &label, INK);
+            let half = STEP * label.len() as u32 / 2;
+            write(
+                picture,
+                (x.saturating_sub(half).min(left + PANEL.width - 2 * half), y0 + height + 8),
+                &label,
+                INK,
+            );
         }
     }
     fill(picture, (x0, upward(BOUND)), Size::new(width, 2), LIMIT);

@@ -6,13 +6,13 @@ use ray13::scene::{Primitive, Scene, Shape, Solid};
 use crate::aim::aimed;
 use crate::chance::Chance;
 use crate::engine::{Cut, ExactEngine, Found, Subject as Engine};
-use crate::oracle::{Big, Hit, Oracle};
+use crate::oracle::{Big, Hit, Number, Oracle};
 use crate::solids::{CONE, CYLINDER, moved, placed, primitive, scene};
 use crate::tally::{Tally, said, ulp};
 
 /// Solids of each kind at each extreme, and rays at each: the whole takes half a minute.
 const SOLIDS: usize = 20;
-const RAYS: usize = 50;
+const RAYS: usize = 30;
 
 /// A kind of solid.
 pub struct Subject {
@@ -97,14 +97,14 @@ fn of_expression(by: &DAffine3, case: &Case, chance: &mut Chance) -> Tally {
     let mut tally = Tally::default();
     for (ray, found) in rays.iter().zip(engine.first(&rays)) {
         tally.rays += 1;
-        match (found, oracle.hit(ray.o, ray.d)) {
+        match (found, oracle.exact_hit(ray.o, ray.d)) {
             (None, None) => {}
-            (Some(found), Some(hit)) if is_near(&found, &hit) => {
+            (Some(found), Some((t, hit))) if is_near(&found, &hit) => {
                 tally.hits += 1;
                 let cosine = hit.normal.dot(ray.d).abs();
                 let tangent = (1.0 - cosine * cosine).max(0.0).sqrt() / cosine;
-                let length = found.t.max(by.translation.length() + case.scale);
-                let error = (found.t - hit.t).abs();
+                let length = found.t.max(by.translation.length().min(8.0 * case.scale) + case.scale);
+                let error = (Big::from(found.t) - t).abs().value();
                 tally.ulps = tally.ulps.max(error / (ulp(length) * (1.0 + tangent)));
                 tally.stated = tally.stated.max(error / (found.error + ulp(found.t)));
             }

@@ -174,16 +174,17 @@ impl Subject for ExactEngine {
     }
 
     /// A point of a primitive seems off its place by [`ROUNDING`] of the lengths of the world and of the way from its
-    /// origin to the primitive's, which is what is rounded since the ray's start, and by what was rounded in the map. Where the origin was moved, the primitive's place and the eye's were rounded once more. Along an axis of
-    /// the primitive's own coordinates that is multiplied by the length of the inverse map's row.
+    /// origin to the primitive's: that is what is rounded since the ray's start. Where the origin was moved, the eye's
+    /// place was rounded too. Along an axis of the primitive's own coordinates that is multiplied by the length of the
+    /// inverse map's row.
     ///
     /// A chord that such an error could have made counts as none: on a sphere where the ray passes within once the
     /// error of the silhouette, on the side of a frustum within twice. The ray's own error comes on top.
     fn rim(&self, primitive: &Primitive, ray: &Ray) -> DVec3 {
         let Datum { origin, unit } = self.assembly.datum;
-        let (from_origin, eye) = (primitive.map.translation.distance(origin), ray.o.distance(origin));
-        let shifted = if origin == DVec3::ZERO { 0.0 } else { ROUNDING * from_origin + f64::EPSILON * eye };
-        let off = ROUNDING * (WORLD * unit + from_origin) + primitive.map_error + shifted;
+        let from_origin = primitive.map.translation.distance(origin);
+        let eye = if origin == DVec3::ZERO { 0.0 } else { f64::EPSILON * ray.o.distance(origin) };
+        let off = ROUNDING * (WORLD * unit + from_origin) + eye;
         // At the ends of f64 only this inverse is one.
         let inverse = Placement::new(&primitive.map).unwrap().inverse;
         DVec3::from_array([0, 1, 2].map(|i| inverse.row(i).length())) * (3.0 * off)

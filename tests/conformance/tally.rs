@@ -73,8 +73,9 @@ impl Tally {
         let error = (Big::from(found.t) - end.t.clone()).abs().value();
         let (linear, center) = (primitive.map.matrix3, primitive.map.translation);
         let size = [0, 1, 2].iter().map(|&i| linear.col(i).length()).fold(0.0, f64::max);
-        // The longest length on the way: to the hit, or to the primitive's own place.
-        let length = found.t.max(center.length() + size);
+        // The longest length on the way: to the hit, or to the primitive's own place; from 8 sizes on the engine moves
+        // its origin there, and the scene's own numbers are taken as exact.
+        let length = found.t.max(center.length().min(8.0 * size) + size);
         let ulps = error / (ulp(length) * (1.0 + end.tangent) * ratio);
         let stated = error / (found.error + ulp(found.t));
         let is_inexact = ulps > MOST_ULPS || stated > 1.0;

@@ -117,6 +117,11 @@ impl<'a, N: Number> Oracle<'a, N> {
 
     /// The first point in front of the origin where the ray enters or leaves an object, or meets an open surface.
     pub fn hit(&self, origin: DVec3, toward: DVec3) -> Option<Hit> {
+        self.exact_hit(origin, toward).map(|(_, hit)| hit)
+    }
+
+    /// The same with the distance before it is rounded.
+    pub fn exact_hit(&self, origin: DVec3, toward: DVec3) -> Option<(N, Hit)> {
         let (o, d): (Row<N>, Row<N>) = (point(origin / self.unit), direction(toward));
         let ray = Ray { o: &o, d: &d, origin: origin / self.unit, toward };
         let opens = self.pieces.iter().enumerate().filter_map(|(index, piece)| {
@@ -138,7 +143,8 @@ impl<'a, N: Number> Oracle<'a, N> {
         // In one place the first in the file shows.
         let here = all.into_iter().filter(|(t, own, _)| (t.clone() - nearest.clone()).value() <= own + slack);
         let (t, _, hit) = here.min_by_key(|(_, _, hit)| hit.object)?;
-        Some(Hit { t: (t * N::from(self.unit)).value(), ..hit })
+        let t = t * N::from(self.unit);
+        Some((t.clone(), Hit { t: t.value(), ..hit }))
     }
 
     /// How far a crossing may move along the ray when its surface moves by the tolerance; no farther than through

@@ -28,34 +28,36 @@ pub struct Chord<N> {
 /// What a ray and a primitive come to when the primitive may be off by a little in its own coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// The ray meets even the shrunk primitive.
+    /// The ray meets it wherever it is.
     Hit,
-    /// The ray misses even the grown primitive.
+    /// The ray misses it wherever it is.
     Miss,
     /// It passes too near the rim to say.
     Either,
 }
 
-/// Where the line of the ray is inside a convex primitive grown by `growth` along the axes of its own coordinates (`sides`). None
-/// where it only touches it.
-pub fn chord<N: Number>(primitive: &Primitive, ray: &Ray, growth: DVec3) -> Option<Chord<N>> {
-    let (o, d) = (point(ray.o), direction(ray.d));
-    let sides: Vec<Side<N>> = sides(&primitive.shape, &primitive.map, growth);
+/// Where the line of the ray is inside a convex primitive. None where it only touches it.
+pub fn chord<N: Number>(primitive: &Primitive, ray: &Ray) -> Option<Chord<N>> {
+    chord_of_line(primitive, &point(ray.o), &direction(ray.d))
+}
+
+fn chord_of_line<N: Number>(primitive: &Primitive, o: &Row<N>, d: &Row<N>) -> Option<Chord<N>> {
+    let sides: Vec<Side<N>> = sides(&primitive.shape, &primitive.map);
     let mut ends: Vec<(N, usize)> = Vec::new();
     for (face, side) in sides.iter().enumerate() {
-        ends.extend(side.crossings(&o, &d).into_iter().map(|t| (t, face)));
+        ends.extend(side.crossings(o, d).into_iter().map(|t| (t, face)));
     }
     ends.sort_by(|a, b| a.0.partial_cmp(&b.0).expect("roots are numbers"));
     let half = N::from(0.5);
     let is_inside = |pair: &[(N, usize)]| {
         let middle = (pair[0].0.clone() + pair[1].0.clone()) * half.clone();
-        let p = along(&o, &d, &middle);
+        let p = along(o, d, &middle);
         pair[0].0 < pair[1].0 && sides.iter().all(|side| side.at(&p).sign() <= 0)
     };
     let inside: Vec<&[(N, usize)]> = ends.windows(2).filter(|pair| is_inside(pair)).collect();
     let end = |(t, face): &(N, usize)| {
-        let outward = sides[*face].gradient(&along(&o, &d, t));
-        End { t: t.clone(), face: *face as u32, tangent: tangent(primitive, &d, &outward) }
+        let outward = sides[*face].gradient(&along(o, d, t));
+        End { t: t.clone(), face: *face as u32, tangent: tangent(primitive, d, &outward) }
     };
     Some(Chord { enter: end(&inside.first()?[0]), leave: end(&inside.last()?[1]) })
 }
@@ -71,15 +73,23 @@ fn tangent<N: Number>(primitive: &Primitive, d: &Row<N>, outward: &[N; 3]) -> f6
     if along.is_zero() { f64::INFINITY } else { (dot(&across, &across).sqrt() / along).value() }
 }
 
-/// Whether the ray, from its start on, must meet the primitive, must miss it, or neither, when every point
-/// of it may be off by `off` along the axes of its own coordinates, and the start by nothing.
+/// Whether the ray, from its start on, must meet the primitive, must miss it, or neither, when the primitive may lie
+/// as far as `off` from its place along each axis of its own coordinates: it is put to the corners of that box.
 pub fn verdict<N: Number>(primitive: &Primitive, ray: &Ray, off: DVec3) -> Verdict {
-    let ahead = |growth| chord::<N>(primitive, ray, growth).is_some_and(|c| c.leave.t.sign() > 0);
-    // Shrunk by its half-size nothing is left of a primitive.
-    match (off.max_element() < 1.0 && ahead(-off), ahead(off)) {
-        (true, _) => Verdict::Hit,
-        (_, false) => Verdict::Miss,
-        _ => Verdict::Either,
+    let (o, d): (Row<N>, Row<N>) = (point(ray.o), direction(ray.d));
+    let matrix = primitive.map.matrix3;
+    let columns = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(|c| direction::<N>(c));
+    let corner = |n: u32| {
+        // The ray moves instead.
+        let signs = [1, 2, 4].map(|bit| if n & bit == 0 { 1.0 } else { -1.0 });
+        (0..3).fold(o.clone(), |p, i| along(&p, &columns[i], &N::from(signs[i] * off[i])))
+    };
+    let ahead = |o: &Row<N>| chord_of_line(primitive, o, &d).is_some_and(|c| c.leave.t.sign() > 0);
+    let here = ahead(&o);
+    match (0..8).all(|n| ahead(&corner(n)) == here) {
+        false => Verdict::Either,
+        true if here => Verdict::Hit,
+        true => Verdict::Miss,
     }
 }
 

@@ -274,7 +274,7 @@ impl<N: Number> Piece<N> {
         let surface = match &primitive.shape {
             Shape::Mesh(mesh) => Surface::Parity(Triangle::of(mesh, &map)),
             open if open.is_surface() => Surface::Open(Open::new(open, &map)),
-            convex => Surface::Convex(sides(convex, &map, DVec3::ZERO)),
+            convex => Surface::Convex(sides(convex, &map)),
         };
         let corners = primitive.shape.bounds().corners().map(|corner| map.transform_point3(corner));
         let center = corners.iter().fold(DVec3::ZERO, |sum, &p| sum + p / 8.0);

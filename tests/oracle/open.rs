@@ -30,7 +30,7 @@ impl<N: Number> Open<N> {
                 let places: Vec<DVec3> = corners.iter().map(|corner| corner.place).collect();
                 polygon(&places, Some(normals))
             }
-            tube => Self::Tube(sides(tube, map, DVec3::ZERO)),
+            tube => Self::Tube(sides(tube, map)),
         }
     }
 

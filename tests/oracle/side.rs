@@ -118,13 +118,8 @@ fn quadratic<N: Number>(a: &N, b: &N, c: &N) -> Vec<N> {
 
 /// The sides of a convex shape, moved into the world: a point `p` of the world is inside where each side is 0 or less
 /// at it. They stand in the order of the program's own face numbers.
-///
-/// The shape is first grown by `growth`, a length along each axis of its own coordinates: planes move outward by what
-/// the growth of all axes makes along their normals, a sphere becomes an ellipsoid, and the side of a frustum moves
-/// away from the axis by the larger of x and y, and by what it widens over z. Below 0 it shrinks.
-pub fn sides<N: Number>(shape: &Shape, map: &DAffine3, growth: DVec3) -> Vec<Side<N>> {
+pub fn sides<N: Number>(shape: &Shape, map: &DAffine3) -> Vec<Side<N>> {
     let rows = inverse::<N>(map);
-    let grown = |x: f64, normal: DVec3| N::from(x) + N::from(normal.abs().dot(growth));
     // The function a·x + b·y + c·z + w of the unit coordinates, as a row over the world's.
     let combine = |a: f64, b: f64, c: f64, w: N| -> Row<N> {
         let [a, b, c] = [a, b, c].map(N::from);
@@ -145,43 +140,31 @@ pub fn sides<N: Number>(shape: &Shape, map: &DAffine3, growth: DVec3) -> Vec<Sid
             })
         }))
     };
-    let slab = |[a, b, c]: [f64; 3]| {
-        [-1.0, 1.0].map(|s| Side::Plane(combine(s * a, s * b, s * c, -grown(1.0, DVec3::new(a, b, c)))))
-    };
+    let slab =
+        |[a, b, c]: [f64; 3]| [-1.0, 1.0].map(|s| Side::Plane(combine(s * a, s * b, s * c, N::from(-1.0))));
     let (x, y, z) =
         (combine(1.0, 0.0, 0.0, zero()), combine(0.0, 1.0, 0.0, zero()), combine(0.0, 0.0, 1.0, zero()));
     match shape {
         Shape::Sphere => {
             let last = combine(0.0, 0.0, 0.0, N::from(1.0));
-            let shares = [(x, growth.x), (y, growth.y), (z, growth.z)].map(|(row, growth)| {
-                let half = N::from(1.0) + N::from(growth);
-                (1.0, row.map(|entry| entry / half.clone()))
-            });
-            let [x, y, z] = shares;
-            vec![squares(&[x, y, z, (-1.0, last)])]
+            vec![squares(&[(1.0, x), (1.0, y), (1.0, z), (-1.0, last)])]
         }
         Shape::Frustum { bottom, top } | Shape::Tube { bottom, top } => {
             let (half, bottom, top) = (N::from(0.5), N::from(*bottom), N::from(*top));
             let slope = half.clone() * (top.clone() - bottom.clone());
-            let sideways = if growth.x.abs() > growth.y.abs() { growth.x } else { growth.y };
-            let middle = half * (top + bottom) + N::from(sideways) + slope.abs() * N::from(growth.z);
+            let middle = half * (top + bottom);
             let mut radius: Row<N> = z.map(|x| slope.clone() * x);
             radius[3] = radius[3].clone() + middle;
-            let mut all = vec![squares(&[(1.0, x), (1.0, y), (-1.0, radius.clone())])];
+            let mut all = vec![squares(&[(1.0, x), (1.0, y), (-1.0, radius)])];
             all.extend(slab([0.0, 0.0, 1.0]));
-            if growth.z < 0.0 {
-                // The other nappe of a shrunk cone begins below the cap.
-                all.push(Side::Plane(radius.map(|x| -x)));
-            }
             all
         }
         Shape::Cube => {
             [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].into_iter().flat_map(slab).collect()
         }
         Shape::Facets(facets) => {
-            let plane = |h: &HalfSpace| {
-                Side::Plane(combine(h.normal.x, h.normal.y, h.normal.z, -grown(h.offset, h.normal)))
-            };
+            let plane =
+                |h: &HalfSpace| Side::Plane(combine(h.normal.x, h.normal.y, h.normal.z, N::from(-h.offset)));
             facets.faces.iter().map(plane).collect()
         }
         Shape::Mesh(_) | Shape::Face(_) | Shape::Patch(_) => vec![],

@@ -178,7 +178,7 @@ fn a_chord_is_rounded_once_from_whatever_far() {
     // From 1e9 radii away at height 0.6: 1e9 − 0.8 and 1e9 + 0.8, whose squares differ by 1 part in 1e18.
     let ball = primitive(Shape::Sphere, DVec3::ONE);
     let ray = Ray::new(DVec3::new(-1e9, 0.0, 0.6), DVec3::X);
-    let found = chord::<Big>(&ball, &ray, DVec3::ZERO).unwrap();
+    let found = chord::<Big>(&ball, &ray).unwrap();
     // 0.6 is not six tenths: 1 − 0.6² is near 0.64 only.
     let half = (Big::from(1.0) - Big::from(0.6) * Big::from(0.6)).sqrt();
     assert_eq!(found.enter.t.value(), (Big::from(1e9) - half.clone()).value());
@@ -190,14 +190,14 @@ fn a_chord_is_rounded_once_from_whatever_far() {
     // A scale and a ratio at which no square is an f64.
     let needle = primitive(Shape::Sphere, DVec3::new(1e300, 1e-300, 1e-300));
     let across = Ray::new(DVec3::new(0.0, -1e-299, 0.0), DVec3::Y);
-    let found = chord::<Big>(&needle, &across, DVec3::ZERO).unwrap();
+    let found = chord::<Big>(&needle, &across).unwrap();
     assert_eq!(found.enter.t.value(), (Big::from(1e-299) - Big::from(1e-300)).value());
 }
 
 #[test]
 fn a_chord_names_its_faces() {
     let faces = |shape: Shape, o: [f64; 3], d: [f64; 3]| {
-        let found = chord::<Wide>(&primitive(shape, DVec3::ONE), &Ray::new(o.into(), d.into()), DVec3::ZERO)?;
+        let found = chord::<Wide>(&primitive(shape, DVec3::ONE), &Ray::new(o.into(), d.into()))?;
         Some((found.enter.t.value(), found.enter.face, found.leave.t.value(), found.leave.face))
     };
     assert_eq!(faces(Shape::Cube, [-3.0, 0.1, 0.2], [1.0, 0.0, 0.0]), Some((2.0, 0, 4.0, 1)));

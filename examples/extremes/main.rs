@@ -104,11 +104,7 @@ fn said(tally: &Tally) -> String {
 /// One line that is written over, on a terminal only.
 fn progress(done: usize, steps: usize, series: &Series, subject: &Subject, decade: i32) {
     if io::stderr().is_terminal() {
-        eprint!(
-            "\r\x1b[K{} % {} 1e{decade}, {}",
-            100 * done / steps,
-            series.unit,
-            subject.name.to_lowercase()
-        );
+        let (title, name) = (series.title.to_lowercase(), subject.name.to_lowercase());
+        eprint!("\r\x1b[K{} %, {title} 1e{decade}, {name}", 100 * done / steps);
     }
 }

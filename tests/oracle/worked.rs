@@ -5,7 +5,7 @@ use std::sync::Arc;
 use ray13::math::{Bounds, DAffine3, DMat3, DVec3, Ray};
 use ray13::scene::{Facets, HalfSpace, MaterialId, Mesh, Object, Primitive, Scene, Shape, Solid};
 
-use super::{Big, Hit, Number, Oracle, Verdict, Wide, chord, point_at, silhouette, verdict};
+use super::{Big, Chord, Hit, Number, Oracle, Verdict, Wide, chord, point_at, silhouette, verdict};
 
 fn solid(shape: Shape, map: DAffine3) -> Solid {
     Solid::Primitive(Primitive::new(shape, map, MaterialId(0)))
@@ -178,7 +178,7 @@ fn a_chord_is_rounded_once_from_whatever_far() {
     // From 1e9 radii away at height 0.6: 1e9 − 0.8 and 1e9 + 0.8, whose squares differ by 1 part in 1e18.
     let ball = primitive(Shape::Sphere, DVec3::ONE);
     let ray = Ray::new(DVec3::new(-1e9, 0.0, 0.6), DVec3::X);
-    let found = chord::<Big>(&ball, &ray).unwrap();
+    let found: Chord<Big> = chord(&ball, &ray).unwrap();
     // 0.6 is not six tenths: 1 − 0.6² is near 0.64 only.
     let half = (Big::from(1.0) - Big::from(0.6) * Big::from(0.6)).sqrt();
     assert_eq!(found.enter.t.value(), (Big::from(1e9) - half.clone()).value());

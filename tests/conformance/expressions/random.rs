@@ -37,9 +37,9 @@ fn any_primitive(chance: &mut Chance) -> Solid {
         mesh(),
     ]);
     let turn = if chance.below(4) > 0 { DMat3::IDENTITY } else { any_turn(chance) };
-    let mut step = |from: i64, count: usize| 0.5 * (from + chance.below(count) as i64) as f64;
-    let half = DVec3::new(step(1, 3), step(1, 3), step(1, 3));
-    let center = DVec3::new(step(-2, 5), step(-2, 5), step(-2, 5));
+    let mut step = |from: f64, count: usize| 0.5 * (from + chance.below(count) as f64);
+    let half = DVec3::new(step(1.0, 3), step(1.0, 3), step(1.0, 3));
+    let center = DVec3::new(step(-2.0, 5), step(-2.0, 5), step(-2.0, 5));
     solid(&shape, turn * DMat3::from_diagonal(half), center)
 }
 
@@ -48,7 +48,7 @@ pub fn any_solid(chance: &mut Chance, depth: usize) -> Solid {
     if depth == 0 || chance.below(4) == 0 {
         return any_primitive(chance);
     }
-    let parts: Vec<Solid> = (0..1 + chance.below(3)).map(|_| any_solid(chance, depth - 1)).collect();
+    let parts: Vec<Solid> = (0..=chance.below(3)).map(|_| any_solid(chance, depth - 1)).collect();
     match chance.below(3) {
         0 => Solid::Union(parts),
         1 => Solid::Intersection(parts),
@@ -116,7 +116,7 @@ pub fn random_expressions_agree_with_the_oracle<S: Subject>() {
         let chance = &mut Chance::new("trees", case as u64);
         let scale = if chance.below(2) == 0 { 1.0 } else { chance.decade(-100.0, 100.0) };
         let by = DAffine3::from_mat3(any_turn(chance) * scale);
-        let solids = (0..1 + chance.below(2)).map(|_| moved(&any_solid(chance, 4), &by));
+        let solids = (0..=chance.below(2)).map(|_| moved(&any_solid(chance, 4), &by));
         let world: Scene = scene(solids.collect::<Vec<_>>());
         let rays: Vec<Ray> = (0..20).map(|_| any_ray(&by, chance)).collect();
         all.compare::<S>(case, &world, &rays, chance.one_of(&Cut::ALL));
@@ -131,7 +131,7 @@ pub fn random_surfaces_agree_with_the_oracle<S: Subject>() {
         let chance = &mut Chance::new("surfaces", case as u64);
         let scale = if chance.below(2) == 0 { 1.0 } else { chance.decade(-100.0, 100.0) };
         let by = DAffine3::from_mat3(chance.turn() * scale);
-        let parts = (0..2 + chance.below(4)).map(|_| moved(&any_surface(chance), &by));
+        let parts = (0..=1 + chance.below(4)).map(|_| moved(&any_surface(chance), &by));
         let world: Scene = scene(parts.collect::<Vec<_>>());
         let rays: Vec<Ray> = (0..20).map(|_| any_ray(&by, chance)).collect();
         all.compare::<S>(case, &world, &rays, chance.one_of(&Cut::ALL));

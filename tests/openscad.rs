@@ -1,8 +1,8 @@
-//! The tracer against the brute-force calculation: OpenSCAD's examples, and the scenes inside the program. No dot may
+//! The tracer against the oracle's calculation: OpenSCAD's examples, and the scenes inside the program. No dot may
 //! be hit by one and missed by the other, and their depths agree to nine digits.
 
 mod agreement;
-mod brute;
+mod oracle;
 mod rays;
 mod request;
 mod scenery;
@@ -10,7 +10,7 @@ mod scenery;
 use std::path::{Path, PathBuf};
 
 use agreement::compare;
-use brute::Brute;
+use oracle::{Oracle, Wide};
 use ray13::frame::Studio;
 use ray13::math::{DVec3, Size};
 use ray13::scene::{Camera, ReadOptions, Scene, read_file};
@@ -45,14 +45,14 @@ fn views(studio: &Studio) -> Vec<(&'static str, Camera)> {
     ]
 }
 
-/// Panics with the first dots where the tracer and the brute force disagree.
+/// Panics with the first dots where the tracer and the oracle disagree.
 fn assert_agrees(name: &str, scene: Scene) {
     let studio = Studio::new(scene).unwrap();
-    let brute = Brute::new(studio.scene());
+    let oracle = Oracle::<Wide>::new(studio.scene());
     let own = studio.scene().views.iter().map(|camera| ("own view", camera.clone()));
     let mut hits = 0;
     for (view, camera) in views(&studio).into_iter().chain(own) {
-        let comparison = compare(&studio, &brute, &camera, DOTS);
+        let comparison = compare(&studio, &oracle, &camera, DOTS);
         assert!(comparison.faults.is_empty(), "{name}, {view}: {}", comparison.first_faults());
         hits += comparison.hits;
     }

@@ -1,15 +1,15 @@
-//! The tracer against the brute-force calculation, on expressions that nobody would draw: small numbers on a coarse
+//! The tracer against the oracle's calculation, on expressions that nobody would draw: small numbers on a coarse
 //! grid, so that faces are flush, edges meet and solids coincide, and then the whole of it turned.
 
 mod agreement;
-mod brute;
+mod oracle;
 mod rays;
 mod request;
 
 use std::sync::Arc;
 
 use agreement::compare;
-use brute::Brute;
+use oracle::{Oracle, Wide};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use ray13::frame::Studio;
@@ -134,8 +134,8 @@ const OUTSIDE: f64 = 9.0;
 
 fn assert_agrees(solids: &[Solid], by: &DAffine3, eye: DVec3, zoom: f64) -> Result<(), TestCaseError> {
     let studio = Studio::new(scene(solids, by)).unwrap();
-    let brute = Brute::new(studio.scene());
-    let comparison = compare(&studio, &brute, &camera(eye, zoom, by), DOTS);
+    let oracle = Oracle::<Wide>::new(studio.scene());
+    let comparison = compare(&studio, &oracle, &camera(eye, zoom, by), DOTS);
     prop_assert!(comparison.faults.is_empty(), "{}", comparison.first_faults());
     Ok(())
 }

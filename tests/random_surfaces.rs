@@ -1,14 +1,14 @@
-//! Random faces, patches and tubes among balls, against the brute-force calculation.
+//! Random faces, patches and tubes among balls, against the oracle's calculation.
 
 mod agreement;
-mod brute;
+mod oracle;
 mod rays;
 mod request;
 
 use std::sync::Arc;
 
 use agreement::compare;
-use brute::Brute;
+use oracle::{Oracle, Wide};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use ray13::frame::Studio;
@@ -87,7 +87,7 @@ fn assert_agrees(solids: &[Solid], scale: f64, eye: DVec3, zoom: f64) -> Result<
     let objects = solids.iter().map(|solid| Object { name: None, solid: scaled(solid) }).collect();
     let scene = Scene { objects, materials: vec![Material::default()], ..Scene::default() };
     let studio = Studio::new(scene).unwrap();
-    let brute = Brute::new(studio.scene());
+    let oracle = Oracle::<Wide>::new(studio.scene());
     let camera = Camera {
         name: None,
         eye: eye * scale,
@@ -97,7 +97,7 @@ fn assert_agrees(solids: &[Solid], scale: f64, eye: DVec3, zoom: f64) -> Result<
         span: FieldSpan::Edges,
         zoom,
     };
-    let comparison = compare(&studio, &brute, &camera, DOTS);
+    let comparison = compare(&studio, &oracle, &camera, DOTS);
     prop_assert!(comparison.faults.is_empty(), "{}", comparison.first_faults());
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! Whether the tracer and the brute-force calculation see the same: the same dots hit, depths to nine digits, the same
+//! Whether the tracer and the oracle's calculation see the same: the same dots hit, depths to nine digits, the same
 //! object, the same normal.
 
 use ray13::frame::{Frame, Studio};
@@ -6,7 +6,7 @@ use ray13::math::{DVec3, Size};
 use ray13::plan::StructureChoice;
 use ray13::scene::Camera;
 
-use crate::brute::{Brute, Hit};
+use crate::oracle::{Hit, Oracle};
 use crate::rays::directions;
 use crate::request::request;
 
@@ -27,7 +27,7 @@ const DEPTH: f64 = 1e-9;
 const NORMAL: f64 = 1e-6;
 
 /// Draws one picture by every structure, all alike to the bit, and works it out again.
-pub fn compare(studio: &Studio, brute: &Brute, camera: &Camera, dots: Size) -> Comparison {
+pub fn compare(studio: &Studio, oracle: &Oracle, camera: &Camera, dots: Size) -> Comparison {
     const EVERY: [StructureChoice; 3] =
         [StructureChoice::None, StructureChoice::Lattice, StructureChoice::Tree];
     let frames = EVERY.map(|structure| {
@@ -43,7 +43,7 @@ pub fn compare(studio: &Studio, brute: &Brute, camera: &Camera, dots: Size) -> C
         }
     }
     for (place, toward) in directions(camera, dots).into_iter().enumerate() {
-        let expected = brute.hit(camera.eye, toward);
+        let expected = oracle.hit(camera.eye, toward);
         let faults = comparison.faults.len();
         for (structure, frame) in &frames {
             let depth = frame.depth.values()[place];

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use ray13::math::{Bounds, DAffine3, DMat3, DVec3};
+use ray13::math::{Bounds, DAffine3, DMat3, DVec3, Ray};
 use ray13::scene::{Facets, HalfSpace, MaterialId, Mesh, Object, Primitive, Scene, Shape, Solid};
 
-use super::{Brute, Hit};
+use super::{Big, Chord, Hit, Number, Oracle, Verdict, Wide, chord, point_at, silhouette, verdict};
 
 fn solid(shape: Shape, map: DAffine3) -> Solid {
     Solid::Primitive(Primitive::new(shape, map, MaterialId(0)))
@@ -22,7 +22,9 @@ fn scene(solids: impl IntoIterator<Item = Solid>) -> Scene {
 
 fn hit(solids: impl IntoIterator<Item = Solid>, origin: DVec3, toward: DVec3) -> Option<Hit> {
     let scene = scene(solids);
-    Brute::new(&scene).hit(origin, toward)
+    let wide = Oracle::<Wide>::new(&scene).hit(origin, toward);
+    assert_eq!(wide, Oracle::<Big>::new(&scene).hit(origin, toward), "in both kinds of numbers");
+    wide
 }
 
 #[track_caller]
@@ -165,4 +167,116 @@ fn a_sheared_map_is_inverted() {
     let leaning = [solid(Shape::Cube, DAffine3::from_mat3(shear))];
     let found = hit(leaning, DVec3::new(-5.0, 0.0, 0.5), DVec3::X);
     assert_hit(found, 4.5, 1, DVec3::new(-1.0, 0.0, 1.0).normalize());
+}
+
+fn primitive(shape: Shape, half: DVec3) -> Primitive {
+    Primitive::new(shape, DAffine3::from_scale(half), MaterialId(0))
+}
+
+#[test]
+fn a_chord_is_rounded_once_from_whatever_far() {
+    // From 1e9 radii away at height 0.6: 1e9 − 0.8 and 1e9 + 0.8, whose squares differ by 1 part in 1e18.
+    let ball = primitive(Shape::Sphere, DVec3::ONE);
+    let ray = Ray::new(DVec3::new(-1e9, 0.0, 0.6), DVec3::X);
+    let found: Chord<Big> = chord(&ball, &ray).unwrap();
+    // 0.6 is not six tenths: 1 − 0.6² is near 0.64 only.
+    let half = (Big::from(1.0) - Big::from(0.6) * Big::from(0.6)).sqrt();
+    assert_eq!(found.enter.t.value(), (Big::from(1e9) - half.clone()).value());
+    assert_eq!(found.leave.t.value(), (Big::from(1e9) + half.clone()).value());
+    assert!((found.leave.t.clone() - found.enter.t.clone() - half.clone() - half).abs() < Big::from(1e-150));
+    assert!((point_at(&ray, &found.enter.t) - DVec3::new(-0.8, 0.0, 0.6)).length() < 1e-15);
+    assert_eq!(silhouette::<Big>(&ball, &ray), Some(0.6));
+    assert!((found.enter.tangent - 0.75).abs() < 1e-15, "{}", found.enter.tangent);
+    // A scale and a ratio at which no square is an f64.
+    let needle = primitive(Shape::Sphere, DVec3::new(1e300, 1e-300, 1e-300));
+    let across = Ray::new(DVec3::new(0.0, -1e-299, 0.0), DVec3::Y);
+    let found = chord::<Big>(&needle, &across).unwrap();
+    assert_eq!(found.enter.t.value(), (Big::from(1e-299) - Big::from(1e-300)).value());
+}
+
+#[test]
+fn a_chord_names_its_faces() {
+    let faces = |shape: Shape, o: [f64; 3], d: [f64; 3]| {
+        let found = chord::<Wide>(&primitive(shape, DVec3::ONE), &Ray::new(o.into(), d.into()))?;
+        Some((found.enter.t.value(), found.enter.face, found.leave.t.value(), found.leave.face))
+    };
+    assert_eq!(faces(Shape::Cube, [-3.0, 0.1, 0.2], [1.0, 0.0, 0.0]), Some((2.0, 0, 4.0, 1)));
+    assert_eq!(faces(Shape::Cube, [0.0, 0.1, 3.0], [0.0, 0.0, -1.0]), Some((2.0, 5, 4.0, 4)));
+    assert_eq!(faces(CYLINDER, [0.0, 0.0, -3.0], [0.0, 0.0, 1.0]), Some((2.0, 1, 4.0, 2)));
+    assert_eq!(faces(CYLINDER, [-3.0, 0.0, 0.0], [1.0, 0.0, 0.0]), Some((2.0, 0, 4.0, 0)));
+    // Steeper than the side of the cone: in through the base, out through the side; and above its tip, nothing.
+    assert_eq!(faces(CONE, [0.25, 0.0, -3.0], [0.0, 0.0, 1.0]), Some((2.0, 1, 3.5, 0)));
+    assert_eq!(faces(CONE, [-3.0, 0.0, 1.5], [1.0, 0.0, 0.0]), None);
+    // A line that only touches is not inside.
+    assert_eq!(faces(Shape::Sphere, [-3.0, 1.0, 0.0], [1.0, 0.0, 0.0]), None);
+}
+
+#[test]
+fn a_silhouette_is_where_the_measure_is_one() {
+    let l = |shape: Shape, o: [f64; 3], d: [f64; 3]| {
+        silhouette::<Wide>(&primitive(shape, DVec3::splat(2.0)), &Ray::new(o.into(), d.into()))
+    };
+    assert_eq!(l(CYLINDER, [-5.0, 1.0, 0.0], [1.0, 0.0, 0.0]), Some(0.5));
+    assert_eq!(l(CYLINDER, [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]), None);
+    // At z = 0 the cone's radius is 1, half of its largest.
+    assert_eq!(l(CONE, [-5.0, 1.0, 0.0], [1.0, 0.0, 0.0]), Some(1.0));
+    assert_eq!(l(CONE, [-5.0, 0.25, 0.0], [1.0, 0.0, 0.0]), Some(0.25));
+    assert_eq!(l(Shape::Cube, [-5.0, 0.25, 0.0], [1.0, 0.0, 0.0]), None);
+}
+
+#[test]
+fn a_verdict_leaves_the_rim_open() {
+    for shape in [Shape::Sphere, Shape::Cube, CYLINDER, CONE] {
+        let at_height = |y: f64| {
+            let ray = Ray::new(DVec3::new(-9.0, y, -1.0 + 1e-3), DVec3::X);
+            let lowered = if shape == Shape::Sphere { Ray::new(ray.o.with_z(0.0), ray.d) } else { ray };
+            verdict::<Big>(&primitive(shape.clone(), DVec3::ONE), &lowered, DVec3::splat(1e-2))
+        };
+        // The caps are that near too, and the cone is a little narrower there.
+        let within = if shape == Shape::Sphere { Verdict::Hit } else { Verdict::Either };
+        assert_eq!(at_height(0.98), within, "{shape:?}");
+        assert_eq!([at_height(0.999), at_height(1.001)], [Verdict::Either; 2], "{shape:?}");
+        assert_eq!(at_height(1.02), Verdict::Miss, "{shape:?}");
+    }
+    let behind = Ray::new(DVec3::new(9.0, 0.0, 0.0), DVec3::X);
+    assert_eq!(
+        verdict::<Big>(&primitive(Shape::Sphere, DVec3::ONE), &behind, DVec3::splat(1e-2)),
+        Verdict::Miss
+    );
+}
+
+#[test]
+fn near_faces_are_two_beside_anything_large() {
+    // A plate of 1e-9, cut out of a cube so that a gap is left, beside a ball of radius 1000.
+    let plate = at(Shape::Cube, DVec3::ZERO, DVec3::new(1.0, 1.0, 5e-10));
+    let ball = at(Shape::Sphere, DVec3::X * 2000.0, DVec3::splat(1000.0));
+    let found = hit([plate, ball], DVec3::new(0.2, 0.1, -1.0), DVec3::Z);
+    assert_hit(found, 1.0 - 5e-10, 1, DVec3::NEG_Z);
+}
+
+#[test]
+fn what_is_of_no_account_is_the_caller_s_to_say() {
+    let scene = scene([Solid::Difference(vec![
+        at(Shape::Cube, DVec3::ZERO, DVec3::ONE),
+        at(Shape::Cube, DVec3::ZERO, DVec3::new(1.0, 1.0, 1.0 - f64::EPSILON)),
+    ])]);
+    let hit = |tolerance| {
+        let oracle = Oracle::<Big>::with_tolerance(&scene, tolerance);
+        oracle.hit(DVec3::new(0.2, 0.1, 5.0), DVec3::NEG_Z).map(|hit| (hit.t, hit.primitive, hit.entering))
+    };
+    assert_eq!(hit(1.0), None);
+    assert_eq!(hit(0.0), Some((4.0, 0, Some(true))));
+}
+
+#[test]
+fn normals_keep_their_length_at_any_scale() {
+    let (_, mesh) = tetrahedron();
+    for scale in [1e-150, 1e-80, 1e80, 1e150] {
+        for shape in [mesh.clone(), Shape::Sphere, CONE] {
+            let scaled = at(shape, DVec3::ZERO, DVec3::splat(scale));
+            let from = DVec3::new(0.2, 0.1, -5.0) * scale;
+            let found = hit([scaled], from, DVec3::Z).unwrap();
+            assert!((found.normal.length() - 1.0).abs() < 1e-15 && found.normal.z < 0.0, "{found:?}");
+        }
+    }
 }

@@ -1,7 +1,10 @@
 //! Numbers of about 106 bits: the unevaluated sum of two f64 (Dekker 1971; Knuth's two-sum). With so many bits to
 //! spare, the textbook formulas are accurate enough, and nothing clever is shared with the program under test.
 
+use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::number::Number;
 
 /// `hi + lo`, where `hi` is the sum rounded to f64.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -17,21 +20,24 @@ fn two_sum(a: f64, b: f64) -> Wide {
     Wide { hi, lo: (a - (hi - b_part)) + (b - b_part) }
 }
 
-impl Wide {
-    pub const ZERO: Self = Self { hi: 0.0, lo: 0.0 };
-
-    /// The nearest f64.
-    pub fn value(self) -> f64 {
+impl Number for Wide {
+    fn value(&self) -> f64 {
         self.hi
     }
 
-    /// The square root of a number that is 0 or more: one Newton step from the f64 root doubles its bits.
-    pub fn sqrt(self) -> Self {
+    /// One Newton step from the f64 root doubles its bits.
+    fn sqrt(&self) -> Self {
         if self.hi <= 0.0 {
-            return Self::ZERO;
+            return Self::default();
         }
         let root = Self::from(self.hi.sqrt());
-        root + (self - root * root) / (root + root)
+        root + (*self - root * root) / (root + root)
+    }
+}
+
+impl PartialOrd for Wide {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        (self.hi, self.lo).partial_cmp(&(other.hi, other.lo))
     }
 }
 

@@ -77,6 +77,11 @@ impl Primitive {
         const COMPOSED: f32 = 4.0 * f64::EPSILON as f32;
         Self { shape, map, map_error: [COMPOSED; 3], material }
     }
+
+    /// [`Primitive::map_error`] along each axis in the scene's unit.
+    pub fn displacement(&self) -> DVec3 {
+        DVec3::from_array(self.map_error.map(f64::from)) * self.shape.bounds().mapped(&self.map).farthest()
+    }
 }
 
 /// A unit solid, or a surface. Solids are closed sets: their surface belongs to them. Surfaces

@@ -114,8 +114,7 @@ impl Datum {
             // Lengths of the world in the unit space, whose squares must not overflow.
             place.inverse.to_cols_array().iter().all(|x| x.abs() <= FARTHEST)
         });
-        let error = DVec3::from_array(p.map_error.map(f64::from));
-        let error = error * p.shape.bounds().mapped(&p.map).farthest() / self.unit + shifted;
+        let error = p.displacement() / self.unit + shifted;
         match place {
             Some(place) => Some(Form::new(&p.shape, place, error)),
             // So thin beside the scene that no ray meets it, though its map has an inverse: a ball of no size.

@@ -164,7 +164,8 @@ impl<'b, C: Channel> Sampler<'_, 'b, C> {
                 |seen| Dot {
                     light,
                     color,
-                    depth: seen.t * assembly.datum.unit,
+                    // A distance, however large: only nothing is infinitely far away.
+                    depth: (seen.t * assembly.datum.unit).min(f64::MAX),
                     normal: seen.normal,
                     object: assembly.objects[seen.object as usize].number + 1,
                 },

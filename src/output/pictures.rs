@@ -91,7 +91,7 @@ pub fn ppm(pixels: &Pixels, out: &mut impl Write) -> io::Result<()> {
 }
 
 /// A portable float map of one channel (`Pf`): light, depth, object numbers. Values become f32; infinite ones, such
-/// as the depth where nothing is hit, are kept.
+/// as the depth where nothing is hit, are kept, and no finite one becomes infinite.
 pub fn pfm_gray(values: &Grid<f64>, out: &mut impl Write) -> io::Result<()> {
     pfm("Pf", values, |&value| [value], out)
 }
@@ -115,6 +115,8 @@ fn pfm<T, const CHANNELS: usize>(
     for row in rows.into_iter().rev() {
         bytes.clear();
         for value in row.iter().flat_map(&channels) {
+            let largest = f64::from(f32::MAX);
+            let value = if value.is_finite() { value.clamp(-largest, largest) } else { value };
             bytes.extend_from_slice(&(value as f32).to_le_bytes());
         }
         out.write_all(&bytes)?;

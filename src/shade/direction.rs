@@ -4,11 +4,12 @@
 //! 1 within rounding. Both answers have length 1 within rounding.
 
 use crate::math::DVec3;
+use crate::view::settled;
 
 /// The mirror direction.
 pub fn mirrored(d: DVec3, n: DVec3) -> DVec3 {
     let across = d.dot(n).min(0.0);
-    (d - 2.0 * across * n).normalize_or(n)
+    settled((d - 2.0 * across * n).normalize_or(n))
 }
 
 /// Snell's direction from a medium of index `before` into one of index `behind`, both above 0; `None` on total
@@ -27,7 +28,7 @@ pub fn refracted(d: DVec3, n: DVec3, before: f64, behind: f64) -> Option<DVec3> 
     if sine_squared >= 1.0 || sine_squared.is_nan() {
         return None;
     }
-    Some((along - (1.0 - sine_squared).sqrt() * n).normalize_or(-n))
+    Some(settled((along - (1.0 - sine_squared).sqrt() * n).normalize_or(-n)))
 }
 
 #[cfg(test)]

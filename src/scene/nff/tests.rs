@@ -105,7 +105,7 @@ fn each_fault_has_its_place_and_its_words() {
         ),
         ("s 0 0 0 0", "1:9: error: `s`: the radius is above 0: this is 0"),
         ("s 0 0 0 -1", "1:9: error: `s`: the radius is above 0: this is -1"),
-        ("s 1e308 0 0 1e308", "1:1: error: `s`: it reaches farther than a 64-bit float holds"),
+        ("s 1e308 0 0 1e308", "1:1: error: `s`: it reaches farther than 1e305 from the origin"),
         ("s 0 0 0 1e-320", "1:9: error: `s`: it is smaller than a 64-bit float holds: this is 1e-320"),
         ("s 0 0 0 1 2", "1:11: error: a number stands where an entity begins: this is `2`"),
         ("sphere 0 0 0 1", "1:1: error: NFF has no such entity: this is `sphere`"),

@@ -8,7 +8,8 @@ use crate::math::{DAffine3, DMat3, DVec3};
 use crate::scene::diagnostic::{Reported, Sink};
 use crate::scene::language::syntax::Call;
 use crate::scene::language::vocabulary::{SolidWord, Word};
-use crate::scene::{Diagnostic, Primitive, Shape, Solid};
+use crate::scene::model::is_within_reach;
+use crate::scene::{Diagnostic, Primitive, REACH, Shape, Solid};
 
 impl Builder<'_> {
     /// The primitive of a call.
@@ -39,9 +40,9 @@ impl Builder<'_> {
             }
         };
         let map = compose(&context.map, &local, call.name.span, sink)?;
-        let bounds = shape.bounds().mapped(&map);
-        if !(bounds.lo.is_finite() && bounds.hi.is_finite()) {
-            let error = Diagnostic::error(call.name.span, "it reaches farther than a 64-bit float holds");
+        if !is_within_reach(&shape.bounds().mapped(&map)) {
+            let message = format!("it reaches farther than {REACH:e} from the origin");
+            let error = Diagnostic::error(call.name.span, message);
             return Err(sink.report(error.label("too large, or too far away")));
         }
         let material = self.surfaces.id(context.surface);

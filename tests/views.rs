@@ -1,10 +1,13 @@
 //! Every picture is defined: wherever the eye stands and whatever it looks at, no value is infinite or not a number,
 //! and every structure gives the same bits. Inputs that have no picture are refused with the reason.
 
+mod cases;
 mod request;
 mod sound;
 
+use cases::cases;
 use proptest::prelude::*;
+use proptest::sample::select;
 use ray13::frame::Studio;
 use ray13::math::{DVec3, Size};
 use ray13::plan::Shading;
@@ -247,5 +250,120 @@ fn what_has_no_picture_is_refused() {
             error.starts_with(&format!("test:{place}: error: ")) && error.contains(message),
             "{text}: {error}"
         );
+    }
+}
+
+/// Numbers at the ends of what there is, and between.
+fn number() -> impl Strategy<Value = f64> {
+    let small = [0.0, -0.0, f64::MIN_POSITIVE, -f64::MIN_POSITIVE, 5e-324, -1e-310, 1e-300, -1e-160, 1e-16];
+    let plain = [1.0, -1.0, 0.5, -0.5, 2.0, -3.0, 1.0 + f64::EPSILON, 1.0 - f64::EPSILON / 2.0];
+    let large = [1e2, 1e3];
+    prop_oneof![6 => select(plain.to_vec()), 3 => select(small.to_vec()), 1 => select(large.to_vec()), 5 => -2.0..2.0]
+}
+
+fn point() -> impl Strategy<Value = DVec3> {
+    let any = (number(), number(), number()).prop_map(|(x, y, z)| DVec3::new(x, y, z));
+    prop_oneof![2 => select(PLACES.to_vec()), 1 => any]
+}
+
+fn size() -> impl Strategy<Value = f64> {
+    let ends = vec![1e-3, 1e3];
+    prop_oneof![6 => select(vec![1.0, 0.5, 2.0]), 4 => 0.01..3.0, 1 => select(ends)]
+}
+
+/// As the language writes it.
+fn triple(v: DVec3) -> String {
+    format!("[{:e}, {:e}, {:e}]", v.x, v.y, v.z)
+}
+
+fn solid() -> impl Strategy<Value = String> {
+    let plain = select(SOLIDS.to_vec()).prop_map(|(_, text)| text.to_owned());
+    let sized =
+        (0..4, size(), size(), size(), select(vec![0, 3, 6])).prop_map(|(kind, a, b, c, sides)| match kind {
+            0 => format!("sphere(r = {a:e}, $fn = {sides});"),
+            1 => format!("cube([{a:e}, {b:e}, {c:e}]);"),
+            2 => format!("cylinder(h = {a:e}, r1 = {b:e}, r2 = {c:e}, $fn = {sides});"),
+            _ => format!("cone(h = {a:e}, r = {b:e});"),
+        });
+    let angle = || prop_oneof![select(vec![0.0, 45.0, 90.0, -180.0, 1e-300, 1e300, 30.0]), -360.0..360.0];
+    let turn = (angle(), angle(), angle()).prop_map(|(x, y, z)| format!("rotate([{x:e}, {y:e}, {z:e}])"));
+    let map = prop_oneof![
+        3 => point().prop_map(|p| format!("translate({})", triple(p))),
+        2 => turn,
+        1 => (size(), size(), size()).prop_map(|(x, y, z)| format!("scale([{x:e}, -{y:e}, {z:e}])")),
+        1 => select(vec!["[1, 0, 0]", "[1, 1, 0]", "[0.3, -0.2, 0.7]"]).prop_map(|normal| format!("mirror({normal})")),
+    ];
+    let moved =
+        (map, prop_oneof![plain, sized]).prop_map(|(map, solid)| format!("{map} union() {{ {solid} }}"));
+    moved.prop_recursive(2, 6, 3, |part| {
+        let word = select(vec!["union", "difference", "intersection", "group"]);
+        (word, prop::collection::vec(part, 1..=3))
+            .prop_map(|(word, parts)| format!("{word}() {{ {} }}", parts.join(" ")))
+    })
+}
+
+fn light() -> impl Strategy<Value = String> {
+    let intensity = select(vec![0.0, 5e-324, 0.5, 1.0, 1e300, 1.7e308]);
+    (point(), intensity, select(vec!["\"white\"", "\"red\"", "[1, 0, 5e-324]"])).prop_map(
+        |(at, intensity, color)| {
+            format!("light(at = {}, intensity = {intensity:e}, color = {color});", triple(at))
+        },
+    )
+}
+
+fn scene() -> impl Strategy<Value = String> {
+    let world = (select(vec![0.0, 0.1, 1.7e308]), select(vec!["", ", k = 1", ", k = 5e-324", ", k = 1e308"]))
+        .prop_map(|(glow, k)| format!("world(ambient = {glow:e}, background = {glow:e}{k});"));
+    let object = (select(MATERIALS.to_vec()), solid())
+        .prop_map(|(material, solid)| format!("{material} {{ {solid} }}"));
+    let (lights, objects) = (prop::collection::vec(light(), 0..=3), prop::collection::vec(object, 1..=4));
+    (world, lights, objects).prop_map(|(world, lights, objects)| {
+        format!("{world}\n{}\n{}", lights.join("\n"), objects.join("\n"))
+    })
+}
+
+fn any_camera() -> impl Strategy<Value = Camera> {
+    let axis = select(vec![
+        DVec3::X,
+        DVec3::NEG_Y,
+        DVec3::Z,
+        DVec3::new(1.0, 5e-324, -1e-310),
+        DVec3::new(1e-121, 1.0, 1e-120),
+    ]);
+    let toward = prop_oneof![point().prop_map(|p| (p, true)), axis.prop_map(|d| (d, false))];
+    let field =
+        || prop_oneof![select(vec![5e-324, 0.001, 40.0, 90.0, 179.9, 179.999_999_999_99]), 1.0..179.0];
+    let zoom = select(vec![1.0, 1e-6, 1e6, 1e-300, 1e300, f64::MAX]);
+    (point(), toward, point(), field(), field(), zoom).prop_map(
+        |(eye, (toward, is_place), up, across, down, zoom)| {
+            let target = if is_place { toward } else { eye + toward };
+            Camera { up, field: [across, down], zoom, ..camera(eye, target) }
+        },
+    )
+}
+
+proptest! {
+    #![proptest_config(cases(600))]
+
+    #[test]
+    fn any_view_of_any_scene(
+        text in scene(),
+        camera in any_camera(),
+        scale in prop_oneof![4 => Just(1.0), 1 => select(vec![1e-300, 1e-9, 1e9, 1e150, 1e304])],
+        shading in select(Shading::ALL.to_vec()),
+        color in any::<bool>(),
+    ) {
+        let text = format!("{text} scale({scale:e}) {{ sphere(1); cube(1); }}");
+        let Ok(scene) = read("any", text.as_bytes(), &ReadOptions::default()) else { return Ok(()) };
+        // A solid may be too small for numbers beside the rest of its scene.
+        let Ok(studio) = Studio::new(scene) else { return Ok(()) };
+        let scaled = Camera { eye: camera.eye * scale, target: camera.target * scale, ..camera };
+        let framed = studio.camera(0, 1.0);
+        prop_assert_eq!(framed.check(), Ok(()), "{}", text);
+        for camera in [scaled, framed] {
+            if camera.check().is_ok() {
+                sound(&studio, &camera, DOTS, shading, color).map_err(|fault| TestCaseError::fail(format!("{fault}\n{text}")))?;
+            }
+        }
     }
 }

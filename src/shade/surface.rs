@@ -9,6 +9,7 @@ use crate::trace::{Engine, Hit};
 use crate::view::settled;
 
 use super::channel::Channel;
+use super::direction::WITHIN;
 use super::media::{Filling, Media};
 use super::path::Sent;
 
@@ -193,7 +194,7 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
             if distance < NEAREST {
                 continue;
             }
-            let to_light = settled(way / distance);
+            let to_light = settled(way / distance, WITHIN);
             let facing = to_light.dot(normal);
             if facing <= 0.0 {
                 continue;

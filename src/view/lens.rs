@@ -3,8 +3,6 @@
 use crate::math::{DVec3, Ray, Size};
 use crate::scene::{Camera, FieldSpan};
 
-use super::direction::settled;
-
 /// The largest tangent of half an angle. From 1e16 on the angle is 180° within rounding; this leaves room for the
 /// square of a tangent that the other one's aspect multiplies.
 const WIDEST: f64 = 1e100;
@@ -81,7 +79,7 @@ impl Lens {
         let across = (2.0 * x / f64::from(self.dots.width) - 1.0) * self.tangents[0];
         let upward = (1.0 - 2.0 * y / f64::from(self.dots.height)) * self.tangents[1];
         let d = self.forward + across * self.right + upward * self.up;
-        Ray::new(self.eye, settled(d.normalize()))
+        Ray::new(self.eye, d.normalize())
     }
 
     /// The full angles of the field across and down, in degrees.

@@ -158,7 +158,7 @@ fn ball_over_ground(kr: f64, shading: Shading) -> Seen {
     let mut scene = shape(Shape::Sphere, DAffine3::IDENTITY);
     let below = DVec3::new(0.0, 0.0, -3.0);
     let map = DAffine3::from_mat3_translation(DMat3::from_diagonal(DVec3::new(50.0, 50.0, 1.0)), below);
-    let ground = Solid::Primitive(Primitive { shape: Shape::Cube, map, material: MaterialId(1) });
+    let ground = Solid::Primitive(Primitive::new(Shape::Cube, map, MaterialId(1)));
     scene.objects.push(Object { name: None, solid: ground });
     let white = Material { color: DVec3::ONE, kd: 0.0, ks: 0.0, ..Material::default() };
     scene.materials = vec![Material { kr, color: DVec3::splat(0.5), ks: 0.4, ..matt() }, white];

@@ -83,7 +83,7 @@ fn any_primitive() -> impl Strategy<Value = Solid> {
         let half = DVec3::new(f64::from(a), f64::from(b), f64::from(c)) / 2.0;
         let center = DVec3::new(f64::from(x), f64::from(y), f64::from(z)) / 2.0;
         let map = DAffine3::from_mat3_translation(turn * DMat3::from_diagonal(half), center);
-        Solid::Primitive(Primitive { shape, map, material: MaterialId(0) })
+        Solid::Primitive(Primitive::new(shape, map, MaterialId(0)))
     })
 }
 
@@ -102,7 +102,7 @@ fn any_solid() -> impl Strategy<Value = Solid> {
 fn moved(solid: &Solid, by: &DAffine3) -> Solid {
     let all = |parts: &[Solid]| parts.iter().map(|part| moved(part, by)).collect();
     match solid {
-        Solid::Primitive(p) => Solid::Primitive(Primitive { map: *by * p.map, ..p.clone() }),
+        Solid::Primitive(p) => Solid::Primitive(Primitive::new(p.shape.clone(), *by * p.map, p.material)),
         Solid::Union(parts) => Solid::Union(all(parts)),
         Solid::Intersection(parts) => Solid::Intersection(all(parts)),
         Solid::Difference(parts) => Solid::Difference(all(parts)),

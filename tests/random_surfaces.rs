@@ -68,7 +68,7 @@ fn any_part() -> impl Strategy<Value = Solid> {
     (shape, any_rotation(), place, sizes).prop_map(|(shape, turn, (x, y, z), (a, b, c))| {
         let linear = turn * DMat3::from_diagonal(DVec3::new(a, b, c));
         let map = DAffine3::from_mat3_translation(linear, DVec3::new(x, y, z));
-        Solid::Primitive(Primitive { shape, map, material: MaterialId(0) })
+        Solid::Primitive(Primitive::new(shape, map, MaterialId(0)))
     })
 }
 
@@ -80,7 +80,7 @@ fn assert_agrees(solids: &[Solid], scale: f64, eye: DVec3, zoom: f64) -> Result<
     let scaled = |solid: &Solid| match solid {
         Solid::Primitive(p) => {
             let map = DAffine3::from_scale(DVec3::splat(scale)) * p.map;
-            Solid::Primitive(Primitive { map, ..p.clone() })
+            Solid::Primitive(Primitive::new(p.shape.clone(), map, p.material))
         }
         other => other.clone(),
     };

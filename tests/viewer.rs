@@ -234,7 +234,7 @@ fn start_broken(part: &str) -> Pty {
 #[ignore = "runs only inside the pseudo-terminal of a_panic_shows_its_message_on_the_terminal_as_it_was"]
 fn a_viewer_that_panics() {
     let Ok(part) = std::env::var(BROKEN_PART) else { return };
-    let sphere = Primitive { shape: Shape::Sphere, map: DAffine3::IDENTITY, material: MaterialId(0) };
+    let sphere = Primitive::new(Shape::Sphere, DAffine3::IDENTITY, MaterialId(0));
     let object = Object { name: None, solid: Solid::Primitive(sphere) };
     let scene = Scene { objects: vec![object], materials: vec![Material::default()], ..Scene::default() };
     let studio = Studio::new(scene).unwrap();

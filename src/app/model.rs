@@ -296,7 +296,7 @@ mod tests {
 
     #[test]
     fn a_scene_without_views_has_one_of_its_own() {
-        let sphere = Primitive { shape: Shape::Sphere, map: DAffine3::IDENTITY, material: MaterialId(0) };
+        let sphere = Primitive::new(Shape::Sphere, DAffine3::IDENTITY, MaterialId(0));
         let object = Object { name: None, solid: Solid::Primitive(sphere) };
         let scene = Scene { objects: vec![object], materials: vec![Material::default()], ..Scene::default() };
         let studio = Studio::new(scene).unwrap();

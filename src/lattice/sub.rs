@@ -191,7 +191,7 @@ mod tests {
             let turn = DAffine3::from_rotation_x(f64::from(k));
             let map =
                 turn * DAffine3::from_rotation_y(0.7) * DAffine3::from_scale(DVec3::new(1.0, 1.0, 0.01));
-            Solid::Primitive(crate::scene::Primitive { shape: Shape::Cube, map, material: MaterialId(0) })
+            Solid::Primitive(crate::scene::Primitive::new(Shape::Cube, map, MaterialId(0)))
         };
         let object = crate::scene::Object { name: None, solid: Solid::Union((0..60).map(plate).collect()) };
         let scene = Scene { objects: vec![object], materials: vec![Material::default()], ..Scene::default() };

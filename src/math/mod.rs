@@ -2,11 +2,13 @@
 //! trigonometry come from `libm`, so that every platform computes the same bits.
 
 mod bounds;
+mod exact;
 mod grid;
 mod placement;
 mod ray;
 
 pub use bounds::Bounds;
+pub use exact::two_sum;
 pub use glam::{DAffine3, DMat3, DVec2, DVec3};
 pub use grid::{Grid, Size};
 pub use placement::{Placement, is_singular};

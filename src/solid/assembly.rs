@@ -3,11 +3,13 @@
 //! The world's numbers are brought to magnitudes near 1, by a power of two and, where the scene lies far from
 //! the origin, a shift: every later bound on rounding then holds at any scale and any distance from the origin.
 
-use crate::math::{Bounds, DAffine3, DVec3, Ray};
-use crate::scene::{MaterialId, Scene};
+use crate::math::{Bounds, DAffine3, DVec3, Placement, Ray};
+use crate::scene::{self, MaterialId, Scene, Solid};
 
+use super::ball::Ball;
 use super::expression::{Expression, Tree};
 use super::primitive::{Form, Primitive};
+use super::span::ROUNDING;
 
 /// Eyes and lights farther away than this, in the assembly's unit, stand here: the square of such a length does not
 /// overflow, and seen from the scene, whose size is about 1, the direction is the same within rounding.
@@ -63,9 +65,12 @@ pub struct Datum {
 }
 
 impl Datum {
-    /// The datum for a scene in the box `b`.
-    fn new(b: &Bounds) -> Self {
-        let half = b.half().max_element();
+    /// The datum for a scene that shows only in the box `b`, with cutters that reach to the box `all`.
+    fn new(b: &Bounds, all: &Bounds) -> Self {
+        // Cutters are computed with, too: where the body is small beside them, beyond all reason, the unit grows so
+        // that no square of theirs overflows.
+        let least = all.lo.abs().max(all.hi.abs()).max_element() / FARTHEST;
+        let half = b.half().max_element().max(least);
         let center = b.center();
         // A shift rounds coordinates that lie nearer the origin than the box's size. Up to 8 sizes away the
         // origin costs 3 bits, less than the shift would.
@@ -78,7 +83,7 @@ impl Datum {
             let origin = (center / grid).round() * grid;
             Self { origin: if origin.is_finite() { origin } else { center }, unit: grid }
         } else {
-            Self { origin: DVec3::ZERO, unit: unit(b.lo.abs().max(b.hi.abs()).max_element()) }
+            Self { origin: DVec3::ZERO, unit: unit(b.lo.abs().max(b.hi.abs()).max_element().max(least)) }
         }
     }
 
@@ -99,8 +104,30 @@ impl Datum {
         p * self.unit + self.origin
     }
 
-    fn map(&self, map: &DAffine3) -> DAffine3 {
-        DAffine3 { matrix3: map.matrix3 * self.unit.recip(), translation: self.inward(map.translation) }
+    /// The form of a primitive in the assembly.
+    fn form(&self, p: &scene::Primitive) -> Option<Form> {
+        let matrix3 = p.map.matrix3 * self.unit.recip();
+        let map = DAffine3 { matrix3, translation: self.inward(p.map.translation) };
+        // The scale is exact; a shift is rounded.
+        let shifted = if self.origin == DVec3::ZERO { 0.0 } else { ROUNDING * map.translation.length() };
+        Form::new(&p.shape, &map, p.map_error / self.unit + shifted).or_else(|| {
+            // So small beside the scene that its map has no inverse here, though it has one where it stands alone:
+            // a ball that no ray meets.
+            Placement::new(&p.map).map(|_| Form::Ball(Ball::new(map.translation, 0.0, 0.0)))
+        })
+    }
+}
+
+/// A box around what a solid shows: a difference reaches no further than what it cuts from.
+fn bounds_of(solid: &Solid) -> Bounds {
+    match solid {
+        Solid::Primitive(p) => p.shape.bounds().mapped(&p.map),
+        Solid::Union(parts) => parts.iter().map(bounds_of).fold(Bounds::EMPTY, |b, part| b.join(&part)),
+        Solid::Intersection(parts) => {
+            let met = parts.iter().map(bounds_of).reduce(|b, part| b.meet(&part));
+            met.filter(|b| !b.is_empty()).unwrap_or(Bounds::EMPTY)
+        }
+        Solid::Difference(parts) => parts.first().map_or(Bounds::EMPTY, bounds_of),
     }
 }
 
@@ -133,17 +160,18 @@ pub enum AssemblyError {
 impl Assembly {
     /// Puts a scene together.
     pub fn new(scene: &Scene) -> Result<Self, AssemblyError> {
-        let mut bounds = Bounds::EMPTY;
+        let (mut seen, mut all) = (Bounds::EMPTY, Bounds::EMPTY);
         for object in &scene.objects {
-            object.solid.visit(&mut |p| bounds = bounds.join(&p.shape.bounds().mapped(&p.map)));
+            seen = seen.join(&bounds_of(&object.solid));
+            object.solid.visit(&mut |p| all = all.join(&p.shape.bounds().mapped(&p.map)));
         }
-        let datum = Datum::new(&bounds);
+        let datum = Datum::new(&seen, &all);
         let (mut primitives, mut objects) = (Vec::new(), Vec::new());
         let mut limit = Bounds::EMPTY;
         for (number, object) in scene.objects.iter().enumerate() {
             let start = primitives.len();
             let mut singular = None;
-            object.solid.visit(&mut |p| match Form::new(&p.shape, &datum.map(&p.map)) {
+            object.solid.visit(&mut |p| match datum.form(p) {
                 Some(form) => primitives.push(Primitive { form, material: p.material }),
                 None => singular = singular.or(Some(primitives.len() - start + 1)),
             });

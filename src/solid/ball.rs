@@ -2,22 +2,23 @@
 
 use crate::math::{Bounds, DVec3, Ray};
 
-use super::span::{End, ROUNDING, Span};
+use super::span::{End, Span, displacement};
 
 /// The points within `radius` of `center`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ball {
     /// The centre.
     pub center: DVec3,
-    /// The radius, above 0.
+    /// The radius, above 0; at 0 no ray meets it.
     pub radius: f64,
-    reach: f64,
+    /// How far a point of it may seem off its place.
+    off: f64,
 }
 
 impl Ball {
-    /// A ball.
-    pub fn new(center: DVec3, radius: f64) -> Self {
-        Self { center, radius, reach: center.length() + radius }
+    /// A ball whose map may be off by `map_error`.
+    pub fn new(center: DVec3, radius: f64, map_error: f64) -> Self {
+        Self { center, radius, off: displacement(center.length(), map_error) }
     }
 
     /// Where the ray is inside. A chord that rounding could have made counts as none.
@@ -38,14 +39,13 @@ impl Ball {
             return None;
         }
         let l = l_squared.sqrt();
-        let off = ROUNDING * (first.abs() + self.reach);
         let half_squared = (self.radius - l) * (self.radius + l);
         // Moving the ray sideways by `off` changes the square of the half-chord by 2·l·off.
-        if half_squared.is_nan() || half_squared <= 2.0 * self.radius * off {
+        if half_squared.is_nan() || half_squared <= 2.0 * self.radius * self.off {
             return None;
         }
         let half = half_squared.sqrt();
-        let error = off * (1.0 + l / half);
+        let error = self.off * (1.0 + l / half);
         let middle = first + second;
         Some(Span {
             enter: End { t: middle - half, error, surface: 0 },

@@ -12,6 +12,7 @@ use crate::stage::{Meter, Probe, Stage};
 use super::expression::Expression;
 use super::primitive::Primitive;
 use super::span::{Departure, End};
+use super::state::State;
 
 /// A place where a ray goes into or out of a solid.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,9 +41,7 @@ struct Event {
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
     events: Vec<Event>,
-    inside: Vec<bool>,
-    counts: Vec<u32>,
-    changed: Vec<u32>,
+    state: State,
 }
 
 /// The part of a ray that is asked for.
@@ -104,7 +103,7 @@ pub fn first_of_expression(
     scratch: &mut Scratch,
     meter: &mut Meter<impl Probe>,
 ) -> Option<Crossing> {
-    let Scratch { events, inside, counts: state, changed } = scratch;
+    let Scratch { events, state } = scratch;
     meter.at(Stage::Solid);
     meter.counts.primitive_tests += expression.leaves.len() as u64;
     gather(ray, expression, primitives, departure, reach, events);
@@ -114,49 +113,41 @@ pub fn first_of_expression(
     meter.at(Stage::Csg);
     meter.counts.csg_evaluations += 1;
     events.sort_unstable_by(|a, b| a.end.t.total_cmp(&b.end.t).then(a.leaf.cmp(&b.leaf)));
-    expression.reset(state);
-    inside.clear();
-    inside.resize(expression.leaves.len(), false);
-    let mut value = expression.value(state, false);
+    state.start(expression);
+    let mut value = state.value(expression);
     let mut rest = &events[..];
-    while let [first, ..] = rest {
-        let limit = first.end.t + first.end.error;
-        let length = rest.iter().take_while(|e| e.end.t - e.end.error <= limit).count().max(1);
-        let (cluster, behind) = rest.split_at(length);
+    while let Some(first) = rest.first() {
+        let (cluster, behind) = rest.split_at(cluster_length(rest));
         rest = behind;
         if first.end.t > reach.to {
             return None;
         }
-        changed.clear();
         for event in cluster {
-            let leaf = event.leaf as usize;
-            inside[leaf] = !inside[leaf];
-            expression.toggle(state, leaf, inside[leaf], |node| changed.push(node));
+            state.toggle(expression, event.leaf);
         }
-        let before = value;
-        value = expression.value(state, inside[0]);
+        let before = std::mem::replace(&mut value, state.value(expression));
         let passed = at_start(&first.end) || cluster.iter().all(|e| e.end.t < reach.from);
-        if value == before || passed {
-            continue;
+        if value != before && !passed {
+            // The first in the file among those that made the change shows.
+            let deciding = cluster.iter().filter(|e| state.decides(expression, e.leaf));
+            let shown = deciding.min_by_key(|e| e.leaf).unwrap_or(first);
+            return Some(Crossing {
+                t: shown.end.t,
+                error: shown.end.error,
+                primitive: expression.leaves[shown.leaf as usize].primitive,
+                surface: shown.end.surface,
+                entering: value,
+            });
         }
-        let net = |node: u32| changed.iter().filter(|&&c| c == node).count() % 2 == 1;
-        let flipped = |leaf: u32| cluster.iter().filter(|e| e.leaf == leaf).count() % 2 == 1;
-        // The first in the file among those that made the change shows.
-        let shown = cluster
-            .iter()
-            .filter(|e| flipped(e.leaf))
-            .filter(|e| expression.decides(state, e.leaf as usize, inside[e.leaf as usize], net))
-            .min_by_key(|e| e.leaf)
-            .unwrap_or(first);
-        return Some(Crossing {
-            t: shown.end.t,
-            error: shown.end.error,
-            primitive: expression.leaves[shown.leaf as usize].primitive,
-            surface: shown.end.surface,
-            entering: value,
-        });
+        state.settle();
     }
     None
+}
+
+/// How many of the sorted events are one place with the first of them.
+fn cluster_length(events: &[Event]) -> usize {
+    let limit = events[0].end.t + events[0].end.error;
+    events.iter().take_while(|e| e.end.t - e.end.error <= limit).count().max(1)
 }
 
 /// Collects the crossings of every primitive of the expression that can matter within `reach`.

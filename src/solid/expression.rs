@@ -168,7 +168,7 @@ pub struct Expression {
     /// The primitives in file order.
     pub leaves: Box<[Leaf]>,
     /// The operators; the root is the first. Empty for an expression that is one primitive.
-    nodes: Box<[Node]>,
+    pub(super) nodes: Box<[Node]>,
 }
 
 /// One primitive of an expression.
@@ -176,28 +176,28 @@ pub struct Expression {
 pub struct Leaf {
     /// Its index in the assembly.
     pub primitive: u32,
-    parent: Link,
+    pub(super) parent: Link,
 }
 
 /// The way up from a child.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Link {
+pub(super) struct Link {
     /// The operator; [`Link::ROOT`] above the root.
-    node: u32,
-    negated: bool,
+    pub node: u32,
+    pub negated: bool,
 }
 
 impl Link {
-    const ROOT: u32 = u32::MAX;
+    pub const ROOT: u32 = u32::MAX;
 }
 
 /// An operator: true where at least `threshold` of its children, each negated or not, are true.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Node {
-    parent: Link,
-    threshold: u32,
+pub(super) struct Node {
+    pub parent: Link,
+    pub threshold: u32,
     /// How many children are true before any primitive is entered.
-    initial: u32,
+    pub initial: u32,
 }
 
 impl Expression {
@@ -211,62 +211,6 @@ impl Expression {
     /// Whether a point outside all primitives is inside.
     pub fn outside_value(&self) -> bool {
         self.nodes.first().is_some_and(|root| root.initial >= root.threshold)
-    }
-
-    /// The state outside all primitives, written into `counts`.
-    pub(super) fn reset(&self, counts: &mut Vec<u32>) {
-        counts.clear();
-        counts.extend(self.nodes.iter().map(|node| node.initial));
-    }
-
-    /// Whether the state is inside. `single` is the state of an expression that is one primitive.
-    pub(super) fn value(&self, counts: &[u32], single: bool) -> bool {
-        self.nodes.first().map_or(single, |root| counts[0] >= root.threshold)
-    }
-
-    /// A leaf becomes `now`; operators whose value changes by it are passed to `changed`.
-    #[inline]
-    pub(super) fn toggle(&self, counts: &mut [u32], leaf: usize, now: bool, mut changed: impl FnMut(u32)) {
-        let (mut link, mut now) = (self.leaves[leaf].parent, now);
-        while link.node != Link::ROOT {
-            let node = &self.nodes[link.node as usize];
-            let count = &mut counts[link.node as usize];
-            let before = *count >= node.threshold;
-            if now == link.negated {
-                *count -= 1;
-            } else {
-                *count += 1;
-            }
-            let after = *count >= node.threshold;
-            if before == after {
-                return;
-            }
-            changed(link.node);
-            now = after;
-            link = node.parent;
-        }
-    }
-
-    /// Whether the leaf's becoming `now` is a reason of the root's change: every operator above it must have
-    /// changed too, and in the direction in which its child pushed.
-    pub(super) fn decides(
-        &self,
-        counts: &[u32],
-        leaf: usize,
-        now: bool,
-        changed: impl Fn(u32) -> bool,
-    ) -> bool {
-        let (mut link, mut now) = (self.leaves[leaf].parent, now);
-        while link.node != Link::ROOT {
-            let node = &self.nodes[link.node as usize];
-            let after = counts[link.node as usize] >= node.threshold;
-            if !changed(link.node) || after != (now != link.negated) {
-                return false;
-            }
-            now = after;
-            link = node.parent;
-        }
-        true
     }
 }
 

@@ -6,7 +6,7 @@
 use crate::math::{Bounds, DVec3, Placement, Ray};
 
 use super::across::{Across, plane_crossing};
-use super::span::{End, ROUNDING};
+use super::span::{End, displacement};
 
 /// So many edges are looked at together: past twice as many, boxes around each group of them are asked first.
 const GROUP: usize = 32;
@@ -26,14 +26,13 @@ pub struct Face {
     normal: DVec3,
     /// A point of that plane: the mean of the corners.
     middle: DVec3,
-    /// How far corners lie from the plane because they were rounded.
-    bent: f64,
-    reach: f64,
+    /// How far corners may seem off the plane: by their own rounding, and by that of ours.
+    off: f64,
 }
 
 impl Face {
-    /// The polygon of these corners, put at `place`.
-    pub fn new(corners: impl ExactSizeIterator<Item = DVec3>, place: &Placement) -> Self {
+    /// The polygon of these corners, put at `place`, which may be off by `map_error`.
+    pub fn new(corners: impl ExactSizeIterator<Item = DVec3>, place: &Placement, map_error: f64) -> Self {
         let share = 1.0 / corners.len() as f64;
         let mut outline: Vec<DVec3> = Vec::with_capacity(corners.len() + 1);
         outline.extend(corners.map(|p| place.linear * p + place.center));
@@ -52,7 +51,8 @@ impl Face {
         } else {
             Box::default()
         };
-        Self { outline: outline.into(), groups, normal, middle, bent: bent.min(WRITTEN), reach }
+        let off = bent.min(WRITTEN) + displacement(reach, map_error);
+        Self { outline: outline.into(), groups, normal, middle, off }
     }
 
     /// Where the line of the ray meets the polygon.
@@ -62,8 +62,7 @@ impl Face {
         if !self.surrounds(&across) {
             return None;
         }
-        let off = self.bent + ROUNDING * (self.reach + ray.o.length());
-        let (t, error) = plane_crossing(ray, self.corners(), self.normal, self.middle, off);
+        let (t, error) = plane_crossing(ray, self.corners(), self.normal, self.middle, self.off);
         Some(End { t, error, surface: 0 })
     }
 
@@ -103,9 +102,8 @@ impl Face {
 
     /// Whether the box is certainly off the polygon.
     pub fn misses(&self, b: &Bounds) -> bool {
-        let off = self.bent + ROUNDING * self.reach;
         let distance = self.normal.dot(b.center() - self.middle).abs() - self.normal.abs().dot(b.half());
-        distance > off || self.bounds().meet(b).is_empty()
+        distance > self.off || self.bounds().meet(b).is_empty()
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::math::{Bounds, DVec3, Placement, Ray};
 use crate::scene;
 
-use super::span::{End, ROUNDING, Span};
+use super::span::{End, Span, displacement};
 
 /// An intersection of half-spaces, in the world.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,12 +12,13 @@ pub struct Facets {
     faces: Box<[scene::HalfSpace]>,
     center: DVec3,
     bounds: Bounds,
-    reach: f64,
+    /// How far a face may seem off its place.
+    off: f64,
 }
 
 impl Facets {
-    /// The faces of `unit`, put at `place`.
-    pub fn new(unit: &scene::Facets, place: &Placement) -> Self {
+    /// The faces of `unit`, put at `place`, which may be off by `map_error`.
+    pub fn new(unit: &scene::Facets, place: &Placement, map_error: f64) -> Self {
         let turn = place.inverse.transpose();
         let faces = unit
             .faces
@@ -32,8 +33,7 @@ impl Facets {
             .collect();
         let map = crate::math::DAffine3 { matrix3: place.linear, translation: place.center };
         let bounds = unit.bounds.mapped(&map);
-        let reach = place.center.length() + bounds.half().length();
-        Self { faces, center: place.center, bounds, reach }
+        Self { faces, center: place.center, bounds, off: displacement(place.center.length(), map_error) }
     }
 
     /// Where the ray is inside. A ray in the plane of a face is decided half open, as for slabs: inside where
@@ -41,12 +41,11 @@ impl Facets {
     #[inline]
     pub fn span(&self, ray: &Ray) -> Option<Span> {
         let from_center = ray.o - self.center;
-        let off = ROUNDING * (self.reach + from_center.length());
         let mut span = Span::LINE;
         for (surface, face) in self.faces.iter().enumerate() {
             let above = face.normal.dot(from_center) - face.offset;
             let d = face.normal.dot(ray.d);
-            let end = End { t: -above / d, error: off / d.abs(), surface: surface as u32 };
+            let end = End { t: -above / d, error: self.off / d.abs(), surface: surface as u32 };
             if d < 0.0 {
                 span.clip(end, Span::LINE.leave);
             } else if d > 0.0 {

@@ -7,7 +7,7 @@ use crate::math::{Bounds, DVec3, Placement, Ray};
 use crate::scene;
 
 use super::across::{Across, plane_crossing};
-use super::span::{End, ROUNDING};
+use super::span::{End, displacement};
 
 /// At most this many triangles are tested without looking at a box first.
 const LEAF: usize = 4;
@@ -17,7 +17,8 @@ const LEAF: usize = 4;
 pub struct Mesh {
     triangles: Vec<Triangle>,
     nodes: Vec<Node>,
-    reach: f64,
+    /// How far a corner may seem off its place.
+    off: f64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,8 +38,8 @@ struct Node {
 }
 
 impl Mesh {
-    /// The triangles of `unit`, put at `place`.
-    pub fn new(unit: &scene::Mesh, place: &Placement) -> Self {
+    /// The triangles of `unit`, put at `place`, which may be off by `map_error`.
+    pub fn new(unit: &scene::Mesh, place: &Placement, map_error: f64) -> Self {
         let points: Vec<DVec3> = unit.points.iter().map(|&p| place.linear * p + place.center).collect();
         let mut triangles: Vec<Triangle> = unit
             .triangles
@@ -50,21 +51,21 @@ impl Mesh {
                 Triangle { corners, normal: (normal / size).normalize_or(DVec3::Z) }
             })
             .collect();
+        // Corners are moved into the world: they are what crossings are computed from.
         let reach = points.iter().map(|p| p.length()).fold(0.0, f64::max);
         let mut nodes = Vec::new();
         let count = triangles.len();
         build(&mut nodes, &mut triangles, 0, count);
-        Self { triangles, nodes, reach }
+        Self { triangles, nodes, off: displacement(reach, map_error) }
     }
 
     /// Every crossing of the line with the surface, in no order.
     pub fn crossings(&self, ray: &Ray, mut found: impl FnMut(End)) {
         let across = Across::new(ray);
-        let off = ROUNDING * (self.reach + ray.o.length());
         let mut stack = vec![0_u32];
         while let Some(index) = stack.pop() {
             let node = &self.nodes[index as usize];
-            if !line_meets(ray, &node.bounds, off) {
+            if !line_meets(ray, &node.bounds, self.off) {
                 continue;
             }
             if node.count == 0 {
@@ -74,7 +75,7 @@ impl Mesh {
             }
             for surface in node.first..node.first + node.count {
                 let triangle = &self.triangles[surface as usize];
-                if let Some(end) = triangle.crossing(ray, &across, off, surface) {
+                if let Some(end) = triangle.crossing(ray, &across, self.off, surface) {
                     found(end);
                 }
             }

@@ -15,6 +15,7 @@ mod primitive;
 mod round;
 mod slabs;
 mod span;
+mod state;
 mod surface;
 #[cfg(test)]
 mod tests;

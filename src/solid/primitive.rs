@@ -58,26 +58,27 @@ pub enum Cover {
 }
 
 impl Form {
-    /// The form of a unit shape under a map; `None` where the map is singular or not finite.
-    pub fn new(shape: &Shape, map: &DAffine3) -> Option<Self> {
+    /// The form of a unit shape under a map, which may be off by `error`; `None` where the map is singular or not
+    /// finite.
+    pub fn new(shape: &Shape, map: &DAffine3, error: f64) -> Option<Self> {
         let place = Placement::new(map)?;
         Some(match shape {
             Shape::Sphere => match similarity(&place.linear) {
-                Some(radius) => Self::Ball(Ball::new(place.center, radius)),
-                None => Self::Round(Box::new(Round::ellipsoid(place))),
+                Some(radius) => Self::Ball(Ball::new(place.center, radius, error)),
+                None => Self::Round(Box::new(Round::ellipsoid(place, error))),
             },
-            Shape::Frustum { bottom, top } => Self::Round(Box::new(Round::frustum(place, *bottom, *top))),
+            Shape::Frustum { bottom, top } => {
+                Self::Round(Box::new(Round::frustum(place, *bottom, *top, error)))
+            }
             Shape::Cube => match axis_half(&place.linear) {
-                Some(half) => {
-                    Self::AxisBox(AxisBox::new(Bounds::new(place.center - half, place.center + half)))
-                }
-                None => Self::SkewBox(Box::new(SkewBox::new(place))),
+                Some(half) => Self::AxisBox(AxisBox::new(place.center, half, error)),
+                None => Self::SkewBox(Box::new(SkewBox::new(place, error))),
             },
-            Shape::Facets(unit) => Self::Facets(Box::new(Facets::new(unit, &place))),
-            Shape::Mesh(unit) => Self::Mesh(Box::new(Mesh::new(unit, &place))),
-            Shape::Face(corners) => Self::Face(Box::new(Face::new(corners.iter().copied(), &place))),
-            Shape::Patch(corners) => Self::Patch(Box::new(Patch::new(corners, &place))),
-            Shape::Tube { bottom, top } => Self::Tube(Box::new(Tube::new(place, *bottom, *top))),
+            Shape::Facets(unit) => Self::Facets(Box::new(Facets::new(unit, &place, error))),
+            Shape::Mesh(unit) => Self::Mesh(Box::new(Mesh::new(unit, &place, error))),
+            Shape::Face(corners) => Self::Face(Box::new(Face::new(corners.iter().copied(), &place, error))),
+            Shape::Patch(corners) => Self::Patch(Box::new(Patch::new(corners, &place, error))),
+            Shape::Tube { bottom, top } => Self::Tube(Box::new(Tube::new(place, *bottom, *top, error))),
         })
     }
 

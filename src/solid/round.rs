@@ -2,7 +2,7 @@
 
 use crate::math::{Bounds, DVec3, Placement, Ray};
 
-use super::span::{End, ROUNDING, Span};
+use super::span::{End, Span, displacement};
 
 /// The face numbers of a frustum.
 pub(super) const SIDE: u32 = 0;
@@ -14,9 +14,9 @@ const TOP: u32 = 2;
 pub struct Round {
     place: Placement,
     profile: Profile,
-    /// The largest factor by which a length of the world grows in the unit space.
-    stretch: f64,
-    reach: f64,
+    /// How far a point of it may seem off its place, along each axis of the unit space: a coin has a sharp rim
+    /// however thin it is, and a needle a sharp tip.
+    off: DVec3,
 }
 
 /// The outline that is turned about the z axis.
@@ -48,32 +48,26 @@ struct Centred {
     d_squared: f64,
     /// `t` of the closest point.
     t: f64,
-    /// How far `o` may be off.
-    off: f64,
+    /// How far `o` may be off along each axis.
+    off: DVec3,
 }
 
 impl Round {
-    /// The unit sphere at `place`.
-    pub fn ellipsoid(place: Placement) -> Self {
-        Self::new(place, Profile::Sphere)
+    /// The unit sphere at `place`, which may be off by `map_error`.
+    pub fn ellipsoid(place: Placement, map_error: f64) -> Self {
+        Self::new(place, Profile::Sphere, map_error)
     }
 
-    /// The unit frustum at `place`, of radius `bottom` at z = −1 and `top` at z = 1.
-    pub fn frustum(place: Placement, bottom: f64, top: f64) -> Self {
-        Self::new(
-            place,
-            Profile::Frustum { middle: 0.5 * bottom + 0.5 * top, slope: 0.5 * top - 0.5 * bottom },
-        )
+    /// The unit frustum at `place`, which may be off by `map_error`, of radius `bottom` at z = −1 and `top` at z = 1.
+    pub fn frustum(place: Placement, bottom: f64, top: f64, map_error: f64) -> Self {
+        let profile = Profile::Frustum { middle: 0.5 * bottom + 0.5 * top, slope: 0.5 * top - 0.5 * bottom };
+        Self::new(place, profile, map_error)
     }
 
-    fn new(place: Placement, profile: Profile) -> Self {
-        let rows = place.inverse.transpose();
-        let stretch =
-            (rows.x_axis.length_squared() + rows.y_axis.length_squared() + rows.z_axis.length_squared())
-                .sqrt();
-        let linear = place.linear;
-        let size = linear.x_axis.length() + linear.y_axis.length() + linear.z_axis.length();
-        Self { place, profile, stretch, reach: place.center.length() + size }
+    fn new(place: Placement, profile: Profile, map_error: f64) -> Self {
+        let rows = [place.inverse.row(0), place.inverse.row(1), place.inverse.row(2)];
+        let off = displacement(place.center.length(), map_error);
+        Self { place, profile, off: DVec3::from_array(rows.map(|row| off * row.length())) }
     }
 
     /// Where the ray is inside. A chord that rounding could have made counts as none.
@@ -91,7 +85,7 @@ impl Round {
     pub fn side_crossings(&self, ray: &Ray) -> SideCrossings {
         let ray = self.centred(ray);
         let Profile::Frustum { middle, slope } = self.profile else { return SideCrossings::default() };
-        if ray.o.length_squared() > 2.0 + 4.0 * ray.off {
+        if ray.passes_by() {
             return SideCrossings::default();
         }
         let Some(side) = side_span(&ray, middle, slope) else { return SideCrossings::default() };
@@ -111,8 +105,7 @@ impl Round {
         let o = o + first * d;
         let second = -o.dot(d) / d_squared;
         let o = o + second * d;
-        let off = ROUNDING * self.stretch * (from_center.length() + self.reach);
-        Centred { o, d, d_squared, t: first + second, off }
+        Centred { o, d, d_squared, t: first + second, off: self.off }
     }
 
     /// The outward normal at a point of the surface, of length 1; along the axis at the apex of a cone.
@@ -212,6 +205,15 @@ impl Round {
     }
 }
 
+impl Centred {
+    /// Whether the line is certainly beside the frustum, which lies within √2 of the unit origin.
+    fn passes_by(&self) -> bool {
+        let off = self.off.element_sum();
+        // (√2 + off)² with 4 for 2√2.
+        self.o.length_squared() > 2.0 + off * (4.0 + off)
+    }
+}
+
 fn sphere_span(ray: &Centred) -> Option<Span> {
     let l_squared = ray.o.length_squared();
     if l_squared > 1.0 {
@@ -219,13 +221,16 @@ fn sphere_span(ray: &Centred) -> Option<Span> {
     }
     let l = l_squared.sqrt();
     let half_squared = (1.0 - l) * (1.0 + l);
-    if half_squared.is_nan() || half_squared <= 2.0 * ray.off {
+    // Moving the ray by at most `off` changes the square of the half-chord by 2·o·off.
+    let across = ray.o.abs().dot(ray.off);
+    if half_squared.is_nan() || half_squared <= 2.0 * across {
         return None;
     }
     let root = half_squared.sqrt();
     let speed = ray.d_squared.sqrt();
     let half = root / speed;
-    let error = ray.off / speed * (1.0 + l / root);
+    // The crossing q = o ± half·d, moved by `off`, moves along the ray by |q|·off over q·d, and |q·d| = speed · root.
+    let error = (across / root + ray.d.abs().dot(ray.off) / speed) / speed;
     Some(Span {
         enter: End { t: ray.t - half, error, surface: 0 },
         leave: End { t: ray.t + half, error, surface: 0 },
@@ -235,8 +240,7 @@ fn sphere_span(ray: &Centred) -> Option<Span> {
 /// The line against the side, then against `|z| ≤ 1`.
 fn frustum_span(ray: &Centred, middle: f64, slope: f64) -> Option<Span> {
     let (o, d) = (ray.o, ray.d);
-    // The frustum lies within √2 of the unit origin.
-    if o.length_squared() > 2.0 + 4.0 * ray.off {
+    if ray.passes_by() {
         return None;
     }
     let mut span = Span::LINE;
@@ -247,7 +251,7 @@ fn frustum_span(ray: &Centred, middle: f64, slope: f64) -> Option<Span> {
         }
     } else {
         let (low, high) = ((-1.0 - o.z) / d.z, (1.0 - o.z) / d.z);
-        let error = ray.off / d.z.abs();
+        let error = ray.off.z / d.z.abs();
         if d.z > 0.0 {
             span.clip(end(low, error, BOTTOM), end(high, error, TOP));
         } else {
@@ -272,8 +276,8 @@ fn side_span(ray: &Centred, middle: f64, slope: f64) -> Option<Span> {
     let across = d.x * o.y - d.y * o.x;
     let along = (squared(d.x * rho - d_rho * o.x) + squared(d.y * rho - d_rho * o.y)).sqrt();
     let discriminant = (along - across.abs()) * (along + across.abs());
-    // |∇(x² + y² − ρ²)| is at most 3 within the frustum: off sideways changes the form by 4·off at most.
-    let form_off = 4.0 * ray.off;
+    // The gradient of x² + y² − ρ² is 2·(x, y, −ρ·slope), with x, y and ρ at most 1 on the frustum.
+    let form_off = 2.0 * (ray.off.x + ray.off.y + slope.abs() * ray.off.z);
     if a > 0.0 {
         if discriminant.is_nan() || discriminant <= form_off * a {
             return None;

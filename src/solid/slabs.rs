@@ -3,32 +3,40 @@
 //! A direction component of 0 is decided by `lo ≤ o < hi`, half open, so that 0 · ∞ never arises and of two
 //! boxes that share a face exactly one claims a ray in the plane of that face.
 
-use crate::math::{Bounds, DMat3, DVec3, Placement, Ray};
+use crate::math::{Bounds, DMat3, DVec3, Placement, Ray, two_sum};
 
-use super::span::{End, ROUNDING, Span};
+use super::span::{End, ROUNDING, Span, WORLD, displacement};
 
 /// A box along the axes of the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisBox {
     bounds: Bounds,
-    reach: f64,
+    /// How far a face may seem off its place.
+    off: f64,
 }
 
 impl AxisBox {
-    /// A box with an interior.
-    pub fn new(bounds: Bounds) -> Self {
-        let reach = bounds.lo.abs().max(bounds.hi.abs()).length();
-        Self { bounds, reach }
+    /// The box with edges of twice `half`, all above 0, around a centre that may be off by `map_error`.
+    ///
+    /// A face that cuts the world is as exact as it was written, however far the box reaches: what its sum of centre
+    /// and half lost is known, and beyond that only coordinates within [`WORLD`] are computed with.
+    pub fn new(center: DVec3, half: DVec3, map_error: f64) -> Self {
+        let (mut bounds, mut lost) = (Bounds::EMPTY, 0.0_f64);
+        for axis in 0..3 {
+            let (lo, hi) = (two_sum(center[axis], -half[axis]), two_sum(center[axis], half[axis]));
+            (bounds.lo[axis], bounds.hi[axis]) = (lo.0, hi.0);
+            lost = lost.max(lo.1.abs()).max(hi.1.abs());
+        }
+        Self { bounds, off: ROUNDING * WORLD + lost + map_error }
     }
 
     /// Where the ray is inside.
     #[inline]
     pub fn span(&self, ray: &Ray) -> Option<Span> {
-        let off = ROUNDING * (self.reach + ray.o.length());
         let mut span = Span::LINE;
         for axis in 0..3 {
             let (lo, hi) = (self.bounds.lo[axis], self.bounds.hi[axis]);
-            clip_to_slab(&mut span, ray.o[axis], ray.d[axis], [lo, hi], off, axis)?;
+            clip_to_slab(&mut span, ray.o[axis], ray.d[axis], [lo, hi], self.off, axis)?;
         }
         span.if_any()
     }
@@ -50,28 +58,26 @@ pub struct SkewBox {
     place: Placement,
     /// The rows of the inverse: normals of the three pairs of faces, in units of half their distance.
     rows: [DVec3; 3],
-    row_lengths: [f64; 3],
-    reach: f64,
+    /// How far a face of each pair may seem off its place, in units of its row.
+    off: [f64; 3],
 }
 
 impl SkewBox {
-    /// The unit cube at `place`.
-    pub fn new(place: Placement) -> Self {
+    /// The unit cube at `place`, which may be off by `map_error`.
+    pub fn new(place: Placement, map_error: f64) -> Self {
         let rows = [place.inverse.row(0), place.inverse.row(1), place.inverse.row(2)];
-        let DMat3 { x_axis, y_axis, z_axis } = place.linear;
-        let reach = place.center.length() + x_axis.length() + y_axis.length() + z_axis.length();
-        Self { place, rows, row_lengths: rows.map(DVec3::length), reach }
+        let off = displacement(place.center.length(), map_error);
+        Self { place, rows, off: rows.map(|row| off * row.length()) }
     }
 
     /// Where the ray is inside.
     #[inline]
     pub fn span(&self, ray: &Ray) -> Option<Span> {
         let from_center = ray.o - self.place.center;
-        let off = ROUNDING * (self.reach + from_center.length());
         let mut span = Span::LINE;
         for axis in 0..3 {
             let (o, d) = (self.rows[axis].dot(from_center), self.rows[axis].dot(ray.d));
-            clip_to_slab(&mut span, o, d, [-1.0, 1.0], off * self.row_lengths[axis], axis)?;
+            clip_to_slab(&mut span, o, d, [-1.0, 1.0], self.off[axis], axis)?;
         }
         span.if_any()
     }
@@ -121,15 +127,20 @@ fn side(surface: u32) -> f64 {
     if surface & 1 == 0 { -1.0 } else { 1.0 }
 }
 
+/// A direction so nearly in the plane of a face that its reciprocal overflows: on its whole way through the world it
+/// comes no closer to that face.
+const STILL: f64 = 4.0 * f64::MIN_POSITIVE;
+
 /// Cuts the span to one slab; `None` where the ray runs beside it. `off` is how far `o` and the faces may be off.
 #[inline]
 fn clip_to_slab(span: &mut Span, o: f64, d: f64, [lo, hi]: [f64; 2], off: f64, axis: usize) -> Option<()> {
-    if d == 0.0 {
+    if d.abs() < STILL {
         return (lo <= o && o < hi).then_some(());
     }
-    let error = off / d.abs();
-    let low = End { t: (lo - o) / d, error, surface: 2 * axis as u32 };
-    let high = End { t: (hi - o) / d, error, surface: 2 * axis as u32 + 1 };
+    let inverse = d.recip();
+    let error = off * inverse.abs();
+    let low = End { t: (lo - o) * inverse, error, surface: 2 * axis as u32 };
+    let high = End { t: (hi - o) * inverse, error, surface: 2 * axis as u32 + 1 };
     if d > 0.0 {
         span.clip(low, high);
     } else {

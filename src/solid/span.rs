@@ -2,10 +2,22 @@
 
 /// How far a coordinate of a crossing may be off, as a share of the lengths it was computed from.
 ///
-/// The longest chain of roundings between the scene's numbers and a crossing: composing two maps (a dot product
-/// of three terms and a sum, 4 roundings each), inverting one (6), moving a ray into the unit space (4), and
-/// re-centring it twice (4 each): 26, rounded up to 32 half-ulps of `f64::EPSILON / 2`.
+/// The longest chain of roundings between a ray and a crossing: the ray's start, which was itself computed as a point
+/// on a ray (a product and a sum, 2 roundings, of lengths up to twice [`WORLD`]: 4), inverting a map (8), moving the
+/// ray into the unit space (a difference and a dot product of three terms, 4, for the start and again for the
+/// direction), and re-centring it twice (4 each): 28, rounded up to 32 half-ulps of `f64::EPSILON / 2`. What composing
+/// the map took is [`scene::Primitive::map_error`](crate::scene::Primitive::map_error).
 pub const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// How far from the assembly's origin a ray starts at most, in the assembly's unit: the limit's corners are within
+/// √12, and a ray from outside is moved to within 1 of it.
+pub const WORLD: f64 = 5.0;
+
+/// How far from its place a point of a solid may seem to a ray: of a solid whose own origin lies `from_origin` away
+/// from the assembly's, and whose map may be off by `map_error`.
+pub fn displacement(from_origin: f64, map_error: f64) -> f64 {
+    ROUNDING * (WORLD + from_origin) + map_error
+}
 
 /// One end of a span.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -66,7 +66,7 @@ mod tests {
     use crate::stage::Silent;
 
     fn part(shape: Shape) -> Solid {
-        Solid::Primitive(Part { shape, map: DAffine3::IDENTITY, material: MaterialId(0) })
+        Solid::Primitive(Part::new(shape, DAffine3::IDENTITY, MaterialId(0)))
     }
 
     fn scene(solid: Solid) -> Scene {

@@ -6,7 +6,7 @@ use crate::scene;
 use crate::stage::{Meter, Silent};
 
 fn primitive(shape: scene::Shape, map: DAffine3) -> scene::Solid {
-    scene::Solid::Primitive(scene::Primitive { shape, map, material: scene::MaterialId(0) })
+    scene::Solid::Primitive(scene::Primitive::new(shape, map, scene::MaterialId(0)))
 }
 
 fn cube(center: [f64; 3], half: [f64; 3]) -> scene::Solid {
@@ -29,7 +29,7 @@ fn turned(solid: &scene::Solid, about: DAffine3) -> scene::Solid {
     use scene::Solid::{Difference, Intersection, Primitive, Union};
     let all = |c: &[scene::Solid]| c.iter().map(|s| turned(s, about)).collect();
     match solid {
-        Primitive(p) => Primitive(scene::Primitive { map: about * p.map, ..p.clone() }),
+        Primitive(p) => Primitive(scene::Primitive::new(p.shape.clone(), about * p.map, p.material)),
         Union(c) => Union(all(c)),
         Intersection(c) => Intersection(all(c)),
         Difference(c) => Difference(all(c)),

@@ -9,9 +9,9 @@ use super::round::{Round, SIDE, SideCrossings};
 pub struct Tube(Round);
 
 impl Tube {
-    /// The tube at `place`, of radius `bottom` at z = −1 and `top` at z = 1.
-    pub fn new(place: Placement, bottom: f64, top: f64) -> Self {
-        Self(Round::frustum(place, bottom, top))
+    /// The tube at `place`, which may be off by `map_error`, of radius `bottom` at z = −1 and `top` at z = 1.
+    pub fn new(place: Placement, bottom: f64, top: f64, map_error: f64) -> Self {
+        Self(Round::frustum(place, bottom, top, map_error))
     }
 
     /// Where the line of the ray goes in through the tube's wall, and where it comes out.

@@ -8,7 +8,7 @@ use ray13::scene::{Facets, HalfSpace, MaterialId, Mesh, Object, Primitive, Scene
 use super::{Brute, Hit};
 
 fn solid(shape: Shape, map: DAffine3) -> Solid {
-    Solid::Primitive(Primitive { shape, map, material: MaterialId(0) })
+    Solid::Primitive(Primitive::new(shape, map, MaterialId(0)))
 }
 
 fn at(shape: Shape, center: DVec3, half: DVec3) -> Solid {

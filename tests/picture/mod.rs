@@ -16,7 +16,7 @@ pub struct Seen {
 
 /// A scene of one primitive.
 pub fn shape(shape: Shape, map: DAffine3) -> Scene {
-    let solid = Solid::Primitive(Primitive { shape, map, material: MaterialId(0) });
+    let solid = Solid::Primitive(Primitive::new(shape, map, MaterialId(0)));
     Scene {
         objects: vec![Object { name: None, solid }],
         materials: vec![Material::default()],

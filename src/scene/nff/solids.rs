@@ -104,7 +104,7 @@ impl Solids {
         if !is_within_reach(&shape.bounds()) {
             return Err(too_far(entity));
         }
-        let solid = Solid::Primitive(Primitive { shape, map: DAffine3::IDENTITY, material });
+        let solid = Solid::Primitive(Primitive::new(shape, DAffine3::IDENTITY, material));
         self.objects.push(Object { name: None, solid });
         Ok(())
     }
@@ -119,7 +119,8 @@ impl Solids {
         if !is_within_reach(&shape.bounds().mapped(&map)) {
             return Err(too_far(entity));
         }
-        self.objects.push(Object { name: None, solid: Solid::Primitive(Primitive { shape, map, material }) });
+        self.objects
+            .push(Object { name: None, solid: Solid::Primitive(Primitive::new(shape, map, material)) });
         Ok(())
     }
 

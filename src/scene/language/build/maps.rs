@@ -1,11 +1,11 @@
-//! The words that move their children, as affine maps; and whether a map can be undone.
+//! The words that move their children, as affine maps.
 
 use super::arguments::{Arguments, numbers};
 use super::degrees;
-use crate::math::{DAffine3, DMat3, DVec3, is_singular};
+use crate::math::{DAffine3, DMat3, DVec3};
 use crate::scene::Diagnostic;
 use crate::scene::diagnostic::{Reported, Sink};
-use crate::scene::language::syntax::{Span, Spanned, Value};
+use crate::scene::language::syntax::{Spanned, Value};
 use crate::scene::language::vocabulary::MapWord;
 
 /// The map of a call alone.
@@ -26,27 +26,6 @@ pub fn map_of(word: MapWord, arguments: &Arguments<'_, '_>, sink: &mut Sink) -> 
             Ok(DAffine3::from_mat3(mirror(normal)))
         }
     }
-}
-
-/// `outer` after `inner`, where that is finite and can be undone; `place` is the word of `inner`.
-pub fn compose(
-    outer: &DAffine3,
-    inner: &DAffine3,
-    place: Span,
-    sink: &mut Sink,
-) -> Result<DAffine3, Reported> {
-    let map = *outer * *inner;
-    if !map.is_finite() {
-        let error =
-            Diagnostic::error(place, "the numbers up to here multiply to more than a 64-bit float holds");
-        return Err(sink.report(error.label("too large with what stands above it")));
-    }
-    // `inner` by itself, too: what `outer` makes of a flat map is flat only up to rounding.
-    if is_singular(&inner.matrix3) || is_singular(&map.matrix3) {
-        let error = Diagnostic::error(place, "the map up to here is singular: it makes solids flat");
-        return Err(sink.report(error.help("a map must keep three directions apart; a scale must not be 0")));
-    }
-    Ok(map)
 }
 
 fn multmatrix(arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<DAffine3, Reported> {

@@ -1,6 +1,7 @@
 //! The syntax tree to the [`Scene`]: every word gets its meaning.
 
 mod arguments;
+mod chain;
 mod colors;
 mod degrees;
 mod facets;
@@ -16,10 +17,10 @@ use std::collections::HashSet;
 use super::nearest::quoted;
 use super::syntax::{Argument, Call, File, Value};
 use super::vocabulary::{Known, Meaning, Word, look_up, nearest_word};
-use crate::math::DAffine3;
 use crate::scene::diagnostic::{Reported, Sink};
 use crate::scene::{Diagnostic, ReadOptions, Scene};
 use arguments::{Arguments, setting};
+use chain::Chain;
 use facets::Polygons;
 use materials::{Surface, Surfaces};
 use polyhedron::EarClipper;
@@ -41,10 +42,10 @@ pub fn build(file: &File<'_>, options: &ReadOptions, sink: &mut Sink) -> Scene {
 }
 
 /// What the words above hand down to a word.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct Context {
     /// From the word's coordinates to the world's.
-    map: DAffine3,
+    maps: Chain,
     surface: Surface,
     /// `$fn`: how many sides stand for a circle, where they are few.
     fragments: f64,
@@ -64,7 +65,7 @@ struct Builder<'s> {
 impl Builder<'_> {
     fn file(&mut self, file: &File<'_>) {
         let context =
-            Context { map: DAffine3::IDENTITY, surface: Surface::default(), fragments: self.settings(file) };
+            Context { maps: Chain::default(), surface: Surface::default(), fragments: self.settings(file) };
         // Definitions first: a material may be applied above the line that defines it.
         for call in &file.calls {
             if is_definition(call) && self.is_present(call) {
@@ -158,13 +159,13 @@ fn root<'c, 'a>(call: &'c Call<'a>, above: &Context) -> Option<(&'c Call<'a>, Co
         return None;
     }
     if call.modifiers.root {
-        return Some((call, *above));
+        return Some((call, above.clone()));
     }
     let own = |argument: &&Argument<'_>| argument.name.is_some_and(|name| name.text == "$fn");
     let fragments = match call.arguments.iter().find(own).map(|argument| &argument.value.value) {
         Some(Value::Number(number)) => *number,
         _ => above.fragments,
     };
-    let inner = Context { fragments, ..*above };
+    let inner = Context { fragments, ..above.clone() };
     call.children.iter().find_map(|child| root(child, &inner))
 }

@@ -58,7 +58,7 @@ impl Builder<'_> {
             match union_word(call) {
                 Some(word) if word.meaning == Meaning::Object => self.object(call, word, context),
                 Some(word) => {
-                    let inner = self.enter(call, word, context).unwrap_or(*context);
+                    let inner = self.enter(call, word, context).unwrap_or_else(|Reported| context.clone());
                     self.open(&call.children, &inner);
                 }
                 None => {
@@ -72,7 +72,7 @@ impl Builder<'_> {
 
     fn object(&mut self, call: &Call<'_>, word: &'static Word, context: &Context) {
         let name = self.object_name(call, word);
-        let inner = self.enter(call, word, context).unwrap_or(*context);
+        let inner = self.enter(call, word, context).unwrap_or_else(|Reported| context.clone());
         if let (Ok(name), Built::Solid(solid)) = (name, self.united(call, &inner)) {
             self.scene.objects.push(Object { name: Some(name), solid });
         }
@@ -101,11 +101,11 @@ impl Builder<'_> {
         let sink = &mut *self.sink;
         let arguments = Arguments::bind(call, word, sink)?;
         let fragments = arguments.fragments.unwrap_or(above.fragments);
-        let mut inner = Context { fragments, ..*above };
+        let mut inner = Context { fragments, ..above.clone() };
         match word.meaning {
             Meaning::Map(map) => {
                 let map = maps::map_of(map, &arguments, sink)?;
-                inner.map = maps::compose(&above.map, &map, call.name.span, sink)?;
+                inner.maps = above.maps.then(map, call.name.span, sink)?;
             }
             Meaning::Color => inner.surface = tinted(above.surface, &arguments, sink)?,
             Meaning::Material => inner.surface = self.surfaces.apply(above.surface, &arguments, sink)?,
@@ -125,7 +125,7 @@ impl Builder<'_> {
             Meaning::Material if call.children.is_empty() => self.misplaced(call),
             Meaning::Camera | Meaning::Light | Meaning::World => self.misplaced(call),
             _ => {
-                let inner = self.enter(call, word, context).unwrap_or(*context);
+                let inner = self.enter(call, word, context).unwrap_or_else(|Reported| context.clone());
                 match word.meaning {
                     Meaning::Operator(OperatorWord::Difference) => self.difference(call, &inner),
                     Meaning::Operator(OperatorWord::Intersection) => self.intersection(call, &inner),
@@ -163,7 +163,7 @@ impl Builder<'_> {
             }
             if let Some(word) = union_word(call) {
                 self.note_lost_name(call, word);
-                let inner = self.enter(call, word, context).unwrap_or(*context);
+                let inner = self.enter(call, word, context).unwrap_or_else(|Reported| context.clone());
                 any_missing |= self.unite(&call.children, &inner, solids);
                 continue;
             }
@@ -219,7 +219,7 @@ impl Builder<'_> {
             }
             if let Some(word) = intersection_word(call) {
                 self.note_lost_name(call, word);
-                let inner = self.enter(call, word, context).unwrap_or(*context);
+                let inner = self.enter(call, word, context).unwrap_or_else(|Reported| context.clone());
                 self.intersect(&call.children, &inner, meeting);
                 continue;
             }

@@ -2,7 +2,6 @@
 
 use super::arguments::Arguments;
 use super::facets::Polygons;
-use super::maps::compose;
 use super::{Builder, Context, facets, polyhedron};
 use crate::math::{DAffine3, DMat3, DVec3};
 use crate::scene::diagnostic::{Reported, Sink};
@@ -39,14 +38,16 @@ impl Builder<'_> {
                 (polyhedron::polyhedron(&arguments, &mut self.clipper, sink)?, DAffine3::IDENTITY)
             }
         };
-        let map = compose(&context.map, &local, call.name.span, sink)?;
+        let maps = context.maps.then(local, call.name.span, sink)?;
+        let map = *maps.product();
         if !is_within_reach(&shape.bounds().mapped(&map)) {
             let message = format!("it reaches farther than {REACH:e} from the origin");
             let error = Diagnostic::error(call.name.span, message);
             return Err(sink.report(error.label("too large, or too far away")));
         }
         let material = self.surfaces.id(context.surface);
-        Ok(Solid::Primitive(Primitive { shape, map, material }))
+        let map_error = maps.error(&shape.bounds());
+        Ok(Solid::Primitive(Primitive { shape, map, map_error, material }))
     }
 }
 

@@ -12,7 +12,7 @@ use ray13::frame::Studio;
 use ray13::math::{DVec3, Size};
 use ray13::plan::Shading;
 use ray13::scene::{Camera, CameraError, FieldSpan, ReadOptions, read};
-use sound::sound;
+use sound::Pictures;
 
 /// Odd, so that one dot looks along the line of sight.
 const DOTS: Size = Size::new(7, 7);
@@ -41,7 +41,8 @@ fn all_sound(what: &str, text: &str, studio: &Studio, camera: &Camera) {
     for shading in Shading::ALL {
         // In one channel and in three, in turn.
         let color = matches!(shading, Shading::Lambert | Shading::Whitted);
-        if let Err(fault) = sound(studio, camera, DOTS, shading, color) {
+        let pictures = Pictures::sound(studio, camera, DOTS, shading, color);
+        if let Err(fault) = pictures.and_then(|pictures| pictures.same()) {
             panic!("{what}: {fault}\n{text}");
         }
     }
@@ -257,7 +258,7 @@ fn what_has_no_picture_is_refused() {
 fn number() -> impl Strategy<Value = f64> {
     let small = [0.0, -0.0, f64::MIN_POSITIVE, -f64::MIN_POSITIVE, 5e-324, -1e-310, 1e-300, -1e-160, 1e-16];
     let plain = [1.0, -1.0, 0.5, -0.5, 2.0, -3.0, 1.0 + f64::EPSILON, 1.0 - f64::EPSILON / 2.0];
-    let large = [1e2, 1e3];
+    let large = [1e9, -1e16, 1e100, -1e160, 1e300, -1e300, 1e304, 1.7e308];
     prop_oneof![6 => select(plain.to_vec()), 3 => select(small.to_vec()), 1 => select(large.to_vec()), 5 => -2.0..2.0]
 }
 
@@ -267,7 +268,7 @@ fn point() -> impl Strategy<Value = DVec3> {
 }
 
 fn size() -> impl Strategy<Value = f64> {
-    let ends = vec![1e-3, 1e3];
+    let ends = vec![f64::MIN_POSITIVE, 1e-300, 1e-150, 1e-9, 1e9, 1e150, 1e300];
     prop_oneof![6 => select(vec![1.0, 0.5, 2.0]), 4 => 0.01..3.0, 1 => select(ends)]
 }
 
@@ -291,7 +292,7 @@ fn solid() -> impl Strategy<Value = String> {
         3 => point().prop_map(|p| format!("translate({})", triple(p))),
         2 => turn,
         1 => (size(), size(), size()).prop_map(|(x, y, z)| format!("scale([{x:e}, -{y:e}, {z:e}])")),
-        1 => select(vec!["[1, 0, 0]", "[1, 1, 0]", "[0.3, -0.2, 0.7]"]).prop_map(|normal| format!("mirror({normal})")),
+        1 => point().prop_map(|p| format!("mirror({})", triple(p))),
     ];
     let moved =
         (map, prop_oneof![plain, sized]).prop_map(|(map, solid)| format!("{map} union() {{ {solid} }}"));
@@ -362,7 +363,8 @@ proptest! {
         prop_assert_eq!(framed.check(), Ok(()), "{}", text);
         for camera in [scaled, framed] {
             if camera.check().is_ok() {
-                sound(&studio, &camera, DOTS, shading, color).map_err(|fault| TestCaseError::fail(format!("{fault}\n{text}")))?;
+let pictures = Pictures::sound(&studio, &camera, DOTS, shading, color);
+                pictures.map_err(|fault| TestCaseError::fail(format!("{fault}\n{text}")))?;
             }
         }
     }

@@ -8,44 +8,63 @@ use ray13::tone::{Level, Tone};
 
 use crate::request::request;
 
-/// The picture by every structure, if each is sound and all are the same to the bit; else what is wrong. The light of
-/// each primary is computed where `color` says so.
-pub fn sound(
-    studio: &Studio,
-    camera: &Camera,
-    dots: Size,
-    shading: Shading,
-    color: bool,
-) -> Result<Frame, String> {
-    let choices = [StructureChoice::None, StructureChoice::Lattice, StructureChoice::Tree];
-    let [whole, others @ ..] = choices.map(|structure| {
-        let mut request = request(camera.clone(), dots);
-        request.options.structure = structure;
-        request.options.shading = shading;
-        request.options.color = color;
-        request.options.threads = 1;
-        studio.draw(&request)
-    });
-    if let Some(fault) = fault(&whole) {
-        return Err(format!("{fault}; {camera:?}, {shading:?}"));
-    }
-    for other in others {
-        for place in (0..dots.height).flat_map(|j| (0..dots.width).map(move |i| (i, j))) {
-            let [a, b] = [&whole, &other].map(|frame| seen(frame, place));
-            if a != b {
-                let what = |f: &Frame| {
-                    format!("{} {} {} {}", f.object[place], f.depth[place], f.normal[place], f.light[place])
-                };
-                return Err(format!(
-                    "dot {place:?}: {} alone, {} by {}; {camera:?}, {shading:?}",
-                    what(&whole),
-                    what(&other),
-                    other.space.name()
-                ));
-            }
+/// A picture by every structure.
+pub struct Pictures {
+    frames: [Frame; 3],
+    camera: Camera,
+}
+
+impl Pictures {
+    /// The pictures of a view, if each holds only values that a picture may hold; else what is wrong. The light of each
+    /// primary is computed where `color` says so.
+    pub fn sound(
+        studio: &Studio,
+        camera: &Camera,
+        dots: Size,
+        shading: Shading,
+        color: bool,
+    ) -> Result<Self, String> {
+        let choices = [StructureChoice::None, StructureChoice::Lattice, StructureChoice::Tree];
+        let frames = choices.map(|structure| {
+            let mut request = request(camera.clone(), dots);
+            request.options.structure = structure;
+            request.options.shading = shading;
+            request.options.color = color;
+            request.options.threads = 1;
+            studio.draw(&request)
+        });
+        match frames.iter().find_map(fault) {
+            Some(fault) => Err(format!("{fault}; {camera:?}, {shading:?}")),
+            None => Ok(Self { frames, camera: camera.clone() }),
         }
     }
-    Ok(whole)
+
+    /// Whether all are the same to the bit; else the first dot that differs.
+    pub fn same(&self) -> Result<(), String> {
+        let [whole, others @ ..] = &self.frames;
+        let dots = whole.light.size();
+        for other in others {
+            for place in (0..dots.height).flat_map(|j| (0..dots.width).map(move |i| (i, j))) {
+                let [a, b] = [whole, other].map(|frame| seen(frame, place));
+                if a != b {
+                    let what = |f: &Frame| {
+                        format!(
+                            "{} {:e} {} {}",
+                            f.object[place], f.depth[place], f.normal[place], f.light[place]
+                        )
+                    };
+                    return Err(format!(
+                        "dot {place:?}: {} alone, {} by {}; {:?}",
+                        what(whole),
+                        what(other),
+                        other.space.name(),
+                        self.camera
+                    ));
+                }
+            }
+        }
+        Ok(())
+    }
 }
 
 /// All that a dot holds, to the bit.

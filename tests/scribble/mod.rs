@@ -123,11 +123,23 @@ fn number() -> BoxedStrategy<String> {
         "1e305",
     ]);
     prop_oneof![
-        10 => (1..9_i32).prop_map(|n| n.to_string()),
-        10 => (-9.0..9.0).prop_map(|x: f64| format!("{x:.3}")),
-        4 => (0.01..1.0).prop_map(|x: f64| format!("{x}")),
-        2 => any::<f64>().prop_map(|x| format!("{x:e}")),
+        40 => (-9..9_i32).prop_map(|n| n.to_string()),
+        40 => (-9.0..9.0).prop_map(|x: f64| format!("{x:.3}")),
+        20 => (0.01..1.0).prop_map(|x: f64| format!("{x}")),
+        1 => any::<f64>().prop_map(|x| format!("{x:e}")),
         1 => odd.prop_map(str::to_owned),
+    ]
+    .boxed()
+}
+
+/// A size, seldom one that is none.
+fn size() -> BoxedStrategy<String> {
+    let ends = select(vec!["1e-300", "5e-324", "1e300", "1e-9", "1e9", "2.2250738585072014e-308"]);
+    prop_oneof![
+        40 => (1..9_i32).prop_map(|n| n.to_string()),
+        40 => (0.01..9.0).prop_map(|x: f64| format!("{x}")),
+        2 => ends.prop_map(str::to_owned),
+        1 => number(),
     ]
     .boxed()
 }
@@ -191,9 +203,9 @@ fn primitive() -> BoxedStrategy<String> {
         "material",
     ]);
     prop_oneof![
-        4 => number().prop_map(|r| format!("sphere({r});")),
-        4 => triple().prop_map(|size| format!("cube({size}, center = true);")),
-        4 => (number(), number(), number(), 0..8_u32)
+        8 => size().prop_map(|r| format!("sphere({r});")),
+        8 => (size(), size(), size()).prop_map(|(a, b, c)| format!("cube([{a}, {b}, {c}], center = true);")),
+        8 => (size(), size(), size(), 0..8_u32)
             .prop_map(|(h, r1, r2, sides)| format!("cylinder(h = {h}, r1 = {r1}, r2 = {r2}, $fn = {sides});")),
         2 => (triple(), triple(), triple(), triple()).prop_map(|(a, b, c, d)| {
             format!("polyhedron([{a}, {b}, {c}, {d}], [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]]);")
@@ -262,16 +274,16 @@ pub fn nff() -> impl Strategy<Value = String> {
         })
     };
     let entity = prop_oneof![
-        3 => numbers(4).prop_map(|n| format!("s {n}")),
-        3 => numbers(8).prop_map(|n| format!("c {n}")),
+        3 => (numbers(3), size()).prop_map(|(at, r)| format!("s {at} {r}")),
+        3 => (numbers(3), size(), numbers(3), size()).prop_map(|(a, r, b, s)| format!("c {a} {r} {b} {s}")),
         3 => corners("p", 3),
         3 => corners("pp", 6),
-        2 => (share(), number()).prop_map(|(shares, index)| format!("f {shares} {index}")),
-        1 => numbers(8).prop_map(|n| format!("f {n}")),
+        2 => (share(), size()).prop_map(|(shares, index)| format!("f {shares} {index}")),
+
         1 => numbers(3).prop_map(|n| format!("l {n}")),
-        1 => numbers(6).prop_map(|n| format!("l {n}")),
-        1 => numbers(3).prop_map(|n| format!("b {n}")),
-        1 => (numbers(3), numbers(3), numbers(3), number()).prop_map(|(from, at, up, angle)| {
+        1 => (numbers(3), size()).prop_map(|(at, i)| format!("l {at} {i} {i} {i}")),
+        1 => size().prop_map(|n| format!("b {n} {n} {n}")),
+        1 => (numbers(3), numbers(3), numbers(3), size()).prop_map(|(from, at, up, angle)| {
             format!("v\nfrom {from}\nat {at}\nup {up}\nangle {angle}\nhither 1\nresolution 4 4")
         }),
     ];
@@ -306,7 +318,7 @@ impl Arbitrary for Mutation {
             2 => (place(), 1..200_usize).prop_map(|(at, length)| Self::Double(at, length)),
             2 => (place(), select(&PIECES[..])).prop_map(|(at, piece)| Self::Insert(at, piece)),
             2 => (place(), any::<u8>()).prop_map(|(at, byte)| Self::Byte(at, byte)),
-            8 => (place(), number()).prop_map(|(at, number)| Self::Number(at, number)),
+            24 => (place(), prop_oneof![number(), size()]).prop_map(|(at, number)| Self::Number(at, number)),
             1 => place().prop_map(Self::End),
         ]
         .boxed()

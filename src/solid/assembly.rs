@@ -110,11 +110,15 @@ impl Datum {
         let map = DAffine3 { matrix3, translation: self.inward(p.map.translation) };
         // The scale is exact; a shift is rounded.
         let shifted = if self.origin == DVec3::ZERO { 0.0 } else { ROUNDING * map.translation.length() };
-        Form::new(&p.shape, &map, p.map_error / self.unit + shifted).or_else(|| {
-            // So small beside the scene that its map has no inverse here, though it has one where it stands alone:
-            // a ball that no ray meets.
-            Placement::new(&p.map).map(|_| Form::Ball(Ball::new(map.translation, 0.0, 0.0)))
-        })
+        let place = Placement::new(&map).filter(|place| {
+            // Lengths of the world in the unit space, whose squares must not overflow.
+            place.inverse.to_cols_array().iter().all(|x| x.abs() <= FARTHEST)
+        });
+        match place {
+            Some(place) => Some(Form::new(&p.shape, place, p.map_error / self.unit + shifted)),
+            // So thin beside the scene that no ray meets it, though its map has an inverse: a ball of no size.
+            None => Placement::new(&p.map).map(|_| Form::Ball(Ball::new(map.translation, 0.0, 0.0))),
+        }
     }
 }
 

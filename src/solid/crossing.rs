@@ -5,6 +5,9 @@
 //! before and behind the cluster matters. So a solid minus itself is nothing, and a hole flush with a face is
 //! open, whatever the order of the operands. A cluster ends where a crossing's interval no longer meets that of
 //! the cluster's **first** crossing: overlap is not transitive, and chains would weld a whole stack of sheets.
+//!
+//! A ray that skims a face crosses it somewhere within an interval as long as the world, and has only faces of the
+//! same slope for company: what it crosses steeply on the way keeps its own place ([`SAME_SLOPE`]).
 
 use crate::math::Ray;
 use crate::stage::{Meter, Probe, Stage};
@@ -115,14 +118,15 @@ pub fn first_of_expression(
     events.sort_unstable_by(|a, b| a.end.t.total_cmp(&b.end.t).then(a.leaf.cmp(&b.leaf)));
     state.start(expression);
     let mut value = state.value(expression);
-    let mut rest = &events[..];
-    while let Some(first) = rest.first() {
-        let (cluster, behind) = rest.split_at(cluster_length(rest));
+    let mut rest = &mut events[..];
+    while let Some(first) = rest.first().copied() {
+        let length = gather_cluster(rest);
+        let (cluster, behind) = rest.split_at_mut(length);
         rest = behind;
         if first.end.t > reach.to {
             return None;
         }
-        for event in cluster {
+        for event in &*cluster {
             state.toggle(expression, event.leaf);
         }
         let before = std::mem::replace(&mut value, state.value(expression));
@@ -130,7 +134,7 @@ pub fn first_of_expression(
         if value != before && !passed {
             // The first in the file among those that made the change shows.
             let deciding = cluster.iter().filter(|e| state.decides(expression, e.leaf));
-            let shown = deciding.min_by_key(|e| e.leaf).unwrap_or(first);
+            let shown = deciding.min_by_key(|e| e.leaf).copied().unwrap_or(first);
             return Some(Crossing {
                 t: shown.end.t,
                 error: shown.end.error,
@@ -144,10 +148,33 @@ pub fn first_of_expression(
     None
 }
 
-/// How many of the sorted events are one place with the first of them.
-fn cluster_length(events: &[Event]) -> usize {
-    let limit = events[0].end.t + events[0].end.error;
-    events.iter().take_while(|e| e.end.t - e.end.error <= limit).count().max(1)
+/// How much the errors of two crossings in one place may differ, as a factor.
+///
+/// An error is how far the surface may be off its place over the sine of the angle at which the ray meets it. Where
+/// surfaces coincide the angles are the same, and the rest is of one size but for maps that lost thousands of
+/// roundings. A ray that crosses something steeply while it skims a face has errors farther apart than this, unless
+/// the longer one is below 65536 · 2e-14 of the world, too short to be seen.
+const SAME_SLOPE: f64 = 65536.0;
+
+/// Brings those of the sorted events that are one place with the first of them to the front, and counts them; the
+/// others keep their order.
+fn gather_cluster(events: &mut [Event]) -> usize {
+    let first = events[0].end;
+    let limit = first.t + first.error;
+    let mut length = 1;
+    for i in 1..events.len() {
+        let end = events[i].end;
+        if end.t - end.error > limit {
+            break;
+        }
+        let (least, most) = (first.error.min(end.error), first.error.max(end.error));
+        // A start that is 0 by construction has no error of its own.
+        if most <= SAME_SLOPE * least || least == 0.0 {
+            events[length..=i].rotate_right(1);
+            length += 1;
+        }
+    }
+    length
 }
 
 /// Collects the crossings of every primitive of the expression that can matter within `reach`.

@@ -1,6 +1,6 @@
 //! One primitive, put into the world and specialised: only what its map requires is computed per ray.
 
-use crate::math::{Bounds, DAffine3, DMat3, DVec3, Placement, Ray};
+use crate::math::{Bounds, DMat3, DVec3, Placement, Ray};
 use crate::scene::{MaterialId, Shape};
 
 use super::ball::Ball;
@@ -58,11 +58,9 @@ pub enum Cover {
 }
 
 impl Form {
-    /// The form of a unit shape under a map, which may be off by `error`; `None` where the map is singular or not
-    /// finite.
-    pub fn new(shape: &Shape, map: &DAffine3, error: f64) -> Option<Self> {
-        let place = Placement::new(map)?;
-        Some(match shape {
+    /// The form of a unit shape at `place`, which may be off by `error`.
+    pub fn new(shape: &Shape, place: Placement, error: f64) -> Self {
+        match shape {
             Shape::Sphere => match similarity(&place.linear) {
                 Some(radius) => Self::Ball(Ball::new(place.center, radius, error)),
                 None => Self::Round(Box::new(Round::ellipsoid(place, error))),
@@ -79,7 +77,7 @@ impl Form {
             Shape::Face(corners) => Self::Face(Box::new(Face::new(corners.iter().copied(), &place, error))),
             Shape::Patch(corners) => Self::Patch(Box::new(Patch::new(corners, &place, error))),
             Shape::Tube { bottom, top } => Self::Tube(Box::new(Tube::new(place, *bottom, *top, error))),
-        })
+        }
     }
 
     /// The ray's span in a convex solid; a mesh has crossings instead, and a surface no inside.

@@ -276,37 +276,39 @@ fn side_span(ray: &Centred, middle: f64, slope: f64) -> Option<Span> {
     let across = d.x * o.y - d.y * o.x;
     let along = (squared(d.x * rho - d_rho * o.x) + squared(d.y * rho - d_rho * o.y)).sqrt();
     let discriminant = (along - across.abs()) * (along + across.abs());
-    // The gradient of x² + y² − ρ² is 2·(x, y, −ρ·slope), with x, y and ρ at most 1 on the frustum.
-    let form_off = 2.0 * (ray.off.x + ray.off.y + slope.abs() * ray.off.z);
-    if a > 0.0 {
-        if discriminant.is_nan() || discriminant <= form_off * a {
-            return None;
-        }
-    } else if discriminant.is_nan() {
+    // The gradient of the form x² + y² − ρ² is 2·(x, y, −ρ·slope), and x and y are at most ρ on the side and within
+    // it: so much is the form off at a point, and near an apex hardly at all.
+    let off = ray.off.x + ray.off.y + slope.abs() * ray.off.z;
+    let form_off = |t: f64| off * (2.0 * (rho + t * d_rho).abs() + off);
+    // A chord is none where the form at its middle, −discriminant / a at t = −b / a, may be 0.
+    let form_off_at_middle = off * (2.0 * (rho * a - b * d_rho).abs() + off * a);
+    if discriminant.is_nan() || (a > 0.0 && discriminant <= form_off_at_middle) {
         return None;
     }
     // A line along or inside the cone always crosses it: below 0 there is rounding only.
     let root = discriminant.max(0.0).sqrt();
-    // The root of a number that is off by `form_off · |a|` is off by that over twice the root, and never by more
-    // than the root of that: all there is to say at the apex, where the root is 0.
-    let error = (0.5 * form_off / root).min((form_off / a.abs()).sqrt());
+    // The root of a number that is off by `form_off · |a|` is off by that over twice the root.
+    let error = |t: f64| 0.5 * form_off(t) / root;
+    // And never by more than the root of that: all there is to say at the apex, where the root is 0.
+    let steep_error = |t: f64| error(t).min((form_off(t) / -a).sqrt());
     // The root whose terms do not cancel, and the other from the product c / a.
     let q = -(b + root.copysign(b));
     let (t1, t2) = if q == 0.0 { (0.0, 0.0) } else { (q / a, c / q) };
     let (low, high) = if t1 < t2 { (t1, t2) } else { (t2, t1) };
     let end = |t: f64, error: f64| End { t, error, surface: SIDE };
     if a > 0.0 {
-        Some(Span { enter: end(low, error), leave: end(high, error) })
+        Some(Span { enter: end(low, error(low)), leave: end(high, error(high)) })
     } else if a < 0.0 {
         // Steeper than the side: one crossing per nappe; only the one with ρ ≥ 0 is the solid's.
         Some(if d_rho > 0.0 {
-            Span { enter: end(high, error), ..Span::LINE }
+            Span { enter: end(high, steep_error(high)), ..Span::LINE }
         } else {
-            Span { leave: end(low, error), ..Span::LINE }
+            Span { leave: end(low, steep_error(low)), ..Span::LINE }
         })
     } else if b != 0.0 {
         // Parallel to the side, or to the axis of a cylinder: 2bt + c ≤ 0.
-        let end = end(-0.5 * c / b, 0.5 * form_off / b.abs());
+        let t = -0.5 * c / b;
+        let end = end(t, 0.5 * form_off(t) / b.abs());
         Some(if b > 0.0 { Span { leave: end, ..Span::LINE } } else { Span { enter: end, ..Span::LINE } })
     } else {
         (c < 0.0).then_some(Span::LINE)

@@ -36,7 +36,7 @@ impl AxisBox {
         let mut span = Span::LINE;
         for axis in 0..3 {
             let (lo, hi) = (self.bounds.lo[axis], self.bounds.hi[axis]);
-            clip_to_slab(&mut span, ray.o[axis], ray.d[axis], [lo, hi], self.off, axis)?;
+            clip_to_slab(&mut span, ray.o[axis], ray.d[axis], STILL, [lo, hi], self.off, axis)?;
         }
         span.if_any()
     }
@@ -60,6 +60,8 @@ pub struct SkewBox {
     rows: [DVec3; 3],
     /// How far a face of each pair may seem off its place, in units of its row.
     off: [f64; 3],
+    /// What rounding may make of the 0 of a direction in the plane of such a face.
+    still: [f64; 3],
 }
 
 impl SkewBox {
@@ -67,7 +69,10 @@ impl SkewBox {
     pub fn new(place: Placement, map_error: f64) -> Self {
         let rows = [place.inverse.row(0), place.inverse.row(1), place.inverse.row(2)];
         let off = displacement(place.center.length(), map_error);
-        Self { place, rows, off: rows.map(|row| off * row.length()) }
+        let lengths = rows.map(DVec3::length);
+        // A dot product of three terms and the row itself: 4 half-ulps.
+        let still = lengths.map(|length| (2.0 * f64::EPSILON * length).max(STILL));
+        Self { place, rows, off: lengths.map(|length| off * length), still }
     }
 
     /// Where the ray is inside.
@@ -77,7 +82,7 @@ impl SkewBox {
         let mut span = Span::LINE;
         for axis in 0..3 {
             let (o, d) = (self.rows[axis].dot(from_center), self.rows[axis].dot(ray.d));
-            clip_to_slab(&mut span, o, d, [-1.0, 1.0], self.off[axis], axis)?;
+            clip_to_slab(&mut span, o, d, self.still[axis], [-1.0, 1.0], self.off[axis], axis)?;
         }
         span.if_any()
     }
@@ -131,10 +136,19 @@ fn side(surface: u32) -> f64 {
 /// comes no closer to that face.
 const STILL: f64 = 4.0 * f64::MIN_POSITIVE;
 
-/// Cuts the span to one slab; `None` where the ray runs beside it. `off` is how far `o` and the faces may be off.
+/// Cuts the span to one slab; `None` where the ray runs beside it. A `d` below `still` runs in the plane of its faces;
+/// `off` is how far `o` and the faces may be off.
 #[inline]
-fn clip_to_slab(span: &mut Span, o: f64, d: f64, [lo, hi]: [f64; 2], off: f64, axis: usize) -> Option<()> {
-    if d.abs() < STILL {
+fn clip_to_slab(
+    span: &mut Span,
+    o: f64,
+    d: f64,
+    still: f64,
+    [lo, hi]: [f64; 2],
+    off: f64,
+    axis: usize,
+) -> Option<()> {
+    if d.abs() < still {
         return (lo <= o && o < hi).then_some(());
     }
     let inverse = d.recip();

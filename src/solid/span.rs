@@ -9,9 +9,12 @@
 /// the map took is [`scene::Primitive::map_error`](crate::scene::Primitive::map_error).
 pub const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// How far from the assembly's origin a ray starts at most, in the assembly's unit: the limit's corners are within
-/// √12, and a ray from outside is moved to within 1 of it.
-pub const WORLD: f64 = 5.0;
+/// How far from the assembly's origin everything lies, in the assembly's unit: the corners of the limit are within
+/// [`LIMIT`], and a ray starts at most 1 before the ball of that size, or is moved there.
+pub const WORLD: f64 = 6.0;
+
+/// The length of the corners of a box that lies within −2..=2 on every axis is at most √12.
+pub const LIMIT: f64 = 3.5;
 
 /// How far from its place a point of a solid may seem to a ray: of a solid whose own origin lies `from_origin` away
 /// from the assembly's, and whose map may be off by `map_error`.

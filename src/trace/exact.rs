@@ -5,14 +5,15 @@ use std::ops::ControlFlow;
 use crate::lattice::{self, SLACK, Structure};
 use crate::math::{Bounds, DVec3, Ray};
 use crate::solid::{
-    self, Assembly, Body, Crossing, Departure, Reach, first_of_expression, first_of_span, first_of_surface,
+    self, Assembly, Body, Crossing, Departure, LIMIT, Reach, first_of_expression, first_of_span,
+    first_of_surface,
 };
 use crate::stage::{Meter, Probe, Stage};
 
 use super::{Engine, Hit};
 
-/// A start farther outside the world than this, in the assembly's unit, is moved to half of it before the world,
-/// so that the way to the world adds no rounding. The rest keeps surfaces at the world's limit ahead of the ray.
+/// A start farther than this outside the ball around the world, in the assembly's unit, is moved to that ball, so
+/// that the way to the world adds no rounding.
 const FAR: f64 = 1.0;
 
 /// The reference engine, over an assembly and how its space is cut.
@@ -189,14 +190,13 @@ impl Engine for Exact<'_> {
 
     fn first(&self, ray: &Ray, memory: &mut Memory, meter: &mut Meter<impl Probe>) -> Option<Hit> {
         meter.at(Stage::Clip);
-        let Some(entry) = lattice::entry(ray, &self.limit) else {
+        let (near, way) = moved_nearer(ray);
+        let Some(entry) = lattice::entry(&near, &self.limit) else {
             meter.counts.clipped_rays += 1;
             memory.nearest.clear();
             return None;
         };
-        let way = if entry > FAR { entry - 0.5 * FAR } else { 0.0 };
-        let near = Ray::new(start_nearer(ray, way), ray.d);
-        let hit = self.closest(&near, entry - way, None, memory, meter)?;
+        let hit = self.closest(&near, entry, None, memory, meter)?;
         Some(Hit { t: way + hit.t, ..hit })
     }
 
@@ -248,18 +248,19 @@ impl Engine for Exact<'_> {
     }
 }
 
-/// The point `way` along a ray. Over a long way the product is larger than the sum, and each coordinate takes one
-/// rounding of the sum alone: a fused multiply-add, in software where the processor has none, gives the same bits
-/// everywhere.
-fn start_nearer(ray: &Ray, way: f64) -> DVec3 {
-    // Below this the product's rounding is at most what `ROUNDING` allows for coordinates near 1.
-    const FUSED: f64 = 8.0;
-    if way == 0.0 {
-        ray.o
-    } else if way < FUSED {
-        ray.at(way)
-    } else {
-        let fused = |d: f64, o: f64| libm::fma(way, d, o);
-        DVec3::new(fused(ray.d.x, ray.o.x), fused(ray.d.y, ray.o.y), fused(ray.d.z, ray.o.z))
+/// The same ray from a start that is not far from the world, and the way there.
+///
+/// Over a long way the product is larger than the sum, and each coordinate takes one rounding of the sum alone: a
+/// fused multiply-add, in software where the processor has none, gives the same bits everywhere. The length of the way
+/// is itself rounded, which moves the start along the ray; what is left of that is gone over again.
+fn moved_nearer(ray: &Ray) -> (Ray, f64) {
+    let far = -ray.o.dot(ray.d) - LIMIT;
+    if far.is_nan() || far <= FAR {
+        return (*ray, 0.0);
     }
+    let fused = |d: f64, o: f64| libm::fma(far, d, o);
+    let start = DVec3::new(fused(ray.d.x, ray.o.x), fused(ray.d.y, ray.o.y), fused(ray.d.z, ray.o.z));
+    let left = -start.dot(ray.d) - LIMIT;
+    let start = start + left * ray.d;
+    (Ray::new(start, ray.d), far + left)
 }

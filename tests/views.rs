@@ -180,7 +180,7 @@ fn at_every_size_and_distance() {
         for material in ["color(\"red\")", "material(kr = 0.4, kt = 0.6, index = 1.5)"] {
             let text = format!(
                 "world(k = {size:e}); light(at = [{size:e}, 0, 0]); light(at = [-1e300, 1e-300, 1e300], intensity = {size:e});
-                scale({size:e}) {material} {{ sphere(1); cube([3, 0.5, 0.5]); difference() {{ cube(1.5, center = true); sphere(0.9); }} }}"
+                scale({size:e}) {material} {{ sphere(1); translate([0.1, 0.2, -0.3]) cube([3, 0.5, 0.5]); difference() {{ cube(1.5, center = true); sphere(0.9); }} }}"
             );
             let studio = studio(&text);
             for far in [0.5, 1.0, 7.0, 1e9, 1e120] {

@@ -3,7 +3,7 @@
 use super::arguments::Arguments;
 use super::facets::Polygons;
 use super::{Builder, Context, facets, polyhedron};
-use crate::math::{DAffine3, DMat3, DVec3};
+use crate::math::{DAffine3, DMat3, DVec3, Placement};
 use crate::scene::diagnostic::{Reported, Sink};
 use crate::scene::language::syntax::Call;
 use crate::scene::language::vocabulary::{SolidWord, Word};
@@ -44,6 +44,10 @@ impl Builder<'_> {
             let message = format!("it reaches farther than {REACH:e} from the origin");
             let error = Diagnostic::error(call.name.span, message);
             return Err(sink.report(error.label("too large, or too far away")));
+        }
+        if Placement::new(&map).is_none() {
+            let error = Diagnostic::error(call.name.span, "it is smaller than a 64-bit float holds");
+            return Err(sink.report(error.label("too small, or too flat")));
         }
         let material = self.surfaces.id(context.surface);
         let map_error = maps.error(&shape.bounds());

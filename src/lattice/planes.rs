@@ -241,4 +241,22 @@ mod tests {
         assert!(planes.cells() <= 10.0);
         assert_eq!((planes.list(0)[0], *planes.list(0).last().unwrap()), (-SLACK, 100.0 + SLACK));
     }
+
+    // A world thinner along an axis than the rounding of its size was one plane there, which every ray had left before
+    // it came to the next cell.
+    #[test]
+    fn a_world_as_thin_as_rounding_is_walked_from_end_to_end() {
+        let limit = Bounds::new(DVec3::new(-1e-150, -1.0, -1.0), DVec3::new(1e-150, 1.0, 1.0));
+        let halves =
+            [Bounds { hi: limit.hi.with_y(0.0), ..limit }, Bounds { lo: limit.lo.with_y(0.0), ..limit }];
+        let planes = Planes::new(halves.into_iter(), &limit);
+        assert_eq!(planes.dimensions(), [1, 2, 1]);
+        let ray = Ray::new(DVec3::new(-1e-150, -0.5, 0.0), DVec3::new(1e-14, 1.0, 0.0));
+        let mut cells = Vec::new();
+        planes.walk::<()>(&ray, 0.0, f64::INFINITY, |step| {
+            cells.push(step.cell);
+            ControlFlow::Continue(())
+        });
+        assert_eq!(cells, [0, 1]);
+    }
 }

@@ -209,4 +209,17 @@ mod tests {
         assert!(out.starts_with(b"PF\n1 1\n-1.0\n"));
         assert_eq!(out[out.len() - 4..], 0.5_f32.to_le_bytes());
     }
+
+    #[test]
+    fn only_what_is_infinite_is_written_so() {
+        let values = [1e300, -1e300, f64::INFINITY, 1e-300];
+        let mut out = Vec::new();
+        pfm_gray(&Grid::from_values(Size::new(4, 1), values.to_vec()), &mut out)
+            .expect("a vector takes every byte");
+        let floats: Vec<f32> = out["Pf\n4 1\n-1.0\n".len()..]
+            .chunks(4)
+            .map(|bytes| f32::from_le_bytes(bytes.try_into().expect("four bytes")))
+            .collect();
+        assert_eq!(floats, [f32::MAX, f32::MIN, f32::INFINITY, 0.0]);
+    }
 }

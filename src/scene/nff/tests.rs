@@ -162,3 +162,11 @@ fn reading_goes_on_with_the_next_entity() {
     let many = read(&"s 0 0 0 0\n".repeat(100)).unwrap_err();
     assert!(many.stopped);
 }
+
+#[test]
+fn a_mirror_has_no_more_than_glass_leaves() {
+    let scene = read("f 1 1 1 0 0.7 20 0.6 1.5 s 0 0 0 1 f 1 1 1 0 0.1 20 0.9 1.5 s 2 0 0 1").unwrap();
+    let shares: Vec<_> = scene.materials.iter().map(|m| (m.ks, m.kr, m.kt)).collect();
+    assert_eq!(shares, [(0.7, 0.4, 0.6), (0.1, 0.1, 0.9)]);
+    assert_eq!(scene.notes, ["line 1: where Ks + T is above 1, only 1 - T is mirrored"]);
+}

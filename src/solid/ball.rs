@@ -2,7 +2,7 @@
 
 use crate::math::{Bounds, DVec3, Ray};
 
-use super::span::{End, Span, displacement};
+use super::span::{End, LIMIT, ROUNDING, Span, WORLD, displacement};
 
 /// The points within `radius` of `center`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,14 +11,17 @@ pub struct Ball {
     pub center: DVec3,
     /// The radius, above 0; at 0 no ray meets it.
     pub radius: f64,
-    /// How far a point of it may seem off its place.
+    /// How far a point of it may be off its place, and seem so.
     off: f64,
 }
+
+/// The [`displacement`] of a ball that shows: its centre is within the world, or its surface runs through it.
+const SEEN: f64 = ROUNDING * (WORLD + LIMIT);
 
 impl Ball {
     /// A ball whose map may be off by `map_error`.
     pub fn new(center: DVec3, radius: f64, map_error: f64) -> Self {
-        Self { center, radius, off: displacement(center.length(), map_error) }
+        Self { center, radius, off: displacement(center.length()) + map_error }
     }
 
     /// Where the ray is inside. A chord that rounding could have made counts as none.
@@ -40,12 +43,15 @@ impl Ball {
         }
         let l = l_squared.sqrt();
         let half_squared = (self.radius - l) * (self.radius + l);
-        // Moving the ray sideways by `off` changes the square of the half-chord by 2·l·off.
-        if half_squared.is_nan() || half_squared <= 2.0 * self.radius * self.off {
+        // Moving the ray sideways changes the square of the half-chord by 2·l times as much.
+        if half_squared.is_nan() || half_squared <= 2.0 * self.radius * SEEN {
             return None;
         }
         let half = half_squared.sqrt();
-        let error = self.off * (1.0 + l / half);
+        // Half a chord that the map's own error could have made is off by no more than all of that.
+        let grazing = 2.0 * self.radius * self.off;
+        let sideways = if half_squared < grazing { grazing.sqrt() } else { self.off * l / half };
+        let error = self.off + sideways;
         let middle = first + second;
         Some(Span {
             enter: End { t: middle - half, error, surface: 0 },

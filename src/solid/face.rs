@@ -51,7 +51,7 @@ impl Face {
         } else {
             Box::default()
         };
-        let off = bent.min(WRITTEN) + displacement(reach, map_error);
+        let off = bent.min(WRITTEN) + displacement(reach) + map_error;
         Self { outline: outline.into(), groups, normal, middle, off }
     }
 

@@ -33,7 +33,7 @@ impl Facets {
             .collect();
         let map = crate::math::DAffine3 { matrix3: place.linear, translation: place.center };
         let bounds = unit.bounds.mapped(&map);
-        Self { faces, center: place.center, bounds, off: displacement(place.center.length(), map_error) }
+        Self { faces, center: place.center, bounds, off: displacement(place.center.length()) + map_error }
     }
 
     /// Where the ray is inside. A ray in the plane of a face is decided half open, as for slabs: inside where

@@ -56,7 +56,7 @@ impl Mesh {
         let mut nodes = Vec::new();
         let count = triangles.len();
         build(&mut nodes, &mut triangles, 0, count);
-        Self { triangles, nodes, off: displacement(reach, map_error) }
+        Self { triangles, nodes, off: displacement(reach) + map_error }
     }
 
     /// Every crossing of the line with the surface, in no order.

@@ -14,9 +14,11 @@ const TOP: u32 = 2;
 pub struct Round {
     place: Placement,
     profile: Profile,
-    /// How far a point of it may seem off its place, along each axis of the unit space: a coin has a sharp rim
-    /// however thin it is, and a needle a sharp tip.
+    /// How far a point of it may be off its place, and seem so, along each axis of the unit space: a coin has a sharp
+    /// rim however thin it is, and a needle a sharp tip.
     off: DVec3,
+    /// The share of that which is how far it may seem.
+    seeming: f64,
 }
 
 /// The outline that is turned about the z axis.
@@ -50,6 +52,8 @@ struct Centred {
     t: f64,
     /// How far `o` may be off along each axis.
     off: DVec3,
+    /// The share of that which rounding may have made.
+    seeming: f64,
 }
 
 impl Round {
@@ -66,8 +70,10 @@ impl Round {
 
     fn new(place: Placement, profile: Profile, map_error: f64) -> Self {
         let rows = [place.inverse.row(0), place.inverse.row(1), place.inverse.row(2)];
-        let off = displacement(place.center.length(), map_error);
-        Self { place, profile, off: DVec3::from_array(rows.map(|row| off * row.length())) }
+        let seeming = displacement(place.center.length());
+        let off = seeming + map_error;
+        let along_axes = DVec3::from_array(rows.map(|row| off * row.length()));
+        Self { place, profile, off: along_axes, seeming: seeming / off }
     }
 
     /// Where the ray is inside. A chord that rounding could have made counts as none.
@@ -105,7 +111,7 @@ impl Round {
         let o = o + first * d;
         let second = -o.dot(d) / d_squared;
         let o = o + second * d;
-        Centred { o, d, d_squared, t: first + second, off: self.off }
+        Centred { o, d, d_squared, t: first + second, off: self.off, seeming: self.seeming }
     }
 
     /// The outward normal at a point of the surface, of length 1; along the axis at the apex of a cone.
@@ -223,14 +229,16 @@ fn sphere_span(ray: &Centred) -> Option<Span> {
     let half_squared = (1.0 - l) * (1.0 + l);
     // Moving the ray by at most `off` changes the square of the half-chord by 2·o·off.
     let across = ray.o.abs().dot(ray.off);
-    if half_squared.is_nan() || half_squared <= 2.0 * across {
+    if half_squared.is_nan() || half_squared <= 2.0 * across * ray.seeming {
         return None;
     }
     let root = half_squared.sqrt();
     let speed = ray.d_squared.sqrt();
     let half = root / speed;
     // The crossing q = o ± half·d, moved by `off`, moves along the ray by |q|·off over q·d, and |q·d| = speed · root.
-    let error = (across / root + ray.d.abs().dot(ray.off) / speed) / speed;
+    // Half a chord that the map's own error could have made is off by no more than all of that.
+    let sideways = if half_squared < 2.0 * across { (2.0 * across).sqrt() } else { across / root };
+    let error = (sideways + ray.d.abs().dot(ray.off) / speed) / speed;
     Some(Span {
         enter: End { t: ray.t - half, error, surface: 0 },
         leave: End { t: ray.t + half, error, surface: 0 },
@@ -281,16 +289,19 @@ fn side_span(ray: &Centred, middle: f64, slope: f64) -> Option<Span> {
     let off = ray.off.x + ray.off.y + slope.abs() * ray.off.z;
     let form_off = |t: f64| off * (2.0 * (rho + t * d_rho).abs() + off);
     // A chord is none where the form at its middle, −discriminant / a at t = −b / a, may be 0.
-    let form_off_at_middle = off * (2.0 * (rho * a - b * d_rho).abs() + off * a);
+    let seeming = off * ray.seeming;
+    let form_off_at_middle = seeming * (2.0 * (rho * a - b * d_rho).abs() + seeming * a);
     if discriminant.is_nan() || (a > 0.0 && discriminant <= form_off_at_middle) {
         return None;
     }
     // A line along or inside the cone always crosses it: below 0 there is rounding only.
     let root = discriminant.max(0.0).sqrt();
-    // The root of a number that is off by `form_off · |a|` is off by that over twice the root.
-    let error = |t: f64| 0.5 * form_off(t) / root;
-    // And never by more than the root of that: all there is to say at the apex, where the root is 0.
-    let steep_error = |t: f64| error(t).min((form_off(t) / -a).sqrt());
+    // The root of a number that is off by `form_off · |a|` is off by that over twice the root, and never by more than
+    // the root of that: all there is to say at the apex, where the root is 0.
+    let error = |t: f64| {
+        let form_off = form_off(t);
+        if discriminant < form_off * a.abs() { (form_off / a.abs()).sqrt() } else { 0.5 * form_off / root }
+    };
     // The root whose terms do not cancel, and the other from the product c / a.
     let q = -(b + root.copysign(b));
     let (t1, t2) = if q == 0.0 { (0.0, 0.0) } else { (q / a, c / q) };
@@ -301,9 +312,9 @@ fn side_span(ray: &Centred, middle: f64, slope: f64) -> Option<Span> {
     } else if a < 0.0 {
         // Steeper than the side: one crossing per nappe; only the one with ρ ≥ 0 is the solid's.
         Some(if d_rho > 0.0 {
-            Span { enter: end(high, steep_error(high)), ..Span::LINE }
+            Span { enter: end(high, error(high)), ..Span::LINE }
         } else {
-            Span { leave: end(low, steep_error(low)), ..Span::LINE }
+            Span { leave: end(low, error(low)), ..Span::LINE }
         })
     } else if b != 0.0 {
         // Parallel to the side, or to the axis of a cylinder: 2bt + c ≤ 0.

@@ -68,7 +68,7 @@ impl SkewBox {
     /// The unit cube at `place`, which may be off by `map_error`.
     pub fn new(place: Placement, map_error: f64) -> Self {
         let rows = [place.inverse.row(0), place.inverse.row(1), place.inverse.row(2)];
-        let off = displacement(place.center.length(), map_error);
+        let off = displacement(place.center.length()) + map_error;
         let lengths = rows.map(DVec3::length);
         // A dot product of three terms and the row itself: 4 half-ulps.
         let still = lengths.map(|length| (2.0 * f64::EPSILON * length).max(STILL));

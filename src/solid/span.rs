@@ -16,10 +16,10 @@ pub const WORLD: f64 = 6.0;
 /// The length of the corners of a box that lies within −2..=2 on every axis is at most √12.
 pub const LIMIT: f64 = 3.5;
 
-/// How far from its place a point of a solid may seem to a ray: of a solid whose own origin lies `from_origin` away
-/// from the assembly's, and whose map may be off by `map_error`.
-pub fn displacement(from_origin: f64, map_error: f64) -> f64 {
-    ROUNDING * (WORLD + from_origin) + map_error
+/// How far from its place our own rounding may make a point of a solid seem to a ray, where the solid's own origin lies
+/// `from_origin` away from the assembly's. A chord as short as that is none: rounding alone could have made it.
+pub fn displacement(from_origin: f64) -> f64 {
+    ROUNDING * (WORLD + from_origin)
 }
 
 /// One end of a span.

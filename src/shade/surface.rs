@@ -156,7 +156,11 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
     pub(super) fn met(&self, ray: &Ray, hit: Hit, memory: &Memory<E>) -> Met {
         let hit = self.shown(hit, |finish| finish.kt, memory);
         let p = ray.at(hit.t);
-        Met { hit, p, normal: self.assembly.turned_normal(hit.primitive, hit.surface, p, ray.d) }
+        let normal = self.assembly.turned_normal(hit.primitive, hit.surface, p, ray.d);
+        // Seen from so far that the point may be anywhere in a ball, it may be so near the middle that the length of
+        // the normal was the root of a number too small to have all its digits.
+        let is_long = (normal.length_squared() - 1.0).abs() < 1e-10;
+        Met { hit, p, normal: if is_long { normal } else { normal.normalize_or(-ray.d) } }
     }
 
     /// The light that a surface sends back along the ray that met it, which is the last one traced.

@@ -16,7 +16,7 @@ use cases::cases;
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 use ray13::frame::Studio;
-use ray13::math::{Bounds, DMat3, Size};
+use ray13::math::{Bounds, DMat3, Placement, Size};
 use ray13::plan::Shading;
 use ray13::scene::{Diagnostics, ReadOptions, Scene, Shape, embedded, read};
 use scribble::{Mutation, language, nff, soup};
@@ -76,9 +76,11 @@ fn is_even(scene: &Scene) -> bool {
         object.solid.visit(&mut |primitive| {
             let own = primitive.shape.bounds().mapped(&primitive.map);
             bounds = bounds.join(&own);
-            let DMat3 { x_axis, y_axis, z_axis } = primitive.map.matrix3;
-            let thinnest = [x_axis, y_axis, z_axis].map(|column| column.abs().max_element());
-            least = thinnest.into_iter().fold(least, f64::min);
+            // What the inverse stretches most is where it is thinnest.
+            let inverse = Placement::new(&primitive.map).map_or(DMat3::NAN, |place| place.inverse);
+            least = least.min(
+                inverse.to_cols_array().into_iter().map(|x| x.abs().recip()).fold(f64::INFINITY, f64::min),
+            );
             match &primitive.shape {
                 Shape::Face(corners) => flat &= corners.len() == 3,
                 Shape::Patch(corners) => flat &= corners.len() == 3,

@@ -63,6 +63,11 @@ impl Bounds {
         self.hi * 0.5 - self.lo * 0.5
     }
 
+    /// How far its points lie from the origin along each axis at most.
+    pub fn farthest(&self) -> DVec3 {
+        self.lo.abs().max(self.hi.abs())
+    }
+
     /// The eight corners.
     pub fn corners(&self) -> [DVec3; 8] {
         std::array::from_fn(|i| {

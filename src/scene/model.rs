@@ -72,9 +72,10 @@ pub struct Primitive {
     pub shape: Shape,
     /// From the shape's own coordinates to the world's. Finite and invertible.
     pub map: DAffine3,
-    /// How far a point of the shape may lie from where exact arithmetic would put it, in the scene's unit: what was
-    /// rounded when the map was written down and composed. Surfaces nearer to each other than that are one place.
-    pub map_error: f64,
+    /// How far a point of the shape may lie from where exact arithmetic would put it, along each axis, as a share of how
+    /// far the primitive reaches from the origin along that axis: what was rounded when the map was written down and
+    /// composed. Surfaces nearer to each other than that are one place.
+    pub map_error: [f32; 3],
     /// Its surface.
     pub material: MaterialId,
 }
@@ -83,10 +84,8 @@ impl Primitive {
     /// A primitive whose map was composed of two, as `place * size` is. [`Primitive::map_error`] follows from that.
     pub fn new(shape: Shape, map: DAffine3, material: MaterialId) -> Self {
         // A sum of three products and an entry, each number rounded when it was written down: 8 half-ulps.
-        const COMPOSED: f64 = 4.0 * f64::EPSILON;
-        let farthest = shape.bounds().mapped(&map);
-        let reach = farthest.lo.abs().max(farthest.hi.abs()).max_element();
-        Self { shape, map, map_error: COMPOSED * reach, material }
+        const COMPOSED: f32 = 4.0 * f64::EPSILON as f32;
+        Self { shape, map, map_error: [COMPOSED; 3], material }
     }
 }
 

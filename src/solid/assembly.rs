@@ -69,7 +69,7 @@ impl Datum {
     fn new(b: &Bounds, all: &Bounds) -> Self {
         // Cutters are computed with, too: where the body is small beside them, beyond all reason, the unit grows so
         // that no square of theirs overflows.
-        let least = all.lo.abs().max(all.hi.abs()).max_element() / FARTHEST;
+        let least = all.farthest().max_element() / FARTHEST;
         let half = b.half().max_element().max(least);
         let center = b.center();
         // A shift rounds coordinates that lie nearer the origin than the box's size. Up to 8 sizes away the
@@ -83,7 +83,7 @@ impl Datum {
             let origin = (center / grid).round() * grid;
             Self { origin: if origin.is_finite() { origin } else { center }, unit: grid }
         } else {
-            Self { origin: DVec3::ZERO, unit: unit(b.lo.abs().max(b.hi.abs()).max_element().max(least)) }
+            Self { origin: DVec3::ZERO, unit: unit(b.farthest().max_element().max(least)) }
         }
     }
 
@@ -109,15 +109,17 @@ impl Datum {
         let matrix3 = p.map.matrix3 * self.unit.recip();
         let map = DAffine3 { matrix3, translation: self.inward(p.map.translation) };
         // The scale is exact; a shift is rounded.
-        let shifted = if self.origin == DVec3::ZERO { 0.0 } else { ROUNDING * map.translation.length() };
+        let shifted = if self.origin == DVec3::ZERO { DVec3::ZERO } else { ROUNDING * map.translation.abs() };
         let place = Placement::new(&map).filter(|place| {
             // Lengths of the world in the unit space, whose squares must not overflow.
             place.inverse.to_cols_array().iter().all(|x| x.abs() <= FARTHEST)
         });
+        let error = DVec3::from_array(p.map_error.map(f64::from));
+        let error = error * p.shape.bounds().mapped(&p.map).farthest() / self.unit + shifted;
         match place {
-            Some(place) => Some(Form::new(&p.shape, place, p.map_error / self.unit + shifted)),
+            Some(place) => Some(Form::new(&p.shape, place, error)),
             // So thin beside the scene that no ray meets it, though its map has an inverse: a ball of no size.
-            None => Placement::new(&p.map).map(|_| Form::Ball(Ball::new(map.translation, 0.0, 0.0))),
+            None => Placement::new(&p.map).map(|_| Form::Ball(Ball::new(map.translation, 0.0, DVec3::ZERO))),
         }
     }
 }

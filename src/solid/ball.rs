@@ -20,8 +20,8 @@ const SEEN: f64 = ROUNDING * (WORLD + LIMIT);
 
 impl Ball {
     /// A ball whose map may be off by `map_error`.
-    pub fn new(center: DVec3, radius: f64, map_error: f64) -> Self {
-        Self { center, radius, off: displacement(center.length()) + map_error }
+    pub fn new(center: DVec3, radius: f64, map_error: DVec3) -> Self {
+        Self { center, radius, off: displacement(center.length()) + map_error.length() }
     }
 
     /// Where the ray is inside. A chord that rounding could have made counts as none.

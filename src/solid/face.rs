@@ -28,11 +28,13 @@ pub struct Face {
     middle: DVec3,
     /// How far corners may seem off the plane: by their own rounding, and by that of ours.
     off: f64,
+    /// The box of a polygon so bent that its plane leads out of it.
+    bent_box: Option<Box<Bounds>>,
 }
 
 impl Face {
     /// The polygon of these corners, put at `place`, which may be off by `map_error`.
-    pub fn new(corners: impl ExactSizeIterator<Item = DVec3>, place: &Placement, map_error: f64) -> Self {
+    pub fn new(corners: impl ExactSizeIterator<Item = DVec3>, place: &Placement, map_error: DVec3) -> Self {
         let share = 1.0 / corners.len() as f64;
         let mut outline: Vec<DVec3> = Vec::with_capacity(corners.len() + 1);
         outline.extend(corners.map(|p| place.linear * p + place.center));
@@ -51,8 +53,10 @@ impl Face {
         } else {
             Box::default()
         };
-        let off = bent.min(WRITTEN) + displacement(reach) + map_error;
-        Self { outline: outline.into(), groups, normal, middle, off }
+        let bent_box =
+            (bent > displacement(reach)).then(|| Box::new(Bounds::around(outline.iter().copied())));
+        let off = bent.min(WRITTEN) + displacement(reach) + map_error.length();
+        Self { outline: outline.into(), groups, normal, middle, off, bent_box }
     }
 
     /// Where the line of the ray meets the polygon.
@@ -63,6 +67,7 @@ impl Face {
             return None;
         }
         let (t, error) = plane_crossing(ray, self.corners(), self.normal, self.middle, self.off);
+        let t = self.bent_box.as_ref().map_or(t, |b| nearest_within(b, ray, t));
         Some(End { t, error, surface: 0 })
     }
 
@@ -105,6 +110,21 @@ impl Face {
         let distance = self.normal.dot(b.center() - self.middle).abs() - self.normal.abs().dot(b.half());
         distance > self.off || self.bounds().meet(b).is_empty()
     }
+}
+
+/// The place nearest to `t` on the ray within the box. A ray through an outline passes through the hull of its corners,
+/// and so through their box, but for rounding.
+fn nearest_within(b: &Bounds, ray: &Ray, t: f64) -> f64 {
+    let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+    for axis in 0..3 {
+        let inverse = ray.d[axis].recip();
+        if inverse.is_finite() {
+            let (t1, t2) = ((b.lo[axis] - ray.o[axis]) * inverse, (b.hi[axis] - ray.o[axis]) * inverse);
+            low = low.max(t1.min(t2));
+            high = high.min(t1.max(t2));
+        }
+    }
+    if low <= high { t.clamp(low, high) } else { 0.5 * low + 0.5 * high }
 }
 
 /// The normal of a closed outline by Newell's method: its components are the areas of the outline's shadows along

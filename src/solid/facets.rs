@@ -12,15 +12,21 @@ pub struct Facets {
     faces: Box<[scene::HalfSpace]>,
     center: DVec3,
     bounds: Bounds,
-    /// How far a face may seem off its place.
-    off: f64,
+    /// By face: how far it may be off its place, and seem so.
+    off: Box<[f64]>,
+    /// The least share of that which is how far it may seem.
+    seeming: f64,
 }
+
+/// What rounding may make of the 0 of a direction in the plane of a face: a dot product of three terms, and the normal
+/// itself, 4 half-ulps.
+const STILL: f64 = 2.0 * f64::EPSILON;
 
 impl Facets {
     /// The faces of `unit`, put at `place`, which may be off by `map_error`.
-    pub fn new(unit: &scene::Facets, place: &Placement, map_error: f64) -> Self {
+    pub fn new(unit: &scene::Facets, place: &Placement, map_error: DVec3) -> Self {
         let turn = place.inverse.transpose();
-        let faces = unit
+        let faces: Box<[scene::HalfSpace]> = unit
             .faces
             .iter()
             .map(|face| {
@@ -33,7 +39,10 @@ impl Facets {
             .collect();
         let map = crate::math::DAffine3 { matrix3: place.linear, translation: place.center };
         let bounds = unit.bounds.mapped(&map);
-        Self { faces, center: place.center, bounds, off: displacement(place.center.length()) + map_error }
+        let seen = displacement(place.center.length());
+        let off: Box<[f64]> = faces.iter().map(|face| seen + face.normal.abs().dot(map_error)).collect();
+        let seeming = off.iter().map(|off| seen / off).fold(1.0, f64::min);
+        Self { faces, center: place.center, bounds, off, seeming }
     }
 
     /// Where the ray is inside. A ray in the plane of a face is decided half open, as for slabs: inside where
@@ -42,19 +51,19 @@ impl Facets {
     pub fn span(&self, ray: &Ray) -> Option<Span> {
         let from_center = ray.o - self.center;
         let mut span = Span::LINE;
-        for (surface, face) in self.faces.iter().enumerate() {
+        for (surface, (face, off)) in self.faces.iter().zip(&self.off).enumerate() {
             let above = face.normal.dot(from_center) - face.offset;
             let d = face.normal.dot(ray.d);
-            let end = End { t: -above / d, error: self.off / d.abs(), surface: surface as u32 };
-            if d < 0.0 {
+            let end = End { t: -above / d, error: off / d.abs(), surface: surface as u32 };
+            if d < -STILL {
                 span.clip(end, Span::LINE.leave);
-            } else if d > 0.0 {
+            } else if d > STILL {
                 span.clip(Span::LINE.enter, end);
             } else if above > 0.0 || (above == 0.0 && !points_down(face.normal)) {
                 return None;
             }
         }
-        span.if_any()
+        span.if_any(self.seeming, |surface| surface)
     }
 
     /// The outward normal of a face, of length 1.

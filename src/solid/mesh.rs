@@ -39,7 +39,7 @@ struct Node {
 
 impl Mesh {
     /// The triangles of `unit`, put at `place`, which may be off by `map_error`.
-    pub fn new(unit: &scene::Mesh, place: &Placement, map_error: f64) -> Self {
+    pub fn new(unit: &scene::Mesh, place: &Placement, map_error: DVec3) -> Self {
         let points: Vec<DVec3> = unit.points.iter().map(|&p| place.linear * p + place.center).collect();
         let mut triangles: Vec<Triangle> = unit
             .triangles
@@ -56,7 +56,7 @@ impl Mesh {
         let mut nodes = Vec::new();
         let count = triangles.len();
         build(&mut nodes, &mut triangles, 0, count);
-        Self { triangles, nodes, off: displacement(reach) + map_error }
+        Self { triangles, nodes, off: displacement(reach) + map_error.length() }
     }
 
     /// Every crossing of the line with the surface, in no order.

@@ -16,7 +16,7 @@ pub struct Patch {
 
 impl Patch {
     /// The patch of these corners, put at `place`, which may be off by `map_error`.
-    pub fn new(corners: &[Corner], place: &Placement, map_error: f64) -> Self {
+    pub fn new(corners: &[Corner], place: &Placement, map_error: DVec3) -> Self {
         let face = Face::new(corners.iter().map(|corner| corner.place), place, map_error);
         let turn = place.inverse.transpose();
         let turned = |corner: &Corner| {
@@ -87,7 +87,7 @@ mod tests {
             .iter()
             .map(|&(place, normal)| Corner { place: place.into(), normal: normal.into() })
             .collect();
-        Patch::new(&corners, &Placement::new(&DAffine3::IDENTITY).unwrap(), 0.0)
+        Patch::new(&corners, &Placement::new(&DAffine3::IDENTITY).unwrap(), DVec3::ZERO)
     }
 
     #[test]
@@ -113,7 +113,7 @@ mod tests {
             })
             .collect();
         let place = Placement::new(&DAffine3::IDENTITY).unwrap();
-        let mut patch = Patch::new(&corners, &place, 0.0);
+        let mut patch = Patch::new(&corners, &place, DVec3::ZERO);
         // Lengths matter to the field: as they are given.
         patch.normals = corners[1..].iter().chain(&corners[..1]).map(|corner| corner.normal).collect();
         for p in [[0.1, 1.2], [1.0, 0.25], [1.9, 1.5], [0.5, 0.1]] {

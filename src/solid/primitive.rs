@@ -59,7 +59,7 @@ pub enum Cover {
 
 impl Form {
     /// The form of a unit shape at `place`, which may be off by `error`.
-    pub fn new(shape: &Shape, place: Placement, error: f64) -> Self {
+    pub fn new(shape: &Shape, place: Placement, error: DVec3) -> Self {
         match shape {
             Shape::Sphere => match similarity(&place.linear) {
                 Some(radius) => Self::Ball(Ball::new(place.center, radius, error)),

@@ -17,7 +17,7 @@ pub struct Round {
     /// How far a point of it may be off its place, and seem so, along each axis of the unit space: a coin has a sharp
     /// rim however thin it is, and a needle a sharp tip.
     off: DVec3,
-    /// The share of that which is how far it may seem.
+    /// The least share of that which is how far it may seem.
     seeming: f64,
 }
 
@@ -58,22 +58,22 @@ struct Centred {
 
 impl Round {
     /// The unit sphere at `place`, which may be off by `map_error`.
-    pub fn ellipsoid(place: Placement, map_error: f64) -> Self {
+    pub fn ellipsoid(place: Placement, map_error: DVec3) -> Self {
         Self::new(place, Profile::Sphere, map_error)
     }
 
     /// The unit frustum at `place`, which may be off by `map_error`, of radius `bottom` at z = −1 and `top` at z = 1.
-    pub fn frustum(place: Placement, bottom: f64, top: f64, map_error: f64) -> Self {
+    pub fn frustum(place: Placement, bottom: f64, top: f64, map_error: DVec3) -> Self {
         let profile = Profile::Frustum { middle: 0.5 * bottom + 0.5 * top, slope: 0.5 * top - 0.5 * bottom };
         Self::new(place, profile, map_error)
     }
 
-    fn new(place: Placement, profile: Profile, map_error: f64) -> Self {
+    fn new(place: Placement, profile: Profile, map_error: DVec3) -> Self {
         let rows = [place.inverse.row(0), place.inverse.row(1), place.inverse.row(2)];
-        let seeming = displacement(place.center.length());
-        let off = seeming + map_error;
-        let along_axes = DVec3::from_array(rows.map(|row| off * row.length()));
-        Self { place, profile, off: along_axes, seeming: seeming / off }
+        let seen = displacement(place.center.length());
+        let off = rows.map(|row| seen * row.length() + row.abs().dot(map_error));
+        let seeming = (0..3).map(|i| seen * rows[i].length() / off[i]).fold(1.0, f64::min);
+        Self { place, profile, off: DVec3::from_array(off), seeming }
     }
 
     /// Where the ray is inside. A chord that rounding could have made counts as none.
@@ -268,7 +268,7 @@ fn frustum_span(ray: &Centred, middle: f64, slope: f64) -> Option<Span> {
     }
     let side = side_span(ray, middle, slope)?;
     span.clip(end(side.enter.t, side.enter.error, SIDE), end(side.leave.t, side.leave.error, SIDE));
-    span.if_any()
+    span.if_any(ray.seeming, |surface| surface.min(BOTTOM))
 }
 
 /// The line against `x² + y² ≤ ρ²`, `ρ = middle + slope · z ≥ 0`: where it is inside, counted from its point closest

@@ -11,23 +11,30 @@ use super::span::{End, ROUNDING, Span, WORLD, displacement};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisBox {
     bounds: Bounds,
-    /// How far a face may seem off its place.
+    /// How far a face within the world may be off its place, and seem so.
     off: f64,
 }
+
+/// How far a face of a box along the axes may seem off its place.
+const SEEN: f64 = ROUNDING * WORLD;
 
 impl AxisBox {
     /// The box with edges of twice `half`, all above 0, around a centre that may be off by `map_error`.
     ///
     /// A face that cuts the world is as exact as it was written, however far the box reaches: what its sum of centre
     /// and half lost is known, and beyond that only coordinates within [`WORLD`] are computed with.
-    pub fn new(center: DVec3, half: DVec3, map_error: f64) -> Self {
-        let (mut bounds, mut lost) = (Bounds::EMPTY, 0.0_f64);
+    pub fn new(center: DVec3, half: DVec3, map_error: DVec3) -> Self {
+        let (mut bounds, mut off) = (Bounds::EMPTY, 0.0_f64);
         for axis in 0..3 {
             let (lo, hi) = (two_sum(center[axis], -half[axis]), two_sum(center[axis], half[axis]));
             (bounds.lo[axis], bounds.hi[axis]) = (lo.0, hi.0);
-            lost = lost.max(lo.1.abs()).max(hi.1.abs());
+            for (face, lost) in [lo, hi] {
+                if face.abs() <= WORLD {
+                    off = off.max(lost.abs() + map_error[axis]);
+                }
+            }
         }
-        Self { bounds, off: ROUNDING * WORLD + lost + map_error }
+        Self { bounds, off: SEEN + off }
     }
 
     /// Where the ray is inside.
@@ -38,7 +45,7 @@ impl AxisBox {
             let (lo, hi) = (self.bounds.lo[axis], self.bounds.hi[axis]);
             clip_to_slab(&mut span, ray.o[axis], ray.d[axis], STILL, [lo, hi], self.off, axis)?;
         }
-        span.if_any()
+        span.if_any(SEEN / self.off, |surface| surface / 2)
     }
 
     /// The outward normal of a face.
@@ -58,21 +65,25 @@ pub struct SkewBox {
     place: Placement,
     /// The rows of the inverse: normals of the three pairs of faces, in units of half their distance.
     rows: [DVec3; 3],
-    /// How far a face of each pair may seem off its place, in units of its row.
+    /// How far a face of each pair may be off its place, and seem so, in units of its row.
     off: [f64; 3],
+    /// The least share of that which is how far it may seem.
+    seeming: f64,
     /// What rounding may make of the 0 of a direction in the plane of such a face.
     still: [f64; 3],
 }
 
 impl SkewBox {
     /// The unit cube at `place`, which may be off by `map_error`.
-    pub fn new(place: Placement, map_error: f64) -> Self {
+    pub fn new(place: Placement, map_error: DVec3) -> Self {
         let rows = [place.inverse.row(0), place.inverse.row(1), place.inverse.row(2)];
-        let off = displacement(place.center.length()) + map_error;
         let lengths = rows.map(DVec3::length);
+        let seen = displacement(place.center.length());
+        let off = [0, 1, 2].map(|i| seen * lengths[i] + rows[i].abs().dot(map_error));
+        let seeming = (0..3).map(|i| seen * lengths[i] / off[i]).fold(1.0, f64::min);
         // A dot product of three terms and the row itself: 4 half-ulps.
         let still = lengths.map(|length| (2.0 * f64::EPSILON * length).max(STILL));
-        Self { place, rows, off: lengths.map(|length| off * length), still }
+        Self { place, rows, off, seeming, still }
     }
 
     /// Where the ray is inside.
@@ -84,7 +95,7 @@ impl SkewBox {
             let (o, d) = (self.rows[axis].dot(from_center), self.rows[axis].dot(ray.d));
             clip_to_slab(&mut span, o, d, self.still[axis], [-1.0, 1.0], self.off[axis], axis)?;
         }
-        span.if_any()
+        span.if_any(self.seeming, |surface| surface / 2)
     }
 
     /// The outward normal of a face, of length 1.

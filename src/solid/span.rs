@@ -59,9 +59,15 @@ impl Span {
         }
     }
 
-    /// The span, unless nothing is left of it. Not-a-number counts as nothing.
-    pub(super) fn if_any(self) -> Option<Self> {
-        (self.enter.t < self.leave.t).then_some(self)
+    /// The span, unless nothing is left of it. Not-a-number counts as nothing, and so does a chord across an edge that
+    /// rounding could have made: `seeming` is its share of the errors. Between faces of one `pair` every chord counts,
+    /// however thin the plate.
+    pub(super) fn if_any(self, seeming: f64, pair: impl Fn(u32) -> u32) -> Option<Self> {
+        let length = self.leave.t - self.enter.t;
+        let any = length > 0.0
+            && (pair(self.enter.surface) == pair(self.leave.surface)
+                || length > seeming * (self.enter.error + self.leave.error));
+        any.then_some(self)
     }
 }
 

@@ -10,7 +10,7 @@ pub struct Tube(Round);
 
 impl Tube {
     /// The tube at `place`, which may be off by `map_error`, of radius `bottom` at z = −1 and `top` at z = 1.
-    pub fn new(place: Placement, bottom: f64, top: f64, map_error: f64) -> Self {
+    pub fn new(place: Placement, bottom: f64, top: f64, map_error: DVec3) -> Self {
         Self(Round::frustum(place, bottom, top, map_error))
     }
 

@@ -22,8 +22,8 @@ pub struct Chain {
 #[derive(Debug)]
 struct Link {
     own: DAffine3,
-    /// How much longer than in this map's image a length may be in the world.
-    stretch: f64,
+    /// How far along the world's axes a step along this map's axes may lead, whichever way it goes.
+    stretch: DMat3,
     /// Whether the map's numbers and the product down to here are what was written, without rounding.
     exact: bool,
     above: Option<Rc<Link>>,
@@ -47,7 +47,7 @@ impl Chain {
         }
         let link = Link {
             own,
-            stretch: size(&self.product.matrix3),
+            stretch: self.product.matrix3.abs(),
             exact: is_exact(&self.product, &own),
             above: self.last.clone(),
         };
@@ -59,32 +59,34 @@ impl Chain {
         &self.product
     }
 
-    /// How far a point of the box may lie from where exact arithmetic would put it in the world, to first order.
+    /// [`Chain::error`] of what fills the box, as a share of how far its image reaches from the origin along each axis.
+    pub fn error_share(&self, b: &Bounds, image: &Bounds) -> [f32; 3] {
+        let (error, reach) = (self.error(b), image.farthest());
+        // Half an ulp of an f32 less is of no account for a bound of so many roundings.
+        [0, 1, 2].map(|axis| if reach[axis] > 0.0 { (error[axis] / reach[axis]) as f32 } else { 0.0 })
+    }
+
+    /// How far along each axis a point of the box may lie from where exact arithmetic would put it in the world, to
+    /// first order.
     ///
     /// Each map moves what stands below it by its own rounding, and those above it carry that into the world. The
     /// parts of the product are multiplied out, not the norms of the maps: of a hundred turns the hundredth is not
     /// more off than a hundred times the first.
-    pub fn error(&self, b: &Bounds) -> f64 {
-        let (mut points, mut error) = (b.corners(), 0.0);
+    fn error(&self, b: &Bounds) -> DVec3 {
+        let (mut points, mut error) = (b.corners(), DVec3::ZERO);
         let mut next = self.last.as_ref();
         while let Some(link) = next {
             if !link.exact {
-                let farthest = points.iter().map(|p| p.length()).fold(0.0, f64::max);
-                let summed = size(&link.own.matrix3) * farthest + link.own.translation.length();
-                error += COMPOSED * link.stretch * summed;
+                let farthest = points.iter().fold(DVec3::ZERO, |most, p| most.max(p.abs()));
+                let summed = link.own.matrix3.abs() * farthest + link.own.translation.abs();
+                error += link.stretch * (COMPOSED * summed);
             }
             points = points.map(|p| link.own.transform_point3(p));
             next = link.above.as_ref();
         }
         // What numbers near the ends of f64 make of it is no bound, and no solid may vanish by it.
-        if error.is_finite() { error } else { 0.0 }
+        if error.is_finite() { error } else { DVec3::ZERO }
     }
-}
-
-/// The root of the sum of all entries' squares: no vector becomes longer than by that.
-fn size(matrix: &DMat3) -> f64 {
-    let columns = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
-    DVec3::from_array(columns.map(DVec3::length)).length()
 }
 
 /// Whether a product is exact, and what was written: all numbers are multiples of a half, which decimals keep, and so
@@ -122,21 +124,22 @@ mod tests {
             DAffine3::from_mat3(DMat3::from_cols(DVec3::Y, DVec3::NEG_X, DVec3::Z)),
             DAffine3::from_scale(DVec3::new(2.0, 3.0, 5e14)),
         ];
-        assert_eq!(chain(&maps).error(&UNIT), 0.0);
-        assert!(chain(&[DAffine3::from_scale(DVec3::splat(0.1))]).error(&UNIT) > 1e-16);
+        assert_eq!(chain(&maps).error(&UNIT), DVec3::ZERO);
+        assert!(chain(&[DAffine3::from_scale(DVec3::splat(0.1))]).error(&UNIT).min_element() > 1e-16);
     }
 
     #[test]
     fn a_long_way_there_and_back_is_not_forgotten() {
         let way = DVec3::new(1e6 + 0.1, 0.0, 0.0);
         let error = chain(&[DAffine3::from_translation(way), DAffine3::from_translation(-way)]).error(&UNIT);
-        assert!((1e-10..1e-7).contains(&error), "{error}");
+        assert!((1e-10..1e-7).contains(&error.x) && error.y < 1e-14, "{error}");
     }
 
     #[test]
     fn turns_add_up_and_do_not_multiply() {
         let turn = DAffine3::from_axis_angle(DVec3::new(2.0, 3.0, 6.0) / 7.0, 0.3);
-        let (ten, thousand) = (chain(&[turn; 10]).error(&UNIT), chain(&[turn; 1000]).error(&UNIT));
+        let of = |turns: &[DAffine3]| chain(turns).error(&UNIT).length();
+        let (ten, thousand) = (of(&[turn; 10]), of(&[turn; 1000]));
         assert!((90.0..110.0).contains(&(thousand / ten)), "{ten} {thousand}");
     }
 
@@ -144,7 +147,8 @@ mod tests {
     fn what_is_scaled_down_takes_its_error_along() {
         let odd = DAffine3::from_scale(DVec3::splat(0.3));
         let down = DAffine3::from_scale(DVec3::splat(1e-9));
-        let (own, below) = (chain(&[odd]).error(&UNIT), chain(&[down, odd]).error(&UNIT));
+        let of = |maps: &[DAffine3]| chain(maps).error(&UNIT).length();
+        let (own, below) = (of(&[odd]), of(&[down, odd]));
         assert!((1e-9..4e-9).contains(&(below / own)), "{own} {below}");
     }
 }

@@ -50,7 +50,7 @@ impl Builder<'_> {
             return Err(sink.report(error.label("too small, or too flat")));
         }
         let material = self.surfaces.id(context.surface);
-        let map_error = maps.error(&shape.bounds());
+        let map_error = maps.error_share(&shape.bounds(), &bounds);
         Ok(Solid::Primitive(Primitive { shape, map, map_error, material }))
     }
 }

@@ -40,7 +40,8 @@ impl Builder<'_> {
         };
         let maps = context.maps.then(local, call.name.span, sink)?;
         let map = *maps.product();
-        if !is_within_reach(&shape.bounds().mapped(&map)) {
+        let bounds = shape.bounds().mapped(&map);
+        if !is_within_reach(&bounds) {
             let message = format!("it reaches farther than {REACH:e} from the origin");
             let error = Diagnostic::error(call.name.span, message);
             return Err(sink.report(error.label("too large, or too far away")));

@@ -69,6 +69,11 @@ fn char_boundary(source: &str, at: usize) -> usize {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
+    use proptest::prelude::*;
+    use proptest::sample::Index;
+
     use super::*;
     use crate::scene::{ReadOptions, read};
 
@@ -119,5 +124,28 @@ mod tests {
           |
           = help: give it: eye = [x, y, z]
         ");
+    }
+
+    proptest! {
+        #[test]
+        fn any_place_of_any_text_can_be_shown(
+            pieces in prop::collection::vec(prop_oneof![
+                6 => "\\PC{0,80}",
+                2 => prop::sample::select(&["\n", "\r\n", "\r", "\t", "\u{feff}", "\0", "\u{1b}[31m", "e\u{301}", "汉字", "\u{202e}"][..])
+                    .prop_map(str::to_owned),
+            ], 0..12),
+            (from, to) in any::<(Index, Index)>(),
+            words in "\\PC{0,40}",
+        ) {
+            let source = pieces.concat();
+            let place = |index: Index| char_boundary(&source, index.index(source.len() + 1));
+            let (from, to) = (place(from).min(place(to)), place(from).max(place(to)));
+            let error = Diagnostic::error(from..to, words.clone()).label(words.clone()).help(words);
+            let list = vec![error.clone(), Diagnostic::note(from..to, "a note"), error];
+            let diagnostics = Diagnostics { source_name: "test".to_owned(), source: Arc::from(source), list, stopped: true };
+            for colour in [false, true] {
+                prop_assert!(render(&diagnostics, colour).contains("reading stopped"));
+            }
+        }
     }
 }

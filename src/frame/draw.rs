@@ -5,12 +5,12 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use crate::glyph::{self, Palette};
-use crate::math::{DVec3, Grid, Size};
+use crate::math::{Bounds, DVec3, Grid, Ray, Size};
 use crate::plan::{Channels, Options, Plan};
 use crate::shade::{Channel, Memory, Shader, View};
 use crate::stage::{Counts, Meter, Probe, Silent, Stage, StageTimes, Stopwatch};
 use crate::trace::Exact;
-use crate::view::{Lens, Picture, TILE, Tile, tiles};
+use crate::view::{Lens, Picture, TILE, Tile, settled, tiles};
 
 use super::{Frame, Request, Space, Studio};
 
@@ -81,7 +81,8 @@ impl Studio {
 
     fn trace<C: Channel>(&self, engine: &Exact, plan: &Plan, lens: &Lens, dots: Size) -> Traced {
         let shader = Shader::<_, C>::new(self.scene(), &self.assembly, plan, engine);
-        let sampler = Sampler { studio: self, shader: &shader, lens, samples: plan.samples };
+        let way = farthest(self.assembly.datum.inward_near(lens.eye), &self.assembly.limit);
+        let sampler = Sampler { studio: self, shader: &shader, lens, way, samples: plan.samples };
         let tiles = tiles(dots);
         let drawn: Vec<Drawn> = tiles
             .par_iter()
@@ -102,6 +103,11 @@ impl Studio {
             .collect();
         Traced::gathered(dots, &tiles, &drawn)
     }
+}
+
+/// The distance from a point to the farthest point of a box.
+fn farthest(p: DVec3, b: &Bounds) -> f64 {
+    (p - b.lo).abs().max((p - b.hi).abs()).length()
 }
 
 /// Shares the time of tracing out among the stages as the timed tiles spent theirs.
@@ -137,6 +143,8 @@ struct Sampler<'a, 'b, C> {
     studio: &'a Studio,
     shader: &'a Shader<'b, Exact<'b>, C>,
     lens: &'a Lens,
+    /// To the farthest point of the world, in the assembly's unit.
+    way: f64,
     samples: u32,
 }
 
@@ -164,7 +172,8 @@ impl<'b, C: Channel> Sampler<'_, 'b, C> {
                 |seen| Dot {
                     light,
                     color,
-                    depth: seen.t * assembly.datum.unit,
+                    // A distance, however large: only nothing is infinitely far away.
+                    depth: (seen.t * assembly.datum.unit).min(f64::MAX),
                     normal: seen.normal,
                     object: assembly.objects[seen.object as usize].number + 1,
                 },
@@ -182,6 +191,7 @@ impl<'b, C: Channel> Sampler<'_, 'b, C> {
     ) -> View<C> {
         meter.at(Stage::Ray);
         let ray = self.studio.assembly.ray(&self.lens.ray(x, y));
+        let ray = Ray::new(ray.o, settled(ray.d, self.way));
         let view = self.shader.view(&ray, memory, meter);
         meter.at(Stage::Ray);
         view

@@ -31,7 +31,7 @@ pub struct Step {
 }
 
 impl Planes {
-    /// Planes at every face of the boxes, within `limit`, which must have an interior.
+    /// Planes at every face of the boxes, within `limit`; the outermost [`SLACK`] outside it.
     pub fn new(boxes: impl Iterator<Item = Bounds>, limit: &Bounds) -> Self {
         let mut lists = [0, 1, 2].map(|axis| vec![limit.lo[axis], limit.hi[axis]]);
         for b in boxes {
@@ -46,6 +46,11 @@ impl Planes {
             // A box thinner than the rounding still has a cell.
             if list.len() == 1 {
                 list.push(list[0]);
+            }
+            // A ray is not done before it has left the world for certain; within a thin one it may still go far.
+            if let [first, .., last] = &mut list[..] {
+                *first -= SLACK;
+                *last += SLACK;
             }
         }
         Self { lists }
@@ -205,7 +210,7 @@ mod tests {
 
     #[test]
     fn planes_stand_at_the_faces_once() {
-        assert_eq!(planes().list(0), [0.0, 1.0, 2.0, 3.0, 4.0]);
+        assert_eq!(planes().list(0), [-SLACK, 1.0, 2.0, 3.0, 4.0 + SLACK]);
         assert_eq!(planes().dimensions(), [4, 1, 1]);
     }
 
@@ -234,6 +239,24 @@ mod tests {
         let mut planes = Planes::new(unit_boxes(100), &limit);
         planes.thin(10.0);
         assert!(planes.cells() <= 10.0);
-        assert_eq!((planes.list(0)[0], *planes.list(0).last().unwrap()), (0.0, 100.0));
+        assert_eq!((planes.list(0)[0], *planes.list(0).last().unwrap()), (-SLACK, 100.0 + SLACK));
+    }
+
+    // A world thinner along an axis than the rounding of its size was one plane there, which every ray had left before
+    // it came to the next cell.
+    #[test]
+    fn a_world_as_thin_as_rounding_is_walked_from_end_to_end() {
+        let limit = Bounds::new(DVec3::new(-1e-150, -1.0, -1.0), DVec3::new(1e-150, 1.0, 1.0));
+        let halves =
+            [Bounds { hi: limit.hi.with_y(0.0), ..limit }, Bounds { lo: limit.lo.with_y(0.0), ..limit }];
+        let planes = Planes::new(halves.into_iter(), &limit);
+        assert_eq!(planes.dimensions(), [1, 2, 1]);
+        let ray = Ray::new(DVec3::new(-1e-150, -0.5, 0.0), DVec3::new(1e-14, 1.0, 0.0));
+        let mut cells = Vec::new();
+        planes.walk::<()>(&ray, 0.0, f64::INFINITY, |step| {
+            cells.push(step.cell);
+            ControlFlow::Continue(())
+        });
+        assert_eq!(cells, [0, 1]);
     }
 }

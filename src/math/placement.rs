@@ -46,12 +46,12 @@ impl Placement {
 fn refined_inverse(even: &DMat3) -> DMat3 {
     /// Above it cofactors are good enough.
     const STURDY: f64 = 0.5;
+    /// Each step squares what is left: from just below 1 it is rounding after so many.
+    const STEPS: usize = 10;
     let mut inverse = even.inverse();
     if even.determinant().abs() >= STURDY {
         return inverse;
     }
-    /// Each step squares what is left: from just below 1 it is rounding after so many.
-    const STEPS: usize = 10;
     let mut left = 1.0;
     for _ in 0..STEPS {
         let rest = DMat3::from_cols_array(&std::array::from_fn(|i| {

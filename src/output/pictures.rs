@@ -91,7 +91,7 @@ pub fn ppm(pixels: &Pixels, out: &mut impl Write) -> io::Result<()> {
 }
 
 /// A portable float map of one channel (`Pf`): light, depth, object numbers. Values become f32; infinite ones, such
-/// as the depth where nothing is hit, are kept.
+/// as the depth where nothing is hit, are kept, and no finite one becomes infinite.
 pub fn pfm_gray(values: &Grid<f64>, out: &mut impl Write) -> io::Result<()> {
     pfm("Pf", values, |&value| [value], out)
 }
@@ -115,6 +115,8 @@ fn pfm<T, const CHANNELS: usize>(
     for row in rows.into_iter().rev() {
         bytes.clear();
         for value in row.iter().flat_map(&channels) {
+            let largest = f64::from(f32::MAX);
+            let value = if value.is_finite() { value.clamp(-largest, largest) } else { value };
             bytes.extend_from_slice(&(value as f32).to_le_bytes());
         }
         out.write_all(&bytes)?;
@@ -206,5 +208,18 @@ mod tests {
             .expect("a vector takes every byte");
         assert!(out.starts_with(b"PF\n1 1\n-1.0\n"));
         assert_eq!(out[out.len() - 4..], 0.5_f32.to_le_bytes());
+    }
+
+    #[test]
+    fn only_what_is_infinite_is_written_so() {
+        let values = [1e300, -1e300, f64::INFINITY, 1e-300];
+        let mut out = Vec::new();
+        pfm_gray(&Grid::from_values(Size::new(4, 1), values.to_vec()), &mut out)
+            .expect("a vector takes every byte");
+        let floats: Vec<f32> = out["Pf\n4 1\n-1.0\n".len()..]
+            .chunks(4)
+            .map(|bytes| f32::from_le_bytes(bytes.try_into().expect("four bytes")))
+            .collect();
+        assert_eq!(floats, [f32::MAX, f32::MIN, f32::INFINITY, 0.0]);
     }
 }

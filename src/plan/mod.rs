@@ -60,7 +60,7 @@ impl Secondary {
         let sources =
             [scene.world.ambient, scene.world.background].into_iter().chain(lamps.iter().map(|l| l.light));
         let brightest = sources.map(DVec3::max_element).fold(1.0, f64::max);
-        let eye = assembly.datum.inward(lens.eye);
+        let eye = assembly.datum.inward_near(lens.eye);
         let kt = |primitive: &u32| scene.materials[assembly.material(*primitive).0 as usize].kt > 0.0;
         let glass = scene.materials.iter().any(|m| m.kt > 0.0);
         let objects = if glass { assembly.objects.len() as u32 } else { 0 };

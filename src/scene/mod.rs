@@ -12,6 +12,6 @@ pub use embedded::{EmbeddedScene, embedded};
 pub use language::reference;
 pub use model::{
     Anchor, Camera, CameraError, Corner, Facets, FieldSpan, HalfSpace, Light, Material, MaterialId, Mesh,
-    Object, Primitive, Scene, Shape, Solid, World,
+    Object, Primitive, REACH, Scene, Shape, Solid, World,
 };
 pub use read::{Format, MAX_FILE_BYTES, ReadError, ReadOptions, read, read_file};

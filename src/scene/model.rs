@@ -5,6 +5,16 @@ use std::sync::Arc;
 
 use crate::math::{Bounds, DAffine3, DVec3};
 
+/// Scenes reach no farther than this from the origin along any axis: less than the largest number by the thousandfold
+/// that a distance from which all of it is seen may be larger, and the lights about that.
+pub const REACH: f64 = 1e305;
+
+/// Whether a box lies within [`REACH`].
+pub(super) fn is_within_reach(b: &Bounds) -> bool {
+    let reach = DVec3::splat(REACH);
+    Bounds::new(-reach, reach).contains(b.lo) && Bounds::new(-reach, reach).contains(b.hi)
+}
+
 /// Everything that can be seen, what lights it and from where it is seen.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
@@ -295,6 +305,9 @@ pub enum CameraError {
     /// The sight line runs along `up`.
     #[error("the line of sight runs along `up`: turn `up` another way")]
     UpAlongSight,
+    /// The way from the eye to the target is longer along an axis than the largest number.
+    #[error("eye and target are farther apart than a 64-bit float holds: bring them nearer to each other")]
+    TooFar,
     /// An angle, the zoom or a coordinate is out of its range.
     #[error("field, zoom or a coordinate of the camera is out of its range")]
     OutOfRange,
@@ -310,7 +323,7 @@ impl Camera {
         }
         let sight = self.target - self.eye;
         if !sight.is_finite() {
-            return Err(CameraError::OutOfRange);
+            return Err(CameraError::TooFar);
         }
         let (long, high) = (sight.abs().max_element(), self.up.abs().max_element());
         if long == 0.0 {

@@ -1,11 +1,17 @@
 //! Light in one channel or in three.
 
-use std::ops::{Add, Mul};
+use std::ops::{Add, Div, Mul};
 
 use crate::math::DVec3;
 
 /// The shares of the linear primaries (sRGB, Rec. 709) in luminance.
 const LUMINANCE: DVec3 = DVec3::new(0.2126, 0.7152, 0.0722);
+
+/// The most light that a surface or a source sends: 2⁻¹³ of the largest number, about 2·10³⁰⁴. White is 1.
+///
+/// Kept below it, no sum overflows: a light by both shares of a surface is at most twice as much, a third comes from
+/// the lights before it, and a dot's 64 × 64 samples are 2¹² of them.
+const BRIGHTEST: f64 = f64::MAX / 8192.0;
 
 /// The luminance of linear light.
 pub fn luminance(rgb: DVec3) -> f64 {
@@ -14,13 +20,29 @@ pub fn luminance(rgb: DVec3) -> f64 {
 
 /// An amount of linear light: its luminance as `f64`, or its three primaries as [`DVec3`].
 pub trait Channel:
-    Copy + Send + Sync + Add<Output = Self> + Mul<f64, Output = Self> + Mul<Output = Self>
+    Copy
+    + Send
+    + Sync
+    + Add<Output = Self>
+    + Mul<f64, Output = Self>
+    + Mul<Output = Self>
+    + Div<f64, Output = Self>
 {
     /// No light.
     const DARK: Self;
 
     /// From the three primaries.
     fn from_rgb(rgb: DVec3) -> Self;
+
+    /// The same, or as much as may be where it is more.
+    #[must_use]
+    fn limited(self) -> Self;
+
+    /// The light of a source, by its three primaries.
+    fn source(rgb: DVec3) -> Self {
+        // Limited first: the weights of three that are nearly the largest number may pass it.
+        Self::from_rgb(rgb.limited())
+    }
 
     /// Its luminance.
     fn gray(self) -> f64;
@@ -37,6 +59,11 @@ impl Channel for f64 {
         if rgb.x == rgb.y && rgb.y == rgb.z { rgb.x } else { luminance(rgb) }
     }
 
+    #[inline]
+    fn limited(self) -> Self {
+        self.min(BRIGHTEST)
+    }
+
     fn gray(self) -> f64 {
         self
     }
@@ -51,6 +78,11 @@ impl Channel for DVec3 {
 
     fn from_rgb(rgb: DVec3) -> Self {
         rgb
+    }
+
+    #[inline]
+    fn limited(self) -> Self {
+        self.min(Self::splat(BRIGHTEST))
     }
 
     fn gray(self) -> f64 {

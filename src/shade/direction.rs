@@ -4,11 +4,15 @@
 //! 1 within rounding. Both answers have length 1 within rounding.
 
 use crate::math::DVec3;
+use crate::view::settled;
+
+/// The way of a ray within the world, whose size is about 1.
+pub const WITHIN: f64 = 1.0;
 
 /// The mirror direction.
 pub fn mirrored(d: DVec3, n: DVec3) -> DVec3 {
     let across = d.dot(n).min(0.0);
-    (d - 2.0 * across * n).normalize_or(n)
+    settled((d - 2.0 * across * n).normalize_or(n), WITHIN)
 }
 
 /// Snell's direction from a medium of index `before` into one of index `behind`, both above 0; `None` on total
@@ -27,7 +31,8 @@ pub fn refracted(d: DVec3, n: DVec3, before: f64, behind: f64) -> Option<DVec3> 
     if sine_squared >= 1.0 || sine_squared.is_nan() {
         return None;
     }
-    Some((along - (1.0 - sine_squared).sqrt() * n).normalize_or(-n))
+    let onward = along - (1.0 - sine_squared).sqrt() * n;
+    Some(settled(onward.normalize_or(-n), WITHIN))
 }
 
 #[cfg(test)]

@@ -136,10 +136,10 @@ impl<E: Engine, C: Channel> Shader<'_, E, C> {
             self.arriving(&next, self.departure(&met.hit, met.p, side), memory, meter) * share
         };
         if let Some(mirror) = onward.mirror {
-            light = light + arriving(mirror, met.normal, &sent.inside);
+            light = (light + arriving(mirror, met.normal, &sent.inside)).limited();
         }
         if let Some(snell) = onward.snell {
-            light = light + arriving(snell, -met.normal, &change.list);
+            light = (light + arriving(snell, -met.normal, &change.list)).limited();
         }
         memory.media.forget(&change.list);
         light

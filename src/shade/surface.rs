@@ -6,10 +6,16 @@ use crate::scene::Scene;
 use crate::solid::{Assembly, Departure, Form};
 use crate::stage::{Meter, Probe, Stage};
 use crate::trace::{Engine, Hit};
+use crate::view::settled;
 
 use super::channel::Channel;
+use super::direction::WITHIN;
 use super::media::{Filling, Media};
 use super::path::Sent;
+
+/// A light nearer than this, in the assembly's unit, is at the point itself: 2⁻⁵⁰⁰, whose square is a number yet. A
+/// hit's own place is not known so well by far.
+const NEAREST: f64 = f64::from_bits((1023 - 500) << 52);
 
 /// Shades hits of one picture.
 #[derive(Debug)]
@@ -20,6 +26,7 @@ pub struct Shader<'a, E, C> {
     lamps: Vec<Lamp<C>>,
     pub(super) ambient: C,
     pub(super) background: C,
+    /// The constant of the depth term, in the scene's unit.
     depth: Option<f64>,
     shadows: bool,
     /// Whether light can come through anything.
@@ -106,7 +113,7 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
         let lamps = plan
             .lamps
             .iter()
-            .map(|l| Lamp { at: assembly.datum.inward_near(l.at), light: C::from_rgb(l.light) });
+            .map(|l| Lamp { at: assembly.datum.inward_near(l.at), light: C::source(l.light) });
         let secondary = plan.secondary.as_ref();
         let around_eye = secondary.iter().flat_map(|s| &s.around_eye);
         Self {
@@ -114,9 +121,9 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
             assembly,
             finishes: finishes.collect(),
             lamps: lamps.collect(),
-            ambient: C::from_rgb(scene.world.ambient),
-            background: C::from_rgb(scene.world.background),
-            depth: plan.depth.map(|k| k / assembly.datum.unit),
+            ambient: C::source(scene.world.ambient),
+            background: C::source(scene.world.background),
+            depth: plan.depth,
             shadows: plan.shadows,
             glass: plan.glass,
             generations: secondary.map_or(0, |s| s.generations),
@@ -148,8 +155,8 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
     /// The surface of the last hit.
     pub(super) fn met(&self, ray: &Ray, hit: Hit, memory: &Memory<E>) -> Met {
         let hit = self.shown(hit, |finish| finish.kt, memory);
-        let p = hit.p;
-        Met { hit, p, normal: self.assembly.turned_normal(hit.primitive, hit.surface, p, ray.d) }
+        let normal = self.assembly.turned_normal(hit.primitive, hit.surface, hit.p, ray.d);
+        Met { hit, p: hit.p, normal }
     }
 
     /// The light that a surface sends back along the ray that met it, which is the last one traced.
@@ -183,16 +190,20 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
         for lamp in &self.lamps {
             let way = lamp.at - p;
             let distance = way.length();
-            let to_light = way / distance;
-            let facing = to_light.dot(normal);
             // A light at the very point has no direction; it lights nothing there.
-            if facing.is_nan() || facing <= 0.0 {
+            if distance < NEAREST {
+                continue;
+            }
+            let to_light = settled(way / distance, WITHIN);
+            let facing = to_light.dot(normal);
+            if facing <= 0.0 {
                 continue;
             }
             let mut share = finish.color * (finish.kd * facing);
             if finish.ks > 0.0 {
                 let mirrored = 2.0 * facing * normal - to_light;
-                let cos = -mirrored.dot(sent.ray.d);
+                // Rounding may put it above 1, and n may be large enough to make anything of that.
+                let cos = (-mirrored.dot(sent.ray.d)).min(1.0);
                 if cos > 0.0 {
                     share = share + C::from_rgb(DVec3::ONE) * (finish.ks * libm::pow(cos, finish.n));
                 }
@@ -204,12 +215,13 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
                 }
                 share = share * visible;
             }
-            sum = sum + lamp.light * share;
+            sum = (sum + lamp.light * share).limited();
         }
         if let Some(k) = self.depth {
-            sum = sum * (1.0 / (sent.travelled + met.hit.t + k) / self.assembly.datum.unit);
+            let way = (sent.travelled + met.hit.t) * self.assembly.datum.unit;
+            sum = (sum / (way + k)).limited();
         }
-        self.ambient * finish.color + sum
+        (self.ambient * finish.color + sum).limited()
     }
 
     /// The material of the surface that was hit.

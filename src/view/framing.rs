@@ -40,7 +40,7 @@ pub fn framed(support: impl Fn(DVec3) -> f64, aspect: f64) -> Camera {
     // The target is what the eye turns about: the middle of the scene along the line of sight.
     let middle = 0.5 * (support(back) - support(-back));
     let at = |depth: f64| a * right + b * up + depth * back;
-    Camera {
+    let camera = Camera {
         name: None,
         eye: at(d),
         target: at(middle),
@@ -48,7 +48,13 @@ pub fn framed(support: impl Fn(DVec3) -> f64, aspect: f64) -> Camera {
         field: FIELD,
         span: FieldSpan::Edges,
         zoom: 1.0,
+    };
+    if camera.check().is_ok() {
+        return camera;
     }
+    // A scene so small, where it stands, that eye and target are the same number: seen from any distance it is a point.
+    let away = camera.target.abs().max_element().max(1.0);
+    Camera { eye: camera.target + away * back, ..camera }
 }
 
 #[cfg(test)]
@@ -56,6 +62,14 @@ mod tests {
     use super::*;
     use crate::math::{Bounds, Size};
     use crate::view::{Lens, Picture};
+
+    // What showed of a scene had vanished beside what was cut from it, and the eye stood at its target.
+    #[test]
+    fn a_point_is_seen_from_somewhere() {
+        for point in [DVec3::ZERO, DVec3::ONE, DVec3::new(-1e300, 1e9, 0.0)] {
+            assert_eq!(framed(|v| v.dot(point), 1.6).check(), Ok(()), "{point}");
+        }
+    }
 
     #[test]
     fn every_corner_is_in_the_picture_and_two_opposite_ones_are_at_the_rim() {

@@ -50,8 +50,10 @@ impl Lens {
         let size = sight.abs().max_element();
         let length = (sight / size).length();
         let forward = sight / size / length;
-        let up = camera.up / camera.up.abs().max_element();
-        let right = forward.cross(up).normalize_or(forward.any_orthonormal_vector());
+        // From what the camera says, not from `forward`, whose rounding is all that would be left of the product where
+        // `up` is nearly along the sight: so `right` is square to both.
+        let right = cross(scaled(sight), scaled(camera.up));
+        let right = scaled(right).normalize_or(forward.any_orthonormal_vector());
         let Size { width, height } = picture.dots;
         let half = |degrees: f64, dots: u32| {
             (libm::tan(0.5 * degrees.to_radians()) / camera.zoom * reach(camera.span, dots)).min(WIDEST)
@@ -64,7 +66,7 @@ impl Lens {
             forward,
             right,
             up: right.cross(forward),
-            focus: size * length,
+            focus: (size * length).min(f64::MAX),
             tangents,
             dots: picture.dots,
         }
@@ -85,10 +87,34 @@ impl Lens {
         self.tangents.map(|t| 2.0 * libm::atan(t).to_degrees())
     }
 
-    /// The place of a point given in (right, up, back), in units of the distance to the target.
+    /// The place of a point given in (right, up, back), in units of the distance to the target; the nearest that
+    /// numbers can hold.
     pub fn place(&self, p: DVec3) -> DVec3 {
-        self.eye + self.focus * (p.x * self.right + p.y * self.up - p.z * self.forward)
+        let place = self.eye + self.focus * (p.x * self.right + p.y * self.up - p.z * self.forward);
+        place.clamp(DVec3::MIN, DVec3::MAX)
     }
+}
+
+/// The vector by the power of two, if any, that brings its largest component into `1..2`. That rounds nothing but
+/// what vanishes beside the largest.
+fn scaled(v: DVec3) -> DVec3 {
+    let largest = v.abs().max_element();
+    if largest == 0.0 || !largest.is_finite() {
+        return v;
+    }
+    let exponent = libm::ilogb(largest);
+    DVec3::from_array(v.to_array().map(|x| libm::scalbn(x, -exponent)))
+}
+
+/// The cross product, each component within 1.5 units in its last place however much its two products cancel
+/// (Kahan's difference of products; Jeannerod, Louvet, Muller: Further analysis of Kahan's algorithm for the accurate
+/// computation of 2 × 2 determinants, Mathematics of Computation 2013).
+fn cross(a: DVec3, b: DVec3) -> DVec3 {
+    let difference = |p: f64, q: f64, r: f64, s: f64| {
+        let subtrahend = r * s;
+        libm::fma(p, q, -subtrahend) + libm::fma(-r, s, subtrahend)
+    };
+    DVec3::new(difference(a.y, b.z, a.z, b.y), difference(a.z, b.x, a.x, b.z), difference(a.x, b.y, a.y, b.x))
 }
 
 /// How far the edge of a picture lies from its middle, in units of how far that lies which the camera's angle spans.
@@ -154,6 +180,31 @@ mod tests {
         let plain = Lens::new(&camera([40.0, 25.0]), &picture);
         let near = Lens::new(&Camera { zoom: 2.0, ..camera([40.0, 25.0]) }, &picture);
         assert_eq!(plain.tangents.map(|t| t / 2.0), near.tangents);
+    }
+
+    // Within 1e-14 of the sight, `up` gave a `right` that was off square by a hundredth: its cross product with
+    // `forward` was rounding.
+    #[test]
+    fn right_up_and_forward_are_square_however_near_up_is_to_the_sight() {
+        for off in [1e-1, 1e-7, 1e-12, 1e-14, 4e-15, 1e-200] {
+            for sight in [DVec3::new(0.3, 0.7, -0.2), DVec3::new(1e-3, -5.0, 2e200), DVec3::splat(1.0 / 3.0)]
+            {
+                let picture = Picture { dots: Size::new(16, 10), dot_aspect: 1.0 };
+                let up = sight / sight.abs().max_element() + off * DVec3::new(0.9, -0.4, 0.1);
+                let camera = Camera { eye: DVec3::ZERO, target: sight, up, ..camera([40.0, 25.0]) };
+                let Lens { forward, right, up, .. } = Lens::new(&camera, &picture);
+                for (a, b) in [(forward, right), (right, up), (up, forward)] {
+                    assert!(a.dot(b).abs() < 1e-15 && (a.length() - 1.0).abs() < 1e-15, "{off} {sight}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn lights_that_move_with_the_eye_have_a_place_at_any_distance() {
+        let far = Camera { eye: DVec3::MAX, ..camera([40.0, 25.0]) };
+        let lens = Lens::new(&far, &Picture { dots: Size::new(16, 10), dot_aspect: 1.0 });
+        assert!(lens.place(DVec3::new(-0.6, 0.8, 3.0)).is_finite());
     }
 
     // A zoom of 1e-200 overflowed the square of a ray's direction, which came out as 0.

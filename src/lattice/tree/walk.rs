@@ -14,7 +14,8 @@ const STRIDE: [u32; 3] = [1, SIDE as u32, (SIDE * SIDE) as u32];
 struct Walk<'a, 'v, V> {
     tree: &'a Tree,
     ray: &'a Ray,
-    /// 1 / d; infinite where the ray runs along an axis' planes.
+    /// 1 / d; infinite, and not used, where the ray runs along an axis' planes. Elsewhere it is finite
+    /// ([`crate::view::settled`]), so that a start on a plane gives 0.
     inverse: DVec3,
     visit: &'v mut V,
     cells_visited: &'v mut u64,

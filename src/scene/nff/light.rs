@@ -1,10 +1,11 @@
 //! `l` and `f`: what lights the scene, and how its surfaces answer.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use crate::math::DVec3;
-use crate::scene::diagnostic::Reported;
-use crate::scene::{Anchor, Light, Material, MaterialId, Scene};
+use crate::scene::diagnostic::{Reported, Sink};
+use crate::scene::{Anchor, Diagnostic, Light, Material, MaterialId, Scene};
 
 use super::entity::Entity;
 
@@ -49,6 +50,8 @@ pub struct Fills {
     /// By their bits. Only asked by key, so that its order plays no part.
     known: HashMap<[u64; 8], MaterialId>,
     current: Option<MaterialId>,
+    /// The first `f` that would send on more light than arrives.
+    too_bright: Option<Range<usize>>,
 }
 
 impl Fills {
@@ -66,6 +69,9 @@ impl Fills {
         let [.., t, index] = numbers;
         entity.check(index, index.value > 0.0 || t.value == 0.0, "where T is above 0 the index is too")?;
         let values = numbers.map(|number| number.value);
+        if values[4] + values[6] > 1.0 {
+            self.too_bright.get_or_insert_with(|| entity.keyword.span());
+        }
         let next = MaterialId(self.materials.len() as u32);
         let id = *self.known.entry(values.map(f64::to_bits)).or_insert(next);
         if id == next {
@@ -83,15 +89,20 @@ impl Fills {
         })
     }
 
-    /// All of them.
-    pub fn finish(self) -> Vec<Material> {
+    /// All of them, and a note of what was taken differently.
+    pub fn finish(self, sink: &mut Sink) -> Vec<Material> {
+        if let Some(place) = self.too_bright {
+            sink.note(Diagnostic::note(place, "where Ks + T is above 1, only 1 - T is mirrored"));
+        }
         self.materials
     }
 }
 
-/// The format has one share, Ks, for the highlight and for what is mirrored. An index of 0 is that of a surface
+/// The format has one share, Ks, for the highlight and for what is mirrored. Of the mirror it is no more than T leaves:
+/// files give glass a strong highlight without meaning that light comes of nothing. An index of 0 is that of a surface
 /// through which nothing is seen.
 fn material([r, g, b, kd, ks, n, kt, index]: [f64; 8]) -> Material {
     let index = if index > 0.0 { index } else { 1.0 };
-    Material { name: None, color: DVec3::new(r, g, b), kd, ks, n, kr: ks, kt, index }
+    let kr = if ks + kt > 1.0 { 1.0 - kt } else { ks };
+    Material { name: None, color: DVec3::new(r, g, b), kd, ks, n, kr, kt, index }
 }

@@ -80,7 +80,7 @@ impl Reader {
     fn finish(mut self, name: &str, text: &str) -> Result<Scene, Diagnostics> {
         let mut scene = self.scene;
         scene.objects = self.solids.finish(&mut self.sink);
-        scene.materials = self.fills.finish();
+        scene.materials = self.fills.finish(&mut self.sink);
         self.lamps.finish(&mut scene);
         if scene.objects.is_empty() && self.sink.is_clean() {
             let error = Diagnostic::error(0..0, "the scene is empty: there is nothing to see in it");

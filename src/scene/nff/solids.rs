@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use crate::math::{DAffine3, DMat3, DVec3, Placement};
 use crate::scene::diagnostic::{Reported, Sink};
-use crate::scene::{Corner, Diagnostic, MaterialId, Object, Primitive, Shape, Solid};
+use crate::scene::model::is_within_reach;
+use crate::scene::{Corner, Diagnostic, MaterialId, Object, Primitive, REACH, Shape, Solid};
 
 use super::entity::Entity;
 use super::light::Fills;
@@ -73,11 +74,11 @@ impl Solids {
         }
         drop_repeated(&mut self.places, |&place| place);
         if has_area(self.places.iter().copied()) {
-            self.surface(Shape::Face(Arc::from(&self.places[..])), fills.current());
+            self.surface(entity, Shape::Face(Arc::from(&self.places[..])), fills.current())
         } else {
             self.leave_out(entity);
+            Ok(())
         }
-        Ok(())
     }
 
     /// `pp n`, then n times a corner and its normal.
@@ -91,17 +92,21 @@ impl Solids {
         }
         drop_repeated(&mut self.corners, |corner| corner.place);
         if has_area(self.corners.iter().map(|corner| corner.place)) {
-            self.surface(Shape::Patch(Arc::from(&self.corners[..])), fills.current());
+            self.surface(entity, Shape::Patch(Arc::from(&self.corners[..])), fills.current())
         } else {
             self.leave_out(entity);
+            Ok(())
         }
-        Ok(())
     }
 
     /// A surface whose corners are in the world already.
-    fn surface(&mut self, shape: Shape, material: MaterialId) {
+    fn surface(&mut self, entity: &mut Entity, shape: Shape, material: MaterialId) -> Result<(), Reported> {
+        if !is_within_reach(&shape.bounds()) {
+            return Err(too_far(entity));
+        }
         let solid = Solid::Primitive(Primitive::new(shape, DAffine3::IDENTITY, material));
         self.objects.push(Object { name: None, solid });
+        Ok(())
     }
 
     fn placed(
@@ -111,9 +116,8 @@ impl Solids {
         map: DAffine3,
         material: MaterialId,
     ) -> Result<(), Reported> {
-        let bounds = shape.bounds().mapped(&map);
-        if !(bounds.lo.is_finite() && bounds.hi.is_finite()) {
-            return Err(entity.wrong(entity.keyword, "it reaches farther than a 64-bit float holds"));
+        if !is_within_reach(&shape.bounds().mapped(&map)) {
+            return Err(too_far(entity));
         }
         self.objects
             .push(Object { name: None, solid: Solid::Primitive(Primitive::new(shape, map, material)) });
@@ -151,6 +155,10 @@ fn corner_count(entity: &mut Entity, bytes: usize) -> Result<usize, Reported> {
         return Err(entity.cut_off(&left));
     }
     Ok(number.value as usize)
+}
+
+fn too_far(entity: &mut Entity) -> Reported {
+    entity.wrong(entity.keyword, &format!("it reaches farther than {REACH:e} from the origin"))
 }
 
 fn corner_name(number: usize, count: usize) -> String {

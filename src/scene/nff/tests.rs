@@ -105,7 +105,7 @@ fn each_fault_has_its_place_and_its_words() {
         ),
         ("s 0 0 0 0", "1:9: error: `s`: the radius is above 0: this is 0"),
         ("s 0 0 0 -1", "1:9: error: `s`: the radius is above 0: this is -1"),
-        ("s 1e308 0 0 1e308", "1:1: error: `s`: it reaches farther than a 64-bit float holds"),
+        ("s 1e308 0 0 1e308", "1:1: error: `s`: it reaches farther than 1e305 from the origin"),
         ("s 0 0 0 1e-320", "1:9: error: `s`: it is smaller than a 64-bit float holds: this is 1e-320"),
         ("s 0 0 0 1 2", "1:11: error: a number stands where an entity begins: this is `2`"),
         ("sphere 0 0 0 1", "1:1: error: NFF has no such entity: this is `sphere`"),
@@ -161,4 +161,12 @@ fn reading_goes_on_with_the_next_entity() {
     assert_eq!(found.list.len(), 4, "{found}");
     let many = read(&"s 0 0 0 0\n".repeat(100)).unwrap_err();
     assert!(many.stopped);
+}
+
+#[test]
+fn a_mirror_has_no_more_than_glass_leaves() {
+    let scene = read("f 1 1 1 0 0.7 20 0.6 1.5 s 0 0 0 1 f 1 1 1 0 0.1 20 0.9 1.5 s 2 0 0 1").unwrap();
+    let shares: Vec<_> = scene.materials.iter().map(|m| (m.ks, m.kr, m.kt)).collect();
+    assert_eq!(shares, [(0.7, 0.4, 0.6), (0.1, 0.1, 0.9)]);
+    assert_eq!(scene.notes, ["line 1: where Ks + T is above 1, only 1 - T is mirrored"]);
 }

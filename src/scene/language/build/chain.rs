@@ -145,7 +145,7 @@ mod tests {
     fn turns_add_up_and_do_not_multiply() {
         let turn = DAffine3::from_axis_angle(DVec3::new(2.0, 3.0, 6.0) / 7.0, 0.3);
         let of = |turns: &[DAffine3]| chain(turns).error(&UNIT).length();
-        let (ten, thousand) = (of(&[turn; 10]), of(&[turn; 1000]));
+        let (ten, thousand) = (of(&[turn; 10]), of(&vec![turn; 1000]));
         assert!((90.0..110.0).contains(&(thousand / ten)), "{ten} {thousand}");
     }
 

@@ -100,8 +100,10 @@ impl Surfaces {
             material.name = None;
             material.color = color;
             if alpha < 1.0 {
-                // As a picture behind a pane: alpha of its colour, and the rest of what stands behind.
+                // As a picture behind a pane: alpha of its colour and of what it mirrors, and the rest of what stands
+                // behind.
                 material.color *= alpha;
+                material.kr *= alpha;
                 material.kt = 1.0 - alpha;
             }
         }
@@ -135,5 +137,14 @@ fn changed(material: Material, arguments: &Arguments<'_, '_>, sink: &mut Sink) -
     let (n, kr) = (number("n", material.n)?, number("kr", material.kr)?);
     let (kt, index) = (number("kt", material.kt)?, number("index", material.index)?);
     let color = arguments.color("color", sink)?.map_or(material.color, |(color, _)| color);
+    if kr + kt > 1.0 {
+        let given = ["kt", "kr"].into_iter().find(|name| arguments.value(name).is_some()).unwrap_or("kt");
+        let message =
+            format!("`kr` and `kt` add up to {}: more light than arrives would be sent on", kr + kt);
+        let error = Diagnostic::error(arguments.place_of(given), message);
+        return Err(
+            sink.report(error.help("what is mirrored and what is let through are 1 together at most"))
+        );
+    }
     Ok(Material { name: material.name, color, kd, ks, n, kr, kt, index })
 }

@@ -3,11 +3,12 @@
 use super::arguments::Arguments;
 use super::facets::Polygons;
 use super::{Builder, Context, facets, polyhedron};
-use crate::math::{DAffine3, DMat3, DVec3};
+use crate::math::{DAffine3, DMat3, DVec3, Placement};
 use crate::scene::diagnostic::{Reported, Sink};
 use crate::scene::language::syntax::Call;
 use crate::scene::language::vocabulary::{SolidWord, Word};
-use crate::scene::{Diagnostic, Primitive, Shape, Solid};
+use crate::scene::model::is_within_reach;
+use crate::scene::{Diagnostic, Primitive, REACH, Shape, Solid};
 
 impl Builder<'_> {
     /// The primitive of a call.
@@ -40,9 +41,14 @@ impl Builder<'_> {
         let maps = context.maps.then(local, call.name.span, sink)?;
         let map = *maps.product();
         let bounds = shape.bounds().mapped(&map);
-        if !(bounds.lo.is_finite() && bounds.hi.is_finite()) {
-            let error = Diagnostic::error(call.name.span, "it reaches farther than a 64-bit float holds");
+        if !is_within_reach(&bounds) {
+            let message = format!("it reaches farther than {REACH:e} from the origin");
+            let error = Diagnostic::error(call.name.span, message);
             return Err(sink.report(error.label("too large, or too far away")));
+        }
+        if Placement::new(&map).is_none() {
+            let error = Diagnostic::error(call.name.span, "it is smaller than a 64-bit float holds");
+            return Err(sink.report(error.label("too small, or too flat")));
         }
         let material = self.surfaces.id(context.surface);
         let map_error = maps.error_share(&shape.bounds(), &bounds);

@@ -2,12 +2,11 @@
 
 use super::Builder;
 use super::arguments::Arguments;
-use super::maps::unit;
 use crate::math::DVec3;
-use crate::scene::diagnostic::{Reported, Sink};
+use crate::scene::diagnostic::Reported;
 use crate::scene::language::nearest::quoted;
-use crate::scene::language::syntax::{Call, Spanned, Value};
-use crate::scene::{Anchor, Camera, Diagnostic, FieldSpan, Light, World};
+use crate::scene::language::syntax::Call;
+use crate::scene::{Anchor, Camera, CameraError, Diagnostic, FieldSpan, Light, World};
 
 impl Builder<'_> {
     pub(super) fn camera(&mut self, arguments: &Arguments<'_, '_>) -> Result<(), Reported> {
@@ -15,18 +14,22 @@ impl Builder<'_> {
         let name = arguments.text("name", sink)?;
         let eye = arguments.triple("eye", 0.0, sink)?.ok_or_else(|| arguments.missing("eye", sink))?;
         let target = arguments.triple("target", 0.0, sink)?.unwrap_or_default();
-        let sight = sight_line(eye, target, arguments, sink)?;
-        let up = match arguments.triple("up", 0.0, sink)? {
-            Some(up) if along(sight, up) => {
-                let error = Diagnostic::error(arguments.place_of("up"), "`up` lies along the line of sight");
-                return Err(sink.report(error.help("give a direction that is upwards in the picture")));
-            }
-            Some(up) => up,
-            None if along(sight, DVec3::Z) => DVec3::Y,
-            None => DVec3::Z,
+        let up = arguments.triple("up", 0.0, sink)?;
+        let mut camera = Camera {
+            name: name.map(str::to_owned),
+            eye,
+            target,
+            up: up.unwrap_or(DVec3::Z),
+            field: arguments.field("field", sink)?.unwrap_or([40.0, 25.0]),
+            span: FieldSpan::Edges,
+            zoom: arguments.number("zoom", sink)?.unwrap_or(1.0),
         };
-        let field = arguments.field("field", sink)?.unwrap_or([40.0, 25.0]);
-        let zoom = arguments.number("zoom", sink)?.unwrap_or(1.0);
+        let mut checked = camera.check();
+        if up.is_none() && checked == Err(CameraError::UpAlongSight) {
+            camera.up = DVec3::Y;
+            checked = camera.check();
+        }
+        checked.map_err(|error| sink.report(blind(error, arguments)))?;
         if let Some(name) = name
             && !self.view_names.insert(name.to_owned())
         {
@@ -34,15 +37,7 @@ impl Builder<'_> {
             let error = Diagnostic::error(arguments.place_of("name"), message).label("the second one");
             return Err(sink.report(error.help("give it another name")));
         }
-        self.scene.views.push(Camera {
-            name: name.map(str::to_owned),
-            eye,
-            target,
-            up,
-            field,
-            span: FieldSpan::Edges,
-            zoom,
-        });
+        self.scene.views.push(camera);
         Ok(())
     }
 
@@ -71,30 +66,24 @@ impl Builder<'_> {
     }
 }
 
-/// The direction from the eye to the target.
-fn sight_line(
-    eye: DVec3,
-    target: DVec3,
-    arguments: &Arguments<'_, '_>,
-    sink: &mut Sink,
-) -> Result<DVec3, Reported> {
-    // Halves, so that the difference of two large numbers stays finite. The smallest subnormals have no
-    // halves, but an eye so near its target that only they tell the two apart sees nothing either.
-    if let Some(sight) = unit(target * 0.5 - eye * 0.5) {
-        return Ok(sight);
+/// What is wrong with a camera, at the argument that can mend it.
+fn blind(error: CameraError, arguments: &Arguments<'_, '_>) -> Diagnostic {
+    match error {
+        CameraError::NoSight => {
+            let error = Diagnostic::error(arguments.place_of("eye"), "`eye` and `target` are the same point");
+            match arguments.value("target") {
+                None => error.help("`target` is [0, 0, 0] where it is not given"),
+                Some(_) => error.help("move one of them"),
+            }
+        }
+        CameraError::UpAlongSight => {
+            let error = Diagnostic::error(arguments.place_of("up"), "`up` lies along the line of sight");
+            error.help("give a direction that is upwards in the picture")
+        }
+        // All else is in its range by what the arguments take.
+        CameraError::TooFar | CameraError::OutOfRange => {
+            let message = "`eye` and `target` are farther apart than a 64-bit float holds";
+            Diagnostic::error(arguments.place_of("eye"), message).help("bring them nearer to each other")
+        }
     }
-    let error = Diagnostic::error(arguments.place_of("eye"), "`eye` and `target` are the same point");
-    let error = match arguments.value("target") {
-        None => error.help("`target` is [0, 0, 0] where it is not given"),
-        Some(Spanned { value: Value::List(_), .. }) => error.help("move one of them"),
-        Some(_) => error,
-    };
-    Err(sink.report(error))
-}
-
-/// Whether a unit vector and another vector lie along one line, as far as rounding lets one tell: each
-/// component of the cross product of two unit vectors is wrong by up to 4 units of 2⁻⁵³ (their own rounding
-/// and that of two products), so that a shorter product has no direction to take `right` from.
-fn along(sight: DVec3, other: DVec3) -> bool {
-    unit(other).is_none_or(|other| sight.cross(other).abs().max_element() <= 2.0 * f64::EPSILON)
 }

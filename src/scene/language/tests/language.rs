@@ -238,3 +238,14 @@ fn embedded_scenes_read_and_have_views_and_lights() {
     };
     assert_eq!(pips(&die), 2 * 21);
 }
+
+#[test]
+fn a_clear_colour_leaves_its_share_of_the_mirror() {
+    let [clear, full] = &materials(
+        "color(\"red\", 0.25) material(kr = 0.8) cube(1); color(\"red\") material(kr = 1) cube(1);",
+    )[..] else {
+        panic!("two primitives")
+    };
+    assert_eq!((clear.kr, clear.kt), (0.2, 0.75));
+    assert_eq!((full.kr, full.kt), (1.0, 0.0));
+}

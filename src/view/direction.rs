@@ -1,0 +1,35 @@
+//! Directions without components that are rounding only.
+
+use crate::math::DVec3;
+
+/// What rounding leaves of a component that is 0: a direction is the sum of a few products of numbers up to 1.
+const NOISE: f64 = 4.0 * f64::EPSILON;
+
+/// The same direction, each component exactly 0 or large enough to matter over `way`, the length of a ray in the
+/// assembly's unit: what moves its end by less than [`NOISE`], beside coordinates near 1, is 0. The length of the
+/// direction stays 1 within rounding.
+///
+/// So a ray that is meant to run along a plane does, and does not pass through it at a place that nobody can tell. And
+/// what is left can be divided by: the way is at most about 10¹⁰⁰, and no walk forms 0 · ∞.
+#[inline]
+#[must_use]
+pub fn settled(d: DVec3, way: f64) -> DVec3 {
+    DVec3::select(d.abs().cmplt(DVec3::splat(NOISE / way.max(1.0))), DVec3::ZERO, d)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_matters() {
+        let d = DVec3::new(1e-15, -8e-16, 1.0);
+        assert_eq!(settled(d, 0.0), DVec3::new(1e-15, 0.0, 1.0));
+        assert_eq!(settled(d, 100.0), d);
+        let least = settled(DVec3::new(1e-115, f64::MIN_POSITIVE, 1.0), 1e100);
+        assert!((1e100 / least.x).is_finite() && least.y == 0.0);
+        // One zero only: −0 is none.
+        let zeros = settled(DVec3::new(-0.0, -5e-324, -1.0), 1e100);
+        assert_eq!(zeros.to_array().map(f64::to_bits), [0.0, 0.0, -1.0].map(f64::to_bits));
+    }
+}

@@ -1,5 +1,7 @@
 //! What a rounded operation loses.
 
+use super::{DAffine3, DMat3, DVec3};
+
 /// The sum of two numbers as it is rounded, and the rest: together they are the exact sum, unless it overflows
 /// (Knuth: The Art of Computer Programming 2, 4.2.2, theorem B).
 pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
@@ -13,6 +15,33 @@ pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
 pub fn two_product(a: f64, b: f64) -> (f64, f64) {
     let product = a * b;
     (product, libm::fma(a, b, -product))
+}
+
+/// `whole − a·b`, rounded about once.
+pub fn rest_of_dot(a: DVec3, b: DVec3, whole: f64) -> f64 {
+    let (mut sum, mut lost) = (whole, 0.0);
+    for axis in 0..3 {
+        let (product, below) = two_product(-a[axis], b[axis]);
+        let (next, rest) = two_sum(sum, product);
+        sum = next;
+        lost += below + rest;
+    }
+    sum + lost
+}
+
+/// How far each number of a product of maps is from what the product of their numbers would be.
+pub fn product_rest(outer: &DAffine3, inner: &DAffine3, product: &DAffine3) -> DAffine3 {
+    let column = |inner: DVec3, product: DVec3| {
+        DVec3::from_array([0, 1, 2].map(|row| rest_of_dot(outer.matrix3.row(row), inner, product[row]).abs()))
+    };
+    let columns = [0, 1, 2].map(|axis| column(inner.matrix3.col(axis), product.matrix3.col(axis)));
+    // product − outer.translation is one number and a rest.
+    let moved = [0, 1, 2].map(|row| two_sum(product.translation[row], -outer.translation[row]));
+    let translation = column(inner.translation, DVec3::from_array(moved.map(|(sum, _)| sum)));
+    DAffine3 {
+        matrix3: DMat3::from_cols(columns[0], columns[1], columns[2]),
+        translation: translation + DVec3::from_array(moved.map(|(_, rest)| rest.abs())),
+    }
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ mod placement;
 mod ray;
 
 pub use bounds::Bounds;
-pub use exact::two_sum;
+pub use exact::{product_rest, two_sum};
 pub use glam::{DAffine3, DMat3, DVec2, DVec3};
 pub use grid::{Grid, Size};
 pub use placement::{Placement, is_singular};

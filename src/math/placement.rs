@@ -2,7 +2,7 @@
 
 use robust::{Coord3D, orient3d};
 
-use super::exact::{two_product, two_sum};
+use super::exact::rest_of_dot;
 use super::{DAffine3, DMat3, DVec3};
 
 /// Where a unit shape stands: `world = linear · unit + center`, and back.
@@ -67,18 +67,6 @@ fn refined_inverse(even: &DMat3) -> DMat3 {
         inverse += inverse * rest;
     }
     inverse
-}
-
-/// `whole − a·b`, rounded about once.
-fn rest_of_dot(a: DVec3, b: DVec3, whole: f64) -> f64 {
-    let (mut sum, mut lost) = (whole, 0.0);
-    for axis in 0..3 {
-        let (product, below) = two_product(-a[axis], b[axis]);
-        let (next, rest) = two_sum(sum, product);
-        sum = next;
-        lost += below + rest;
-    }
-    sum + lost
 }
 
 /// Whether the determinant is 0, decided exactly.

@@ -88,6 +88,16 @@ impl Primitive {
         Self { shape, map, map_error: [COMPOSED; 3], material }
     }
 
+    /// The primitive with a [`Primitive::map_error`] of this much along each axis, in the scene's unit.
+    #[must_use]
+    pub fn displaced(mut self, by: DVec3) -> Self {
+        let reach = self.shape.bounds().mapped(&self.map).farthest();
+        // Half an ulp of an f32 is of no account to a bound.
+        self.map_error =
+            [0, 1, 2].map(|axis| if reach[axis] > 0.0 { (by[axis] / reach[axis]) as f32 } else { 0.0 });
+        self
+    }
+
     /// [`Primitive::map_error`] along each axis in the scene's unit.
     pub fn displacement(&self) -> DVec3 {
         DVec3::from_array(self.map_error.map(f64::from)) * self.shape.bounds().mapped(&self.map).farthest()

@@ -77,7 +77,9 @@ fn changed(
     scale: f64,
 ) -> View {
     let View { name, scene, camera } = view;
-    let primitive = |p: &Primitive| Primitive { map: map(&p.map), ..p.clone() };
+    // The change rounds nothing, or as little as a scale does: the maps are as good as they were.
+    let primitive =
+        |p: &Primitive| Primitive { map: map(&p.map), ..p.clone() }.displaced(p.displacement() * scale);
     let object = |object: &Object| Object { name: None, solid: mapped(&object.solid, &primitive) };
     let light = |light: &Light| match light.anchor {
         Anchor::World(p) => Light { anchor: Anchor::World(place(p)), ..light.clone() },

@@ -2,19 +2,17 @@
 
 use std::rc::Rc;
 
-use crate::math::{Bounds, DAffine3, DMat3, DVec3, is_singular};
+use crate::math::{Bounds, DAffine3, DMat3, DVec3, is_singular, product_rest};
 use crate::scene::Diagnostic;
 use crate::scene::diagnostic::{Reported, Sink};
 use crate::scene::language::syntax::Span;
 
-/// How far one map may move a point from its place, as a share of the lengths that it sums up: three turns by
-/// Rodrigues' formula (9 roundings of sine, cosine and axis each) and composing with what stands above (4) are 31
-/// half-ulps, rounded up to 32.
-const TURNED: f64 = 16.0 * f64::EPSILON;
+/// What the numbers of a turn lost before they were there, as a share of 1: three turns by Rodrigues' formula, 9 roundings
+/// of sine, cosine and axis each, are 27 half-ulps, rounded up to 28.
+const TURNED: f64 = 14.0 * f64::EPSILON;
 
-/// The same for a map without turns: writing its numbers down (1) and composing with what stands above (4), rounded up to
-/// 6 half-ulps.
-const STRAIGHT: f64 = 3.0 * f64::EPSILON;
+/// What a decimal number loses when it becomes an f64: half an ulp.
+const WRITTEN: f64 = 0.5 * f64::EPSILON;
 
 /// Maps from the innermost coordinates to the world's, the outermost first.
 #[derive(Clone, Debug, Default)]
@@ -26,10 +24,12 @@ pub struct Chain {
 #[derive(Debug)]
 struct Link {
     own: DAffine3,
+    /// How far each of its numbers may be from what was meant.
+    unsure: DAffine3,
     /// How far along the world's axes a step along this map's axes may lead, whichever way it goes.
     stretch: DMat3,
-    /// Whether the map's numbers and the product down to here are what was written, without rounding.
-    exact: bool,
+    /// What the product down to here lost when this map was multiplied to it.
+    lost: DAffine3,
     above: Option<Rc<Link>>,
 }
 
@@ -51,8 +51,9 @@ impl Chain {
         }
         let link = Link {
             own,
+            unsure: unsure(&own),
             stretch: self.product.matrix3.abs(),
-            exact: is_exact(&self.product, &own),
+            lost: product_rest(&self.product, &own, &product),
             above: self.last.clone(),
         };
         Ok(Self { product, last: Some(Rc::new(link)) })
@@ -63,30 +64,19 @@ impl Chain {
         &self.product
     }
 
-    /// [`Chain::error`] of what fills the box, as a share of how far its image reaches from the origin along each axis.
-    pub fn error_share(&self, b: &Bounds, image: &Bounds) -> [f32; 3] {
-        let (error, reach) = (self.error(b), image.farthest());
-        // Half an ulp of an f32 less is of no account for a bound of so many roundings.
-        [0, 1, 2].map(|axis| if reach[axis] > 0.0 { (error[axis] / reach[axis]) as f32 } else { 0.0 })
-    }
-
     /// How far along each axis a point of the box may lie from where exact arithmetic would put it in the world, to
     /// first order.
     ///
-    /// Each map moves what stands below it by its own rounding, and those above it carry that into the world. The
-    /// parts of the product are multiplied out, not the norms of the maps: of a hundred turns the hundredth is not
-    /// more off than a hundred times the first.
-    fn error(&self, b: &Bounds) -> DVec3 {
+    /// Each map adds what its own numbers lost, which those above it carry into the world, and what the product lost when
+    /// it was multiplied to it. Whole and half numbers lose nothing. The parts of the product are multiplied out, not the
+    /// norms of the maps: of a hundred turns the hundredth is not more off than a hundred times the first.
+    pub fn error(&self, b: &Bounds) -> DVec3 {
         let (mut points, mut error) = (b.corners(), DVec3::ZERO);
         let mut next = self.last.as_ref();
         while let Some(link) = next {
-            if !link.exact {
-                let farthest = points.iter().fold(DVec3::ZERO, |most, p| most.max(p.abs()));
-                let summed = link.own.matrix3.abs() * farthest + link.own.translation.abs();
-                let DMat3 { x_axis: x, y_axis: y, z_axis: z } = link.own.matrix3;
-                let straight = link.own.matrix3 == DMat3::from_diagonal(DVec3::new(x.x, y.y, z.z));
-                error += link.stretch * (if straight { STRAIGHT } else { TURNED } * summed);
-            }
+            let farthest = points.iter().fold(DVec3::ZERO, |most, p| most.max(p.abs()));
+            let of = |lost: &DAffine3| lost.matrix3 * farthest + lost.translation;
+            error += link.stretch * of(&link.unsure) + of(&link.lost);
             points = points.map(|p| link.own.transform_point3(p));
             next = link.above.as_ref();
         }
@@ -95,15 +85,23 @@ impl Chain {
     }
 }
 
-/// Whether a product is exact, and what was written: all numbers are multiples of a half, which decimals keep, and so
-/// small that the sums of their products, multiples of a quarter, are all below 2⁵¹.
-fn is_exact(outer: &DAffine3, inner: &DAffine3) -> bool {
-    let entries = |map: &DAffine3| -> [f64; 12] { map.to_cols_array() };
-    let halves = |map: &DAffine3| entries(map).iter().all(|x| (2.0 * x).fract() == 0.0);
-    let summed = DAffine3 { matrix3: outer.matrix3.abs(), translation: outer.translation.abs() }
-        * DAffine3 { matrix3: inner.matrix3.abs(), translation: inner.translation.abs() };
-    let small = entries(&summed).iter().all(|&x| x < libm::ldexp(1.0, 51));
-    halves(outer) && halves(inner) && small
+/// How far each number of a map may be from what was meant. A multiple of a half, such as 0 and 1 in a quarter turn, is
+/// what was written; so is, but for its last place, every number of a map without turns.
+fn unsure(own: &DAffine3) -> DAffine3 {
+    let DMat3 { x_axis: x, y_axis: y, z_axis: z } = own.matrix3;
+    let straight = own.matrix3 == DMat3::from_diagonal(DVec3::new(x.x, y.y, z.z));
+    // Larger numbers are not written digit by digit.
+    let whole = |x: f64| (2.0 * x).fract() == 0.0 && x.abs() < libm::ldexp(1.0, 52);
+    let of = |column: DVec3, size: f64, share: f64| {
+        DVec3::from_array(column.to_array().map(|x| if whole(x) { 0.0 } else { share * size.max(x.abs()) }))
+    };
+    let turned = |column: DVec3| {
+        if straight { of(column, 0.0, WRITTEN) } else { of(column, column.length(), TURNED) }
+    };
+    DAffine3 {
+        matrix3: DMat3::from_cols(turned(x), turned(y), turned(z)),
+        translation: of(own.translation, 0.0, WRITTEN),
+    }
 }
 
 #[cfg(test)]
@@ -131,7 +129,7 @@ mod tests {
             DAffine3::from_scale(DVec3::new(2.0, 3.0, 5e14)),
         ];
         assert_eq!(chain(&maps).error(&UNIT), DVec3::ZERO);
-        assert!(chain(&[DAffine3::from_scale(DVec3::splat(0.1))]).error(&UNIT).min_element() > 5e-17);
+        assert!(chain(&[DAffine3::from_scale(DVec3::splat(0.1))]).error(&UNIT).min_element() > 0.0);
     }
 
     #[test]

@@ -51,8 +51,8 @@ impl Builder<'_> {
             return Err(sink.report(error.label("too small, or too flat")));
         }
         let material = self.surfaces.id(context.surface);
-        let map_error = maps.error_share(&shape.bounds(), &bounds);
-        Ok(Solid::Primitive(Primitive { shape, map, map_error, material }))
+        let displacement = maps.error(&shape.bounds());
+        Ok(Solid::Primitive(Primitive::new(shape, map, material).displaced(displacement)))
     }
 }
 

@@ -16,9 +16,9 @@ use cases::cases;
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 use ray13::frame::Studio;
-use ray13::math::{Bounds, DMat3, Placement, Size};
+use ray13::math::Size;
 use ray13::plan::Shading;
-use ray13::scene::{Diagnostics, ReadOptions, Scene, Shape, embedded, read};
+use ray13::scene::{Diagnostics, ReadOptions, Scene, embedded, read};
 use scribble::{Mutation, language, nff, soup};
 use sound::Pictures;
 
@@ -65,30 +65,7 @@ fn drawn(scene: Scene, bytes: &[u8]) -> Result<(), String> {
     let camera = studio.camera(0, 1.0);
     camera.check().map_err(|e| format!("it was read, but: {e}; {camera:?}"))?;
     let pictures = Pictures::sound(&studio, &camera, DOTS, Shading::Whitted, false)?;
-    if is_even(studio.scene()) { pictures.same() } else { Ok(()) }
-}
-
-/// Whether all of a scene can be computed with as one: what is a millionth of it may be decided within its bound
-/// ("Where it ends" in docs/numerics.md), and a polygon that is bent has no place that is the same for all.
-fn is_even(scene: &Scene) -> bool {
-    let (mut bounds, mut least, mut flat) = (Bounds::EMPTY, f64::INFINITY, true);
-    for object in &scene.objects {
-        object.solid.visit(&mut |primitive| {
-            let own = primitive.shape.bounds().mapped(&primitive.map);
-            bounds = bounds.join(&own);
-            // What the inverse stretches most is where it is thinnest.
-            let inverse = Placement::new(&primitive.map).map_or(DMat3::NAN, |place| place.inverse);
-            least = least.min(
-                inverse.to_cols_array().into_iter().map(|x| x.abs().recip()).fold(f64::INFINITY, f64::min),
-            );
-            match &primitive.shape {
-                Shape::Face(corners) => flat &= corners.len() == 3,
-                Shape::Patch(corners) => flat &= corners.len() == 3,
-                _ => {}
-            }
-        });
-    }
-    flat && bounds.half().max_element() < 1e6 * least
+    pictures.same()
 }
 
 /// Whether each error stands at a place of the text, and can be told.

@@ -375,7 +375,8 @@ proptest! {
         for camera in [scaled, framed] {
             if camera.check().is_ok() {
 let pictures = Pictures::sound(&studio, &camera, DOTS, shading, color);
-                pictures.map_err(|fault| TestCaseError::fail(format!("{fault}\n{text}")))?;
+                let same = pictures.and_then(|pictures| pictures.same());
+                same.map_err(|fault| TestCaseError::fail(format!("{fault}\n{text}")))?;
             }
         }
     }

@@ -96,6 +96,9 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// Wrong beyond the bound, in rays; wrong within it, of all rays; the largest error of `t` in ulps; and of what the
 /// engine says itself.
 fn said(tally: &Tally) -> String {
+    for ray in tally.wrong.iter().chain(&tally.inexact) {
+        eprintln!("{ray}");
+    }
     let share = 100.0 * tally.wrong_at_rim as f64 / tally.rays as f64;
     let wrong = tally.wrong.len() + tally.inexact.len();
     format!("{wrong}, {share:.1} %, {:.2}, {:.2}", tally.ulps, tally.stated)

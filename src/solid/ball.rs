@@ -59,6 +59,11 @@ impl Ball {
         })
     }
 
+    /// The share of its errors that our own rounding may have made.
+    pub fn seeming(&self) -> f64 {
+        (SEEN / self.off).min(1.0)
+    }
+
     /// The outward normal at a point of the surface; its length is 1 within rounding.
     pub fn normal(&self, p: DVec3) -> DVec3 {
         (p - self.center) / self.radius

@@ -13,7 +13,7 @@ use crate::math::Ray;
 use crate::stage::{Meter, Probe, Stage};
 
 use super::expression::Expression;
-use super::primitive::Primitive;
+use super::primitive::{Form, Primitive};
 use super::span::{Departure, End};
 use super::state::State;
 
@@ -61,11 +61,13 @@ impl Reach {
     pub const ALL: Self = Self { from: 0.0, to: f64::INFINITY };
 }
 
-/// Whether a crossing lies at the start of the ray: its own error, and as much again for the start, which was
-/// itself computed as a crossing.
+/// Whether a crossing lies at the start of a ray that leaves a surface: its own error, and as much again for the start,
+/// which was itself computed as a crossing. The eye is where it is: for a ray from there (`departs` is false) it counts
+/// only what rounding adds, not how far the map of the primitive may be off.
 #[inline]
-pub fn at_start(end: &End) -> bool {
-    end.t <= 2.0 * end.error
+pub fn at_start(end: &End, form: &Form, departs: bool) -> bool {
+    // Most crossings lie beyond either bound.
+    end.t <= 2.0 * end.error && (departs || end.t <= 2.0 * end.error * form.seeming())
 }
 
 /// The first crossing of one convex primitive.
@@ -84,6 +86,7 @@ pub fn first_of_span(
         return None;
     }
     let span = primitive.form.span(ray)?;
+    let at_start = |end: &End| at_start(end, &primitive.form, departure.is_some());
     let (end, entering) =
         if here.is_some() || at_start(&span.enter) { (span.leave, false) } else { (span.enter, true) };
     let behind = if here.is_some() { end.t <= 0.0 } else { at_start(&end) };
@@ -130,7 +133,9 @@ pub fn first_of_expression(
             state.toggle(expression, event.leaf);
         }
         let before = std::mem::replace(&mut value, state.value(expression));
-        let passed = at_start(&first.end) || cluster.iter().all(|e| e.end.t < reach.from);
+        let form = &primitives[expression.leaves[first.leaf as usize].primitive as usize].form;
+        let passed =
+            at_start(&first.end, form, departure.is_some()) || cluster.iter().all(|e| e.end.t < reach.from);
         if value != before && !passed {
             // The first in the file among those that made the change shows.
             let deciding = cluster.iter().filter(|e| state.decides(expression, e.leaf));

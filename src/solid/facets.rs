@@ -66,6 +66,11 @@ impl Facets {
         span.if_any(self.seeming, |surface| surface)
     }
 
+    /// The share of its errors that our own rounding may have made.
+    pub fn seeming(&self) -> f64 {
+        self.seeming
+    }
+
     /// The outward normal of a face, of length 1.
     pub fn normal(&self, surface: u32) -> DVec3 {
         self.faces[surface as usize].normal

@@ -93,6 +93,20 @@ impl Form {
         }
     }
 
+    /// The share of its crossings' errors that our own rounding may have made; the rest its map lost when it was composed.
+    /// What is made of corners knows no such share.
+    #[inline]
+    pub(super) fn seeming(&self) -> f64 {
+        match self {
+            Self::Ball(ball) => ball.seeming(),
+            Self::AxisBox(slabs) => slabs.seeming(),
+            Self::SkewBox(slabs) => slabs.seeming(),
+            Self::Round(round) => round.seeming(),
+            Self::Facets(facets) => facets.seeming(),
+            Self::Mesh(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => 1.0,
+        }
+    }
+
     /// All crossings of the line with the surface of a solid, in no order; each one toggles between outside and inside.
     #[inline]
     pub fn crossings(&self, ray: &Ray, mut found: impl FnMut(End)) {

@@ -114,6 +114,11 @@ impl Round {
         Centred { o, d, d_squared, t: first + second, off: self.off, seeming: self.seeming }
     }
 
+    /// The share of its errors that our own rounding may have made.
+    pub fn seeming(&self) -> f64 {
+        self.seeming
+    }
+
     /// The outward normal at a point of the surface, of length 1; along the axis at the apex of a cone.
     pub fn normal(&self, p: DVec3, surface: u32) -> DVec3 {
         let q = self.place.inverse * (p - self.place.center);

@@ -45,7 +45,12 @@ impl AxisBox {
             let (lo, hi) = (self.bounds.lo[axis], self.bounds.hi[axis]);
             clip_to_slab(&mut span, ray.o[axis], ray.d[axis], STILL, [lo, hi], self.off, axis)?;
         }
-        span.if_any(SEEN / self.off, |surface| surface / 2)
+        span.if_any(self.seeming(), |surface| surface / 2)
+    }
+
+    /// The share of its errors that our own rounding may have made.
+    pub fn seeming(&self) -> f64 {
+        SEEN / self.off
     }
 
     /// The outward normal of a face.
@@ -96,6 +101,11 @@ impl SkewBox {
             clip_to_slab(&mut span, o, d, self.still[axis], [-1.0, 1.0], self.off[axis], axis)?;
         }
         span.if_any(self.seeming, |surface| surface / 2)
+    }
+
+    /// The share of its errors that our own rounding may have made.
+    pub fn seeming(&self) -> f64 {
+        self.seeming
     }
 
     /// The outward normal of a face, of length 1.

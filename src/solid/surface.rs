@@ -25,6 +25,7 @@ pub fn first_of_surface(
         surface: end.surface,
         entering,
     };
+    let at_start = |end: &End| at_start(end, &primitive.form, departure.is_some());
     match &primitive.form {
         Form::Face(face) => {
             // A plane is not met again by a ray that leaves it.

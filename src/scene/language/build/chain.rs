@@ -21,6 +21,15 @@ pub struct Chain {
     last: Option<Rc<Link>>,
 }
 
+/// Where the numbers of a map come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Numbers {
+    /// As they stand in the text.
+    Written,
+    /// From angles and axes: rotations and reflections.
+    Computed,
+}
+
 #[derive(Debug)]
 struct Link {
     own: DAffine3,
@@ -35,7 +44,13 @@ struct Link {
 
 impl Chain {
     /// The chain with `own` below it, where that is finite and can be undone; `place` is the word of `own`.
-    pub fn then(&self, own: DAffine3, place: Span, sink: &mut Sink) -> Result<Self, Reported> {
+    pub fn then(
+        &self,
+        own: DAffine3,
+        numbers: Numbers,
+        place: Span,
+        sink: &mut Sink,
+    ) -> Result<Self, Reported> {
         let product = self.product * own;
         if !product.is_finite() {
             let error =
@@ -51,7 +66,7 @@ impl Chain {
         }
         let link = Link {
             own,
-            unsure: unsure(&own),
+            unsure: unsure(&own, numbers),
             stretch: self.product.matrix3.abs(),
             lost: product_rest(&self.product, &own, &product),
             above: self.last.clone(),
@@ -86,22 +101,16 @@ impl Chain {
 }
 
 /// How far each number of a map may be from what was meant. A multiple of a half, such as 0 and 1 in a quarter turn, is
-/// what was written; so is, but for its last place, every number of a map without turns.
-fn unsure(own: &DAffine3) -> DAffine3 {
-    let DMat3 { x_axis: x, y_axis: y, z_axis: z } = own.matrix3;
-    let straight = own.matrix3 == DMat3::from_diagonal(DVec3::new(x.x, y.y, z.z));
+/// exactly that.
+fn unsure(own: &DAffine3, numbers: Numbers) -> DAffine3 {
     // Larger numbers are not written digit by digit.
     let whole = |x: f64| (2.0 * x).fract() == 0.0 && x.abs() < libm::ldexp(1.0, 52);
-    let of = |column: DVec3, size: f64, share: f64| {
-        DVec3::from_array(column.to_array().map(|x| if whole(x) { 0.0 } else { share * size.max(x.abs()) }))
+    let of = |x: f64| match numbers {
+        _ if whole(x) => 0.0,
+        Numbers::Written => WRITTEN * x.abs(),
+        Numbers::Computed => TURNED,
     };
-    let turned = |column: DVec3| {
-        if straight { of(column, 0.0, WRITTEN) } else { of(column, column.length(), TURNED) }
-    };
-    DAffine3 {
-        matrix3: DMat3::from_cols(turned(x), turned(y), turned(z)),
-        translation: of(own.translation, 0.0, WRITTEN),
-    }
+    DAffine3::from_cols_array(&own.to_cols_array().map(of))
 }
 
 #[cfg(test)]
@@ -110,12 +119,12 @@ mod tests {
 
     const UNIT: Bounds = Bounds::new(DVec3::NEG_ONE, DVec3::ONE);
 
-    fn chain(maps: &[DAffine3]) -> Chain {
+    fn chain(numbers: Numbers, maps: &[DAffine3]) -> Chain {
         let mut sink = Sink::default();
         let mut chain = Chain::default();
         for &map in maps {
             chain = chain
-                .then(map, Span { start: 0, end: 0 }, &mut sink)
+                .then(map, numbers, Span { start: 0, end: 0 }, &mut sink)
                 .unwrap_or_else(|Reported| panic!("{map}"));
         }
         chain
@@ -128,21 +137,26 @@ mod tests {
             DAffine3::from_mat3(DMat3::from_cols(DVec3::Y, DVec3::NEG_X, DVec3::Z)),
             DAffine3::from_scale(DVec3::new(2.0, 3.0, 5e14)),
         ];
-        assert_eq!(chain(&maps).error(&UNIT), DVec3::ZERO);
-        assert!(chain(&[DAffine3::from_scale(DVec3::splat(0.1))]).error(&UNIT).min_element() > 0.0);
+        assert_eq!(chain(Numbers::Written, &maps).error(&UNIT), DVec3::ZERO);
+        assert!(
+            chain(Numbers::Written, &[DAffine3::from_scale(DVec3::splat(0.1))]).error(&UNIT).min_element()
+                > 0.0
+        );
     }
 
     #[test]
     fn a_long_way_there_and_back_is_not_forgotten() {
         let way = DVec3::new(1e6 + 0.1, 0.0, 0.0);
-        let error = chain(&[DAffine3::from_translation(way), DAffine3::from_translation(-way)]).error(&UNIT);
+        let error =
+            chain(Numbers::Written, &[DAffine3::from_translation(way), DAffine3::from_translation(-way)])
+                .error(&UNIT);
         assert!((1e-10..1e-7).contains(&error.x) && error.y < 1e-14, "{error}");
     }
 
     #[test]
     fn turns_add_up_and_do_not_multiply() {
         let turn = DAffine3::from_axis_angle(DVec3::new(2.0, 3.0, 6.0) / 7.0, 0.3);
-        let of = |turns: &[DAffine3]| chain(turns).error(&UNIT).length();
+        let of = |turns: &[DAffine3]| chain(Numbers::Computed, turns).error(&UNIT).length();
         let (ten, thousand) = (of(&[turn; 10]), of(&vec![turn; 1000]));
         assert!((90.0..110.0).contains(&(thousand / ten)), "{ten} {thousand}");
     }
@@ -151,7 +165,7 @@ mod tests {
     fn what_is_scaled_down_takes_its_error_along() {
         let odd = DAffine3::from_scale(DVec3::splat(0.3));
         let down = DAffine3::from_scale(DVec3::splat(1e-9));
-        let of = |maps: &[DAffine3]| chain(maps).error(&UNIT).length();
+        let of = |maps: &[DAffine3]| chain(Numbers::Written, maps).error(&UNIT).length();
         let (own, below) = (of(&[odd]), of(&[down, odd]));
         assert!((1e-9..4e-9).contains(&(below / own)), "{own} {below}");
     }

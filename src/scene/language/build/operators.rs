@@ -4,11 +4,12 @@
 //! stays linear in the length of the text however the text is nested.
 
 use super::arguments::Arguments;
+use super::chain::Numbers;
 use super::materials::tinted;
 use super::{Builder, Context, maps};
 use crate::scene::diagnostic::Reported;
 use crate::scene::language::syntax::Call;
-use crate::scene::language::vocabulary::{Known, Meaning, OperatorWord, Word, look_up};
+use crate::scene::language::vocabulary::{Known, MapWord, Meaning, OperatorWord, Word, look_up};
 use crate::scene::{Diagnostic, Object, Solid};
 
 /// What became of a call.
@@ -104,8 +105,12 @@ impl Builder<'_> {
         let mut inner = Context { fragments, ..above.clone() };
         match word.meaning {
             Meaning::Map(map) => {
+                let numbers = match map {
+                    MapWord::Rotate | MapWord::Mirror => Numbers::Computed,
+                    MapWord::Translate | MapWord::Scale | MapWord::Multmatrix => Numbers::Written,
+                };
                 let map = maps::map_of(map, &arguments, sink)?;
-                inner.maps = above.maps.then(map, call.name.span, sink)?;
+                inner.maps = above.maps.then(map, numbers, call.name.span, sink)?;
             }
             Meaning::Color => inner.surface = tinted(above.surface, &arguments, sink)?,
             Meaning::Material => inner.surface = self.surfaces.apply(above.surface, &arguments, sink)?,

@@ -1,6 +1,7 @@
 //! The words for primitives: a unit shape, and the map that gives it its place and size.
 
 use super::arguments::Arguments;
+use super::chain::Numbers;
 use super::facets::Polygons;
 use super::{Builder, Context, facets, polyhedron};
 use crate::math::{DAffine3, DMat3, DVec3, Placement};
@@ -38,7 +39,7 @@ impl Builder<'_> {
                 (polyhedron::polyhedron(&arguments, &mut self.clipper, sink)?, DAffine3::IDENTITY)
             }
         };
-        let maps = context.maps.then(local, call.name.span, sink)?;
+        let maps = context.maps.then(local, Numbers::Written, call.name.span, sink)?;
         let map = *maps.product();
         let bounds = shape.bounds().mapped(&map);
         if !is_within_reach(&bounds) {

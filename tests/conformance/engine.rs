@@ -179,8 +179,8 @@ impl Subject for ExactEngine {
     /// inverse map's row.
     ///
     /// A chord that such an error could have made counts as none: on a sphere where the ray passes within once the
-    /// error of the silhouette, on the side of a frustum within twice, near an apex within three times. The ray's own
-    /// error comes on top.
+    /// error of the silhouette, on the side of a frustum within three times, one for each axis. At an apex a chord through
+    /// a circle of radius ρ counts as none for ρ² ≤ 3·off·(2ρ + off), up to 6.5 times; rounded up to 7.
     fn rim(&self, primitive: &Primitive, ray: &Ray) -> DVec3 {
         let Datum { origin, unit } = self.assembly.datum;
         let from_origin = primitive.map.translation.distance(origin);
@@ -188,7 +188,7 @@ impl Subject for ExactEngine {
         let off = ROUNDING * (WORLD * unit + from_origin) + eye;
         // At the ends of f64 only this inverse is one.
         let inverse = Placement::new(&primitive.map).unwrap().inverse;
-        DVec3::from_array([0, 1, 2].map(|i| inverse.row(i).length())) * (4.0 * off)
+        DVec3::from_array([0, 1, 2].map(|i| inverse.row(i).length())) * (7.0 * off)
     }
 
     fn draw(scene: &Scene, camera: &Camera, dots: Size, cut: Cut) -> Frame {

@@ -12,7 +12,7 @@ mod sub;
 mod tree;
 
 pub use clip::{Outcode, entry};
-pub use planes::{Planes, SLACK, Step};
+pub use planes::{Planes, SLACK, Step, slack};
 pub use structure::Structure;
 pub use sub::{SubLattice, SubLattices};
 pub use tree::{MOST_POINTERS, Tree};

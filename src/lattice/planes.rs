@@ -13,6 +13,12 @@ const SAME: f64 = 4.0 * ROUNDING;
 /// crossing are off by at most [`ROUNDING`] each of lengths of at most 8, the diagonals of world and margin.
 pub const SLACK: f64 = 16.0 * ROUNDING;
 
+/// How far apart the surfaces of solids may seem that are one place, where each may be `off` its own: twice that from
+/// the front, and as much again for rays that meet them aslant. Past a hundredth of the world it is no rounding.
+pub fn slack(off: f64) -> f64 {
+    (4.0 * off).clamp(SLACK, 0.01)
+}
+
 /// Planes across each axis, ascending; cell i holds `X(i) ≤ x < X(i+1)`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Planes {

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use crate::math::{Bounds, DVec3, Ray};
 use crate::solid::{Assembly, Body, Expression, Object, Primitive, Pruned, Tree};
 
-use super::planes::{Planes, SLACK, Step};
+use super::planes::{Planes, SLACK, Step, slack};
 
 /// The most cells of one sub-lattice. Past it planes are left out, which costs tests but changes no hit: 64
 /// along each axis, where a cell is as small as a dot of a picture that the object fills.
@@ -93,8 +93,9 @@ impl SubLattice {
             return None;
         }
         let cells = vec![NOTHING; planes.cells() as usize];
-        let mut building =
-            Building { primitives, planes: &planes, cells, parts: Vec::new(), known: HashMap::new() };
+        let off = leaves.iter().map(|&leaf| primitives[leaf as usize].form.off()).fold(0.0, f64::max);
+        let (parts, known, slack) = (Vec::new(), HashMap::new(), slack(off));
+        let mut building = Building { primitives, planes: &planes, slack, cells, parts, known };
         let [nx, ny, nz] = planes.dimensions();
         building.fill(tree, [(0, nx - 1), (0, ny - 1), (0, nz - 1)], budget.leaves);
         let Building { cells, parts, .. } = building;
@@ -133,6 +134,7 @@ impl SubLattice {
 struct Building<'a> {
     primitives: &'a [Primitive],
     planes: &'a Planes,
+    slack: f64,
     cells: Vec<u32>,
     parts: Vec<Expression>,
     /// Equal expressions are stored once. Only asked by key, so that its order plays no part.
@@ -143,8 +145,8 @@ impl Building<'_> {
     /// Fills a range of cells, given what is left of the expression in a range around it, with expressions that name
     /// about `allowance` primitives together.
     fn fill(&mut self, tree: &Tree, range: Range, allowance: f64) {
-        // A crossing may be computed SLACK outside its cell; twice that keeps its whole cluster.
-        let b = self.planes.bounds(&range).padded(DVec3::splat(2.0 * SLACK));
+        // A crossing may be computed `slack` outside its cell; twice that keeps its whole cluster.
+        let b = self.planes.bounds(&range).padded(DVec3::splat(2.0 * self.slack));
         let Pruned::Tree(tree) = tree.pruned(self.primitives, &b) else { return };
         let longest = (0..3).max_by_key(|&axis| range[axis].1 - range[axis].0).unwrap_or(0);
         let (first, last) = range[longest];

@@ -92,9 +92,9 @@ impl Primitive {
     #[must_use]
     pub fn displaced(mut self, by: DVec3) -> Self {
         let reach = self.shape.bounds().mapped(&self.map).farthest();
-        // Half an ulp of an f32 is of no account to a bound.
-        self.map_error =
-            [0, 1, 2].map(|axis| if reach[axis] > 0.0 { (by[axis] / reach[axis]) as f32 } else { 0.0 });
+        // Half an ulp of an f32 is of no account to a bound, nor is what is beyond all of them: a bound stays a number.
+        let share = |axis: usize| (by[axis] / reach[axis]).min(f64::from(f32::MAX)) as f32;
+        self.map_error = [0, 1, 2].map(|axis| if reach[axis] > 0.0 { share(axis) } else { 0.0 });
         self
     }
 

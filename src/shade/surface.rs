@@ -243,6 +243,6 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
     pub(super) fn departure(&self, hit: &Hit, p: DVec3, toward: DVec3) -> Departure {
         let form: &Form = &self.assembly.primitives[hit.primitive as usize].form;
         let inward = form.normal(p, hit.surface).dot(toward) < 0.0;
-        Departure { primitive: hit.primitive, surface: hit.surface, inward }
+        Departure { primitive: hit.primitive, surface: hit.surface, inward, off: form.off() }
     }
 }

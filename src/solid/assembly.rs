@@ -24,6 +24,8 @@ pub struct Assembly {
     pub objects: Vec<Object>,
     /// The world limit: the box of all objects. Within −2..=2 on every axis.
     pub limit: Bounds,
+    /// How far any primitive may be off its place: the greatest [`Form::off`].
+    pub off: f64,
     /// From the scene's coordinates to those of the assembly.
     pub datum: Datum,
 }
@@ -203,9 +205,10 @@ impl Assembly {
             limit = limit.join(&bounds);
             objects.push(Object { number: number as u32, bounds, body });
         }
+        let off = primitives.iter().map(|p: &Primitive| p.form.off()).fold(0.0, f64::max);
         primitives.shrink_to_fit();
         objects.shrink_to_fit();
-        Ok(Self { primitives, objects, limit, datum })
+        Ok(Self { primitives, objects, limit, off, datum })
     }
 
     /// How far the scene reaches along `v` at most, in its own coordinates: the greatest `p · v` of its points.

@@ -59,6 +59,11 @@ impl Ball {
         })
     }
 
+    /// How far a point of it may be off its place, and seem so.
+    pub fn off(&self) -> f64 {
+        self.off
+    }
+
     /// The share of its errors that our own rounding may have made.
     pub fn seeming(&self) -> f64 {
         (SEEN / self.off).min(1.0)

@@ -61,13 +61,15 @@ impl Reach {
     pub const ALL: Self = Self { from: 0.0, to: f64::INFINITY };
 }
 
-/// Whether a crossing lies at the start of a ray that leaves a surface: its own error, and as much again for the start,
-/// which was itself computed as a crossing. The eye is where it is: for a ray from there (`departs` is false) it counts
-/// only what rounding adds, not how far the map of the primitive may be off.
+/// Whether a crossing of `form` lies at the start of a ray. For a ray that leaves a surface it counts how far either may
+/// be off its place: where they are one place they have one slope, so that `error` is to `off` as the start's to its own.
+/// The eye is where it is: for a ray from there only rounding counts, not how far the map of the primitive may be off.
 #[inline]
-pub fn at_start(end: &End, form: &Form, departs: bool) -> bool {
-    // Most crossings lie beyond either bound.
-    end.t <= 2.0 * end.error && (departs || end.t <= 2.0 * end.error * form.seeming())
+pub fn at_start(end: &End, form: &Form, departure: Option<Departure>) -> bool {
+    match departure {
+        Some(departure) => end.t <= end.error * (1.0 + departure.off / form.off()),
+        None => end.t <= 2.0 * end.error * form.seeming(),
+    }
 }
 
 /// The first crossing of one convex primitive.
@@ -86,7 +88,7 @@ pub fn first_of_span(
         return None;
     }
     let span = primitive.form.span(ray)?;
-    let at_start = |end: &End| at_start(end, &primitive.form, departure.is_some());
+    let at_start = |end: &End| at_start(end, &primitive.form, departure);
     let (end, entering) =
         if here.is_some() || at_start(&span.enter) { (span.leave, false) } else { (span.enter, true) };
     let behind = if here.is_some() { end.t <= 0.0 } else { at_start(&end) };
@@ -123,7 +125,9 @@ pub fn first_of_expression(
     let mut value = state.value(expression);
     let mut rest = &mut events[..];
     while let Some(first) = rest.first().copied() {
-        let length = gather_cluster(rest);
+        let off =
+            |event: &Event| primitives[expression.leaves[event.leaf as usize].primitive as usize].form.off();
+        let length = gather_cluster(rest, off);
         let (cluster, behind) = rest.split_at_mut(length);
         rest = behind;
         if first.end.t > reach.to {
@@ -134,8 +138,7 @@ pub fn first_of_expression(
         }
         let before = std::mem::replace(&mut value, state.value(expression));
         let form = &primitives[expression.leaves[first.leaf as usize].primitive as usize].form;
-        let passed =
-            at_start(&first.end, form, departure.is_some()) || cluster.iter().all(|e| e.end.t < reach.from);
+        let passed = at_start(&first.end, form, departure) || cluster.iter().all(|e| e.end.t < reach.from);
         if value != before && !passed {
             // The first in the file among those that made the change shows.
             let deciding = cluster.iter().filter(|e| state.decides(expression, e.leaf));
@@ -153,28 +156,29 @@ pub fn first_of_expression(
     None
 }
 
-/// How much the errors of two crossings in one place may differ, as a factor.
+/// How much the sines of the angles at which a ray meets two surfaces in one place may differ, as a factor.
 ///
-/// An error is how far the surface may be off its place over the sine of the angle at which the ray meets it. Where
-/// surfaces coincide the angles are the same, and the rest is of one size but for maps that lost thousands of
-/// roundings. A ray that crosses something steeply while it skims a face has errors farther apart than this, unless
-/// the longer one is below 65536 · 2e-14 of the world, too short to be seen.
-const SAME_SLOPE: f64 = 65536.0;
+/// Where surfaces coincide they have one slope, but for what their maps lost, which counts where a ray all but skims them.
+/// What is crossed steeply on a way that skims a face has a sine farther from the face's than this, unless the face's
+/// crossing is known within 256 times `off`, too little to be seen.
+const SAME_SLOPE: f64 = 256.0;
 
 /// Brings those of the sorted events that are one place with the first of them to the front, and counts them; the
 /// others keep their order.
-fn gather_cluster(events: &mut [Event]) -> usize {
+fn gather_cluster(events: &mut [Event], off: impl Fn(&Event) -> f64) -> usize {
     let first = events[0].end;
     let limit = first.t + first.error;
+    // An error is `off` over the sine of the angle between ray and surface.
+    let sine = |event: &Event| off(event) / event.end.error;
     let mut length = 1;
     for i in 1..events.len() {
         let end = events[i].end;
         if end.t - end.error > limit {
             break;
         }
-        let (least, most) = (first.error.min(end.error), first.error.max(end.error));
+        let (a, b) = (sine(&events[0]), sine(&events[i]));
         // A start that is 0 by construction has no error of its own.
-        if most <= SAME_SLOPE * least || least == 0.0 {
+        if a.max(b) <= SAME_SLOPE * a.min(b) || first.error == 0.0 || end.error == 0.0 {
             events[length..=i].rotate_right(1);
             length += 1;
         }

@@ -100,6 +100,11 @@ impl Face {
         Bounds::around(self.corners().iter().copied())
     }
 
+    /// How far a corner may be off its place, and seem so.
+    pub fn off(&self) -> f64 {
+        self.off
+    }
+
     /// How far it reaches along `v`: the greatest `p · v` of its points.
     pub fn support(&self, v: DVec3) -> f64 {
         self.corners().iter().map(|p| p.dot(v)).fold(f64::NEG_INFINITY, f64::max)

@@ -66,6 +66,11 @@ impl Facets {
         span.if_any(self.seeming, |surface| surface)
     }
 
+    /// How far a point of it may be off its place, and seem so.
+    pub fn off(&self) -> f64 {
+        self.off.iter().fold(0.0, |most, &off| most.max(off))
+    }
+
     /// The share of its errors that our own rounding may have made.
     pub fn seeming(&self) -> f64 {
         self.seeming

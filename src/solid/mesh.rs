@@ -87,6 +87,11 @@ impl Mesh {
         self.triangles[surface as usize].normal
     }
 
+    /// How far a corner may be off its place, and seem so.
+    pub fn off(&self) -> f64 {
+        self.off
+    }
+
     /// How far it reaches along `v`: the greatest `p · v` of its points.
     pub fn support(&self, v: DVec3) -> f64 {
         self.triangles.iter().flat_map(|t| t.corners).map(|p| p.dot(v)).fold(f64::NEG_INFINITY, f64::max)

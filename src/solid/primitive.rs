@@ -93,6 +93,22 @@ impl Form {
         }
     }
 
+    /// How far a point of it may be off its place, and seem so.
+    #[inline]
+    pub fn off(&self) -> f64 {
+        match self {
+            Self::Ball(ball) => ball.off(),
+            Self::AxisBox(slabs) => slabs.off(),
+            Self::SkewBox(slabs) => slabs.off(),
+            Self::Round(round) => round.off(),
+            Self::Facets(facets) => facets.off(),
+            Self::Mesh(mesh) => mesh.off(),
+            Self::Face(face) => face.off(),
+            Self::Patch(patch) => patch.face.off(),
+            Self::Tube(tube) => tube.off(),
+        }
+    }
+
     /// The share of its crossings' errors that our own rounding may have made; the rest its map lost when it was composed.
     /// What is made of corners knows no such share.
     #[inline]

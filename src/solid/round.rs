@@ -17,6 +17,8 @@ pub struct Round {
     /// How far a point of it may be off its place, and seem so, along each axis of the unit space: a coin has a sharp
     /// rim however thin it is, and a needle a sharp tip.
     off: DVec3,
+    /// The same in the world, for all of it.
+    displacement: f64,
     /// The least share of that which is how far it may seem.
     seeming: f64,
 }
@@ -73,7 +75,8 @@ impl Round {
         let seen = displacement(place.center.length());
         let off = rows.map(|row| seen * row.length() + row.abs().dot(map_error));
         let seeming = (0..3).map(|i| seen * rows[i].length() / off[i]).fold(1.0, f64::min);
-        Self { place, profile, off: DVec3::from_array(off), seeming }
+        let displacement = seen + map_error.length();
+        Self { place, profile, off: DVec3::from_array(off), displacement, seeming }
     }
 
     /// Where the ray is inside. A chord that rounding could have made counts as none.
@@ -112,6 +115,11 @@ impl Round {
         let second = -o.dot(d) / d_squared;
         let o = o + second * d;
         Centred { o, d, d_squared, t: first + second, off: self.off, seeming: self.seeming }
+    }
+
+    /// How far a point of it may be off its place, and seem so.
+    pub fn off(&self) -> f64 {
+        self.displacement
     }
 
     /// The share of its errors that our own rounding may have made.

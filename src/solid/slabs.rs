@@ -48,6 +48,11 @@ impl AxisBox {
         span.if_any(self.seeming(), |surface| surface / 2)
     }
 
+    /// How far a point of it may be off its place, and seem so.
+    pub fn off(&self) -> f64 {
+        self.off
+    }
+
     /// The share of its errors that our own rounding may have made.
     pub fn seeming(&self) -> f64 {
         SEEN / self.off
@@ -72,6 +77,8 @@ pub struct SkewBox {
     rows: [DVec3; 3],
     /// How far a face of each pair may be off its place, and seem so, in units of its row.
     off: [f64; 3],
+    /// The same in the world, for all of it.
+    displacement: f64,
     /// The least share of that which is how far it may seem.
     seeming: f64,
     /// What rounding may make of the 0 of a direction in the plane of such a face.
@@ -86,9 +93,10 @@ impl SkewBox {
         let seen = displacement(place.center.length());
         let off = [0, 1, 2].map(|i| seen * lengths[i] + rows[i].abs().dot(map_error));
         let seeming = (0..3).map(|i| seen * lengths[i] / off[i]).fold(1.0, f64::min);
+        let displacement = seen + map_error.length();
         // A dot product of three terms and the row itself: 4 half-ulps.
         let still = lengths.map(|length| (2.0 * f64::EPSILON * length).max(STILL));
-        Self { place, rows, off, seeming, still }
+        Self { place, rows, off, displacement, seeming, still }
     }
 
     /// Where the ray is inside.
@@ -101,6 +109,11 @@ impl SkewBox {
             clip_to_slab(&mut span, o, d, self.still[axis], [-1.0, 1.0], self.off[axis], axis)?;
         }
         span.if_any(self.seeming, |surface| surface / 2)
+    }
+
+    /// How far a point of it may be off its place, and seem so.
+    pub fn off(&self) -> f64 {
+        self.displacement
     }
 
     /// The share of its errors that our own rounding may have made.

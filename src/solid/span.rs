@@ -72,7 +72,7 @@ impl Span {
 }
 
 /// The surface that a ray starts on. The crossing there is at 0 by construction: it is never computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Departure {
     /// The primitive that the surface belongs to.
     pub primitive: u32,
@@ -80,4 +80,6 @@ pub struct Departure {
     pub surface: u32,
     /// Whether the ray goes to the inside of the primitive.
     pub inward: bool,
+    /// How far the primitive, and with it the start, may be off its place: [`Form::off`](super::Form::off).
+    pub off: f64,
 }

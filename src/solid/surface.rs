@@ -25,7 +25,7 @@ pub fn first_of_surface(
         surface: end.surface,
         entering,
     };
-    let at_start = |end: &End| at_start(end, &primitive.form, departure.is_some());
+    let at_start = |end: &End| at_start(end, &primitive.form, departure);
     match &primitive.form {
         Form::Face(face) => {
             // A plane is not met again by a ray that leaves it.
@@ -78,7 +78,7 @@ mod tests {
     fn first(shape: Shape, o: [f64; 3], d: [f64; 3], inward: Option<bool>) -> Option<(f64, bool)> {
         let assembly = Assembly::new(&scene(part(shape))).unwrap();
         let ray = assembly.ray(&Ray::new(o.into(), DVec3::from(d).normalize()));
-        let departure = inward.map(|inward| Departure { primitive: 0, surface: 0, inward });
+        let departure = inward.map(|inward| Departure { primitive: 0, surface: 0, inward, off: 0.0 });
         let mut meter = Meter::new(Silent);
         let found = first_of_surface(&ray, &assembly.primitives[0], 0, departure, &mut meter)?;
         Some((found.t * assembly.datum.unit, found.entering))

@@ -30,6 +30,11 @@ impl Tube {
         self.0.bounds()
     }
 
+    /// How far a point of it may be off its place, and seem so.
+    pub fn off(&self) -> f64 {
+        self.0.off()
+    }
+
     /// How far it reaches along `v`: the greatest `p · v` of its points.
     pub fn support(&self, v: DVec3) -> f64 {
         self.0.support(v)

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use crate::lattice::{self, SLACK, Structure};
+use crate::lattice::{self, SLACK, Structure, slack};
 use crate::math::{Bounds, DVec3, Ray};
 use crate::solid::{
     self, Assembly, Body, Crossing, Departure, LIMIT, Reach, first_of_expression, first_of_span,
@@ -22,6 +22,8 @@ pub struct Exact<'a> {
     assembly: &'a Assembly,
     structure: Structure<'a>,
     limit: Bounds,
+    /// How far apart two hits may seem that are one place.
+    slack: f64,
 }
 
 /// Memory of one worker.
@@ -31,10 +33,11 @@ pub struct Memory {
     /// By object: the last ray that was tested against it.
     tested: Vec<u32>,
     ray: u32,
-    /// Hits that may be the first: all within [`SLACK`] behind the nearest.
+    /// Hits that may be the first: all within `slack` behind the nearest.
     nearest: Vec<(u32, Crossing)>,
     /// The distance of the nearest; infinite as long as there is none.
     best: f64,
+    slack: f64,
 }
 
 impl Memory {
@@ -56,10 +59,10 @@ impl Memory {
     }
 
     fn keep(&mut self, object: u32, crossing: Crossing) {
-        if crossing.t <= self.best + SLACK {
+        if crossing.t <= self.best + self.slack {
             if crossing.t < self.best {
                 self.best = crossing.t;
-                self.nearest.retain(|(_, other)| other.t <= crossing.t + SLACK);
+                self.nearest.retain(|(_, other)| other.t <= crossing.t + self.slack);
             }
             self.nearest.push((object, crossing));
         }
@@ -88,7 +91,7 @@ impl<'a> Exact<'a> {
     pub fn new(assembly: &'a Assembly, structure: Structure<'a>) -> Self {
         // Moved outward by what rounding may take from a hit at the limit.
         let limit = assembly.limit.padded(DVec3::splat(SLACK));
-        Self { assembly, structure, limit }
+        Self { assembly, structure, limit, slack: slack(assembly.off) }
     }
 
     /// The first crossing of one object, if it lies before `to`.
@@ -152,7 +155,7 @@ impl<'a> Exact<'a> {
     ) -> Option<Hit> {
         memory.start_ray(self.assembly.objects.len());
         let test = |object: u32, memory: &mut Memory, meter: &mut Meter<_>| {
-            let to = memory.best + SLACK;
+            let to = memory.best + self.slack;
             if let Some(crossing) = self.object(object, ray, departure, to, memory, meter) {
                 memory.keep(object, crossing);
             }
@@ -166,7 +169,7 @@ impl<'a> Exact<'a> {
         meter.at(Stage::Cell);
         let mut visited = 0;
         self.structure.walk(ray, entry, f64::INFINITY, &mut visited, |objects, step| {
-            if step.from > memory.best + SLACK {
+            if step.from > memory.best + self.slack {
                 return ControlFlow::Break(());
             }
             for &object in objects {
@@ -186,7 +189,7 @@ impl Engine for Exact<'_> {
     type Memory = Memory;
 
     fn memory(&self) -> Memory {
-        Memory { tested: vec![0; self.assembly.objects.len()], ..Memory::default() }
+        Memory { tested: vec![0; self.assembly.objects.len()], slack: self.slack, ..Memory::default() }
     }
 
     fn first(&self, ray: &Ray, memory: &mut Memory, meter: &mut Meter<impl Probe>) -> Option<Hit> {

@@ -128,7 +128,7 @@ impl ExactEngine {
         let form = &self.assembly.primitives[start.hit.primitive as usize].form;
         let inward = form.normal(p, start.hit.surface).dot(start.toward) < 0.0;
         let Found { primitive, surface, .. } = start.hit;
-        (Ray::new(p, start.toward), Departure { primitive, surface, inward })
+        (Ray::new(p, start.toward), Departure { primitive, surface, inward, off: form.off() })
     }
 }
 

@@ -101,7 +101,7 @@ const PLACES: [DVec3; 14] = [
     DVec3::new(9.0, -9.0, 9.0),
 ];
 
-/// A light at the origin, at a corner, at the eye's place in some views, and one as bright as numbers are.
+/// A light at the origin, at a corner, at the eye's place in some views, and one as near to an axis as numbers tell.
 const LIGHTS: &str = "world(ambient = 0.1, background = [0.1, 0.2, 0.3], k = 1);
     light(at = [0, 0, 0]); light(at = [1, 1, 1], intensity = 0.3); light(at = [9, -9, 9], color = [1, 0.5, 0.2]);
     light(at = [1e-200, 0, 1]);";
@@ -367,14 +367,13 @@ proptest! {
     ) {
         let text = format!("{text} scale({scale:e}) {{ sphere(1); cube(1); }}");
         let Ok(scene) = read("any", text.as_bytes(), &ReadOptions::default()) else { return Ok(()) };
-        // A solid may be too small for numbers beside the rest of its scene.
-        let Ok(studio) = Studio::new(scene) else { return Ok(()) };
+        let studio = Studio::new(scene).map_err(|e| TestCaseError::fail(format!("it was read, but: {e}\n{text}")))?;
         let scaled = Camera { eye: camera.eye * scale, target: camera.target * scale, ..camera };
         let framed = studio.camera(0, 1.0);
         prop_assert_eq!(framed.check(), Ok(()), "{}", text);
         for camera in [scaled, framed] {
             if camera.check().is_ok() {
-let pictures = Pictures::sound(&studio, &camera, DOTS, shading, color);
+                let pictures = Pictures::sound(&studio, &camera, DOTS, shading, color);
                 let same = pictures.and_then(|pictures| pictures.same());
                 same.map_err(|fault| TestCaseError::fail(format!("{fault}\n{text}")))?;
             }

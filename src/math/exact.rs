@@ -53,9 +53,27 @@ mod tests {
         assert_eq!(two_sum(5e14, -5e14), (0.0, 0.0));
         assert_eq!(two_sum(1e16, 1.0), (1e16, 1.0));
         assert_eq!(two_sum(-1.0, 1e16), (1e16, -1.0));
-        let (sum, rest) = two_sum(0.1, 0.2);
-        assert!(rest != 0.0 && sum + rest == sum);
+        assert_eq!(two_sum(0.1, 0.2), (0.1 + 0.2, -f64::EPSILON / 8.0));
         let third = 1.0 / 3.0;
         assert_eq!(two_product(3.0, third), (1.0, -f64::EPSILON / 4.0));
+        assert_eq!(
+            rest_of_dot(DVec3::new(3.0, 1e16, -1e16), DVec3::new(third, 1.0, 1.0), 1.0),
+            f64::EPSILON / 4.0
+        );
+    }
+
+    #[test]
+    fn a_product_of_maps_tells_what_each_number_lost() {
+        let moved = |scale: f64, by: f64| DAffine3 {
+            matrix3: DMat3::from_diagonal(DVec3::new(scale, 1.0, 1.0)),
+            translation: DVec3::X * by,
+        };
+        // 3 · ⅓ is rounded to 1, and 1e16 + 1 to 1e16.
+        let (outer, inner) = (moved(3.0, 1e16), moved(1.0 / 3.0, 1.0 / 3.0));
+        let rest = product_rest(&outer, &inner, &(outer * inner));
+        assert_eq!(rest.matrix3, DMat3::from_diagonal(DVec3::X * (f64::EPSILON / 4.0)));
+        assert_eq!(rest.translation, DVec3::X * (1.0 - f64::EPSILON / 4.0));
+        let whole = moved(3.0, 5e14);
+        assert_eq!(product_rest(&whole, &whole, &(whole * whole)), DAffine3::ZERO);
     }
 }

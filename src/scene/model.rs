@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use crate::math::{Bounds, DAffine3, DVec3};
 
-/// Scenes reach no farther than this from the origin along any axis: less than the largest number by the thousandfold
-/// that a distance from which all of it is seen may be larger, and the lights about that.
+/// Scenes reach no farther than this from the origin along any axis. It is a thousandth of the largest number: so far
+/// may an eye that sees all of a scene stand off, and the lights that go with it.
 pub const REACH: f64 = 1e305;
 
 /// Whether a box lies within [`REACH`].
@@ -81,9 +81,10 @@ pub struct Primitive {
 }
 
 impl Primitive {
-    /// A primitive whose map was composed of two, as `place * size` is. [`Primitive::map_error`] follows from that.
+    /// A primitive whose map was composed of two, as `place * size` is, and has the [`Primitive::map_error`] of that.
     pub fn new(shape: Shape, map: DAffine3, material: MaterialId) -> Self {
-        // A sum of three products and an entry, each number rounded when it was written down: 8 half-ulps.
+        // Both numbers of a product, the product and three sums, of three products and an entry: 6 half-ulps, rounded
+        // up to 8.
         const COMPOSED: f32 = 4.0 * f64::EPSILON as f32;
         Self { shape, map, map_error: [COMPOSED; 3], material }
     }

@@ -13,8 +13,8 @@ use super::direction::WITHIN;
 use super::media::{Filling, Media};
 use super::path::Sent;
 
-/// A light nearer than this, in the assembly's unit, is at the point itself: 2⁻⁵⁰⁰, whose square is a number yet. A
-/// hit's own place is not known so well by far.
+/// A light nearer than this, in the assembly's unit, is at the point itself: 2⁻⁵⁰⁰, whose square does not
+/// underflow. A hit's own place is not known so well by far.
 const NEAREST: f64 = f64::from_bits((1023 - 500) << 52);
 
 /// Shades hits of one picture.

@@ -74,8 +74,8 @@ impl Datum {
         let least = all.farthest().max_element() / FARTHEST;
         let half = b.half().max_element().max(least);
         let center = b.center();
-        // A shift rounds coordinates that lie nearer the origin than the box's size. Up to 8 sizes away the
-        // origin costs 3 bits, less than the shift would.
+        // A shift rounds coordinates that lie nearer the origin than the box's size. Up to 8 times half of that away
+        // the origin costs 3 bits, less than the shift would.
         let far = center.abs().max_element() > 8.0 * half;
         let scale_of = |x: f64| libm::ldexp(1.0, libm::ilogb(x).clamp(-1000, 1000));
         let unit = |size: f64| if size > 0.0 && size.is_finite() { 2.0 * scale_of(size) } else { 1.0 };

@@ -11,11 +11,12 @@ pub struct Ball {
     pub center: DVec3,
     /// The radius, above 0; at 0 no ray meets it.
     pub radius: f64,
-    /// How far a point of it may be off its place, and seem so.
+    /// How far a point of it may be off its place, by its map and by our own rounding.
     off: f64,
 }
 
-/// The [`displacement`] of a ball that shows: its centre is within the world, or its surface runs through it.
+/// The [`displacement`] of a ball whose centre is within the world. One from farther away only cuts, or is cut: how little
+/// is known of its chords is in their errors.
 const SEEN: f64 = ROUNDING * (WORLD + LIMIT);
 
 impl Ball {

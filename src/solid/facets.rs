@@ -12,9 +12,9 @@ pub struct Facets {
     faces: Box<[scene::HalfSpace]>,
     center: DVec3,
     bounds: Bounds,
-    /// By face: how far it may be off its place, and seem so.
+    /// By face: how far it may be off its place, by the map and by our own rounding.
     off: Box<[f64]>,
-    /// The least share of that which is how far it may seem.
+    /// The least share of it that is our own rounding.
     seeming: f64,
 }
 

@@ -184,8 +184,7 @@ impl Form {
             Self::Patch(patch) => patch.face.bounds(),
             Self::Tube(tube) => tube.bounds(),
         };
-        let size = exact.lo.abs().max(exact.hi.abs()).max_element();
-        exact.padded(DVec3::splat(ROUNDING * size))
+        exact.padded(DVec3::splat(ROUNDING * exact.farthest().max_element()))
     }
 
     /// How far it reaches along `v`: the greatest `p · v` of its points, or of its box where that is dearer.

@@ -11,11 +11,12 @@ use super::span::{End, ROUNDING, Span, WORLD, displacement};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisBox {
     bounds: Bounds,
-    /// How far a face within the world may be off its place, and seem so.
+    /// How far a face within the world may be off its place: by what its numbers lost, and by our own rounding.
     off: f64,
 }
 
-/// How far a face of a box along the axes may seem off its place.
+/// How far our own rounding may make a face of a box along the axes seem off its place: a [`displacement`] without the
+/// way to the box's centre, from which nothing is computed.
 const SEEN: f64 = ROUNDING * WORLD;
 
 impl AxisBox {
@@ -75,11 +76,11 @@ pub struct SkewBox {
     place: Placement,
     /// The rows of the inverse: normals of the three pairs of faces, in units of half their distance.
     rows: [DVec3; 3],
-    /// How far a face of each pair may be off its place, and seem so, in units of its row.
+    /// How far a face of each pair may be off its place, by its map and by our own rounding, in units of its row.
     off: [f64; 3],
     /// The same in the world, for all of it.
     displacement: f64,
-    /// The least share of that which is how far it may seem.
+    /// The least share of it that is our own rounding.
     seeming: f64,
     /// What rounding may make of the 0 of a direction in the plane of such a face.
     still: [f64; 3],
@@ -166,8 +167,8 @@ fn side(surface: u32) -> f64 {
     if surface & 1 == 0 { -1.0 } else { 1.0 }
 }
 
-/// A direction so nearly in the plane of a face that its reciprocal overflows: on its whole way through the world it
-/// comes no closer to that face.
+/// Below this the reciprocal of a direction overflows, or nearly so. On its whole way through the world such a ray comes
+/// no closer to the face.
 const STILL: f64 = 4.0 * f64::MIN_POSITIVE;
 
 /// Cuts the span to one slab; `None` where the ray runs beside it. A `d` below `still` runs in the plane of its faces;

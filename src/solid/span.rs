@@ -6,18 +6,21 @@
 /// on a ray (a product and a sum, 2 roundings, of lengths up to twice [`WORLD`]: 4), inverting a map (8), moving the
 /// ray into the unit space (a difference and a dot product of three terms, 4, for the start and again for the
 /// direction), and re-centring it twice (4 each): 28, rounded up to 32 half-ulps of `f64::EPSILON / 2`. What composing
-/// the map took is [`scene::Primitive::map_error`](crate::scene::Primitive::map_error).
+/// the map took is [`scene::Primitive::displacement`](crate::scene::Primitive::displacement).
 pub const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// How far from the assembly's origin everything lies, in the assembly's unit: the corners of the limit are within
-/// [`LIMIT`], and a ray starts at most 1 before the ball of that size, or is moved there.
+/// How far from the assembly's origin everything lies that is computed with, in the assembly's unit: the corners of the
+/// limit are within [`LIMIT`], and a ray that comes so near starts at most `LIMIT` + 1 before its point closest to the
+/// origin, or is moved there: √(4.5² + 3.5²) < 6.
 pub const WORLD: f64 = 6.0;
 
 /// The length of the corners of a box that lies within −2..=2 on every axis is at most √12.
 pub const LIMIT: f64 = 3.5;
 
 /// How far from its place our own rounding may make a point of a solid seem to a ray, where the solid's own origin lies
-/// `from_origin` away from the assembly's. A chord as short as that is none: rounding alone could have made it.
+/// `from_origin` away from the assembly's. A ray that passes no deeper than that below a surface misses it: rounding
+/// alone could have made the chord. How far the solid's map is off comes on top
+/// ([`scene::Primitive::displacement`](crate::scene::Primitive::displacement)).
 pub fn displacement(from_origin: f64) -> f64 {
     ROUNDING * (WORLD + from_origin)
 }

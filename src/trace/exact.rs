@@ -12,8 +12,8 @@ use crate::stage::{Meter, Probe, Stage};
 
 use super::{Engine, Hit};
 
-/// A start farther than this outside the ball around the world, in the assembly's unit, is moved to that ball, so
-/// that the way to the world adds no rounding.
+/// A start farther than this before the plane across the ray that touches the ball around the world, in the assembly's
+/// unit, is moved to that plane, so that the way to the world adds no rounding.
 const FAR: f64 = 1.0;
 
 /// The reference engine, over an assembly and how its space is cut.
@@ -194,8 +194,7 @@ impl Engine for Exact<'_> {
 
     fn first(&self, ray: &Ray, memory: &mut Memory, meter: &mut Meter<impl Probe>) -> Option<Hit> {
         meter.at(Stage::Clip);
-        let (near, way) = moved_nearer(ray);
-        let [far, left] = way;
+        let (near, [far, left]) = moved_nearer(ray);
         let Some(entry) = lattice::entry(&near, &self.limit) else {
             meter.counts.clipped_rays += 1;
             memory.nearest.clear();

@@ -2,7 +2,8 @@
 
 use crate::math::DVec3;
 
-/// What rounding leaves of a component that is 0: a direction is the sum of a few products of numbers up to 1.
+/// What rounding leaves of a component that is 0: a direction is the sum of a few products of numbers up to 1, eight
+/// roundings at most.
 const NOISE: f64 = 4.0 * f64::EPSILON;
 
 /// The same direction, each component exactly 0 or large enough to matter over `way`, the length of a ray in the

@@ -6,6 +6,7 @@ use ray13::scene::{Camera, FieldSpan, ReadOptions, Scene, Shape, Solid, read};
 
 use crate::chance::Chance;
 use crate::engine::{Cut, Subject};
+use crate::faults::assert_none;
 use crate::long::{cases, report};
 use crate::solids::{CYLINDER, moved, placed, scene};
 
@@ -69,10 +70,10 @@ fn there_and_back(depth: usize, chance: &mut Chance) -> String {
     there + &back
 }
 
-/// Row 9: a solid minus itself is nothing, under maps nested 1 to 200 deep whose product is the identity.
+/// A solid minus itself is nothing, under maps nested up to 200 deep whose product is the identity.
 pub fn a_solid_minus_itself_is_nothing<S: Subject>() {
     let mut faults = Vec::new();
-    let mut pictures = 0;
+    let mut pictures = 0_usize;
     for case in 0..cases(84, 30) {
         let chance = &mut Chance::new("nothing", case as u64);
         let solid = SOLIDS[case % SOLIDS.len()];
@@ -82,6 +83,8 @@ pub fn a_solid_minus_itself_is_nothing<S: Subject>() {
         let DVec3 { x, y, z } = chance.direction();
         let angle = chance.within(0.0, 360.0);
         let outer = format!("scale({scale:?}) rotate({angle:?}, v = [{x:?}, {y:?}, {z:?}])");
+        let alone = scene_of(&format!("{outer} {solid}"));
+        assert!(hits(&seen::<S>(&alone, scale, DVec3::ZERO, &mut chance.clone())) > 50, "{outer} {solid}");
         for text in [
             format!("{outer} difference() {{ {solid} {maps} {solid} }}"),
             format!("{outer} difference() {{ {maps} {solid} {solid} }}"),
@@ -97,15 +100,10 @@ pub fn a_solid_minus_itself_is_nothing<S: Subject>() {
         }
     }
     report(|| format!("nothing: {pictures} pictures, {} faults", faults.len()));
-    assert!(
-        faults.is_empty(),
-        "{} of {pictures}:\n{}",
-        faults.len(),
-        faults[..faults.len().min(3)].join("\n")
-    );
+    assert_none(&faults, pictures);
 }
 
-/// Row 9: a solid joined or met with itself is the solid, dot for dot.
+/// A solid joined or met with itself is the solid, dot for dot.
 pub fn a_solid_and_itself_is_the_solid<S: Subject>() {
     for case in 0..cases(42, 30) {
         let chance = &mut Chance::new("itself", case as u64);
@@ -132,10 +130,10 @@ pub fn a_solid_and_itself_is_the_solid<S: Subject>() {
     }
 }
 
-/// Row 9: a hole whose ends are flush with the faces of a box is open all over, at any rotation and scale.
+/// A hole whose ends are flush with the faces of a box is open all over, at any rotation and scale.
 pub fn a_flush_hole_is_open<S: Subject>() {
     let mut faults = Vec::new();
-    let mut count = 0;
+    let (mut count, mut walls) = (0_usize, 0_usize);
     for case in 0..cases(300, 100) {
         let chance = &mut Chance::new("hole", case as u64);
         let by = DAffine3::from_mat3_translation(
@@ -167,18 +165,20 @@ pub fn a_flush_hole_is_open<S: Subject>() {
         for (ray, found) in rays.iter().zip(subject.first(&rays)) {
             // Aslant through a thin plate a ray may pass the wall behind, but never meet the plate.
             count += 1;
+            walls += usize::from(found.is_some_and(|found| found.object == 1));
             if found.is_some_and(|found| found.object == 0) {
                 faults.push(format!("case {case}: {found:?}, {ray:?}, {half} {radius} {shape:?} {by:?}"));
             }
         }
     }
-    report(|| format!("holes: {count} rays, {} faults", faults.len()));
-    assert!(faults.is_empty(), "{} of {count}:\n{}", faults.len(), faults[..faults.len().min(4)].join("\n"));
+    report(|| format!("holes: {count} rays, {walls} to the wall behind, {} faults", faults.len()));
+    assert!(walls * 5 > count, "{walls} of {count} meet the wall behind");
+    assert_none(&faults, count);
 }
 
-/// The hole above, where the box is turned by a matrix of its own and the hole by another product of maps.
+/// A flush hole under maps whose product is the identity but for rounding, in a box under none.
 pub fn a_flush_hole_is_open_under_other_maps<S: Subject>() {
-    let mut faults = Vec::new();
+    let (mut count, mut faults) = (0_usize, Vec::new());
     for case in 0..cases(100, 100) {
         let chance = &mut Chance::new("other maps", case as u64);
         let maps = there_and_back(1 + case % 10, chance);
@@ -186,6 +186,8 @@ pub fn a_flush_hole_is_open_under_other_maps<S: Subject>() {
             "difference() {{ cube([2, 2, 1], center = true); {maps} cylinder(h = 1, r = 0.5, center = true); }}"
         );
         let subject = S::new(&scene_of(&text), chance.one_of(&Cut::ALL));
+        let beside = Ray::new(DVec3::new(0.8, -0.8, 3.5), DVec3::NEG_Z);
+        assert!(subject.first(&[beside])[0].is_some(), "case {case}: the plate itself is missed: {text}");
         let ray = |_| {
             let mut end = |z: f64| DVec3::new(chance.within(-0.34, 0.34), chance.within(-0.34, 0.34), z);
             let (above, below) = (end(0.5), end(-0.5));
@@ -193,8 +195,9 @@ pub fn a_flush_hole_is_open_under_other_maps<S: Subject>() {
             Ray::new(above - d * 3.0, d)
         };
         let rays: Vec<Ray> = (0..20).map(ray).collect();
+        count += rays.len();
         let met = subject.first(&rays).into_iter().zip(&rays).filter(|(found, _)| found.is_some());
         faults.extend(met.map(|(found, ray)| format!("{found:?} {ray:?} {text}")));
     }
-    assert!(faults.is_empty(), "{}:\n{}", faults.len(), faults[..faults.len().min(4)].join("\n"));
+    assert_none(&faults, count);
 }

@@ -57,7 +57,7 @@ fn somewhere(shape: &Shape, half: DVec3, chance: &mut Chance) -> Primitive {
     primitive(shape, chance.turn() * DMat3::from_diagonal(half), chance.point() * 2.0)
 }
 
-/// Row 1: from 1 to 1e9 radii away.
+/// From 1 to 1e9 radii away.
 pub fn at_any_distance<S: Subject>(name: &str, shape: &Shape, round: bool) {
     let mut faults = Tally::default();
     for world in [World::Lone, World::Large] {
@@ -85,7 +85,7 @@ pub fn at_any_distance<S: Subject>(name: &str, shape: &Shape, round: bool) {
     faults.assert_right(name);
 }
 
-/// Row 2: needles and coins, one axis or two as long as 1 to 1e6 of the others, along the axes and turned.
+/// Needles and coins, one axis or two as long as 1 to 1e6 of the others, along the axes and turned.
 pub fn at_any_ratio<S: Subject>(name: &str, shape: &Shape) {
     let mut faults = Tally::default();
     for decade in 0..=6_i32 {

@@ -7,7 +7,7 @@ use ray13::lattice::{Lattice, Structure, SubLattices, Tree};
 use ray13::math::{DVec3, Placement, Ray, Size};
 use ray13::plan::{Options, StructureChoice};
 use ray13::scene::{Camera, Primitive, Scene};
-use ray13::solid::{Assembly, Datum, Departure, ROUNDING};
+use ray13::solid::{Assembly, Datum, Departure, ROUNDING, WORLD};
 use ray13::stage::{Meter, Silent};
 use ray13::tone::Tone;
 use ray13::trace::{Engine, Exact, Hit};
@@ -96,10 +96,6 @@ pub struct ExactEngine {
     tree: Tree,
     subs: SubLattices,
 }
-
-/// How far from the assembly's origin everything lies that is computed with, in the assembly's unit: starts of rays at
-/// most 1 before a ball around the world.
-const WORLD: f64 = 6.0;
 
 impl ExactEngine {
     fn structure(&self) -> Structure<'_> {

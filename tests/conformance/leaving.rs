@@ -7,6 +7,7 @@ use crate::aim::aimed;
 use crate::chance::Chance;
 use crate::engine::{Cut, Found, Start, Subject};
 use crate::expressions::random::any_solid;
+use crate::faults::assert_none;
 use crate::long::{cases, report};
 use crate::oracle::{Big, Verdict, verdict};
 use crate::solids::{CONE, CYLINDER, FRUSTUM, placed, primitive, prism, scene};
@@ -24,7 +25,7 @@ fn any_convex(chance: &mut Chance) -> (Shape, DMat3) {
     (shape, turn * DMat3::from_diagonal(half))
 }
 
-/// Row 3: radii and places over 16 decades. A convex solid is not met again by a ray that leaves it to its outer
+/// Radii and places over 16 decades. A convex solid is not met again by a ray that leaves it to its outer
 /// side, and by one to its inner side it is left once.
 pub fn surfaces_are_left_once<S: Subject>() {
     let (mut left, mut at_rim, mut faults) = (0_usize, 0_usize, Vec::new());
@@ -74,7 +75,7 @@ pub fn surfaces_are_left_once<S: Subject>() {
     }
     report(|| format!("leaving: {left} rays, {at_rim} from a rim, {} faults", faults.len()));
     assert!(left > 1000 && at_rim * 100 < left, "{left}, {at_rim} of them from a rim");
-    assert!(faults.is_empty(), "{} of {left}:\n{}", faults.len(), faults[..faults.len().min(4)].join("\n"));
+    assert_none(&faults, left);
 }
 
 /// Whether the ray starts so near an edge, and crosses it so nearly along the surface, that it may as well be outside:
@@ -144,7 +145,7 @@ pub fn a_way_is_blocked_by_the_next_hit<S: Subject>() {
     assert!(blocked * 20 > asked, "{blocked} of {asked}");
 }
 
-/// Row 4: from the other end of a line the same two ends are found.
+/// From the other end of a line the same two ends are found.
 pub fn a_reversed_ray_finds_the_same_ends<S: Subject>() {
     let (mut compared, mut same, mut faults) = (0_usize, 0_usize, Vec::new());
     let mut worst = 0.0_f64;
@@ -174,12 +175,7 @@ pub fn a_reversed_ray_finds_the_same_ends<S: Subject>() {
     }
     report(|| format!("reversed: {compared} chords, {same} ends to the bit, worst {worst:.3} of the bounds"));
     assert!(compared > 1000, "{compared}");
-    assert!(
-        faults.is_empty(),
-        "{} of {compared}:\n{}",
-        faults.len(),
-        faults[..faults.len().min(4)].join("\n")
-    );
+    assert_none(&faults, compared);
 }
 
 /// Where a ray goes into a lone solid, and out of it.

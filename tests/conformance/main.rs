@@ -9,6 +9,7 @@ mod coincidence;
 mod distance;
 mod engine;
 mod expressions;
+mod faults;
 mod leaving;
 mod long;
 #[path = "../oracle/mod.rs"]

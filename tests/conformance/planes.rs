@@ -49,6 +49,11 @@ fn along_planes(lines: &[[f64; 4]; 3], chance: &mut Chance) -> Ray {
     Ray::new(o, d.normalize())
 }
 
+/// Whether a point of a ray is on an outer face of the grid, whose lines are within 14 of the origin.
+fn is_on_outside(lines: &[[f64; 4]; 3], p: DVec3) -> bool {
+    (0..3).any(|axis| [0, 3].iter().any(|&i| (p[axis] - lines[axis][i]).abs() < 64.0 * f64::EPSILON))
+}
+
 /// Where a ray is inside one box.
 #[derive(Debug, Clone)]
 struct Chord {
@@ -58,7 +63,7 @@ struct Chord {
     number: usize,
 }
 
-/// Row 5: of the boxes of a grid exactly as many are met by a ray in their faces as by one beside it, one after the
+/// Of the boxes of a grid exactly as many are met by a ray in their faces as by one beside it, one after the
 /// other without a gap; and all structures say the same.
 pub fn one_of_two_abutting_boxes_claims_a_ray<S: Subject>() {
     let mut rays_asked = 0;
@@ -94,6 +99,10 @@ pub fn one_of_two_abutting_boxes_claims_a_ray<S: Subject>() {
             let found =
                 found.unwrap_or_else(|| panic!("case {case}: a ray through the middle is missed: {ray:?}"));
             assert_eq!(found.object as usize, met[0].number, "case {case}: {ray:?} {met:?}");
+            for end in [met[0].enter, met[met.len() - 1].leave] {
+                let p = ray.at(end);
+                assert!(is_on_outside(&lines, p), "case {case}: no end of the grid at {p}: {ray:?} {met:?}");
+            }
             for pair in met.windows(2) {
                 // The end of one is the start of the next, but for what each says of its own.
                 let (gap, allowed) = ((pair[1].enter - pair[0].leave).abs(), pair[0].error + pair[1].error);
@@ -104,7 +113,7 @@ pub fn one_of_two_abutting_boxes_claims_a_ray<S: Subject>() {
     report(|| format!("planes: {rays_asked} rays"));
 }
 
-/// Row 5, the outer faces: along the faces of a lone box, its edges and its corners, all structures say the same, the
+/// Along the faces of a lone box, its edges and its corners, all structures say the same, the
 /// lower faces are met, the upper ones are not.
 pub fn faces_are_half_open<S: Subject>() {
     let chance = &mut Chance::new("half open", 0);
@@ -145,10 +154,7 @@ pub fn a_union_of_boxes_is_one<S: Subject>() {
                 let leave = leave.unwrap_or_else(|| panic!("case {case}, {cut:?}: never left by {ray:?}"));
                 assert!(hit.entering && !leave.entering, "case {case}, {cut:?}: {ray:?} {hit:?} {leave:?}");
                 let p = ray.at(hit.t + leave.t);
-                let outer = (0..3).any(|axis| {
-                    [0, 3].iter().any(|&i| (p[axis] - lines[axis][i]).abs() < 64.0 * f64::EPSILON)
-                });
-                assert!(outer, "case {case}, {cut:?}: a wall inside at {p}: {ray:?}");
+                assert!(is_on_outside(&lines, p), "case {case}, {cut:?}: a wall inside at {p}: {ray:?}");
             }
         }
     }

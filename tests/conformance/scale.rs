@@ -116,7 +116,7 @@ fn differing(a: &Frame, b: &Frame) -> usize {
     levels(a).iter().zip(levels(b)).filter(|(a, b)| **a != *b).count()
 }
 
-/// Row 8: at powers of two the same bits, at powers of ten the same levels.
+/// At powers of two the same bits, at powers of ten the same levels.
 pub fn a_picture_is_the_same_at_any_scale<S: Subject>() {
     let decades: &[i32] = if is_long() {
         &[-150, -100, -50, -30, -15, -9, -6, -3, -1, 1, 3, 6, 9, 15, 30, 50, 100, 150]
@@ -154,7 +154,7 @@ pub fn a_picture_is_the_same_at_any_scale<S: Subject>() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-/// Row 8: scene and camera moved together, as far as 2⁴⁰, which is 1.1e12. Places are first rounded to 2⁻¹¹, so that
+/// Scene and camera moved together, as far as 2⁴⁰, which is 1.1e12. Places are first rounded to 2⁻¹¹, so that
 /// their sums with the way are exact, and the moved scene is the same scene.
 pub fn a_picture_is_the_same_anywhere<S: Subject>() {
     let grid = |x: f64| (x * 2048.0).round() / 2048.0;

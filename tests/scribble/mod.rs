@@ -279,7 +279,6 @@ pub fn nff() -> impl Strategy<Value = String> {
         3 => corners("p", 3),
         3 => corners("pp", 6),
         2 => (share(), size()).prop_map(|(shares, index)| format!("f {shares} {index}")),
-
         1 => numbers(3).prop_map(|n| format!("l {n}")),
         1 => (numbers(3), size()).prop_map(|(at, i)| format!("l {at} {i} {i} {i}")),
         1 => size().prop_map(|n| format!("b {n} {n} {n}")),

@@ -69,7 +69,8 @@ impl Fills {
         let [.., t, index] = numbers;
         entity.check(index, index.value > 0.0 || t.value == 0.0, "where T is above 0 the index is too")?;
         let values = numbers.map(|number| number.value);
-        if values[4] + values[6] > 1.0 {
+        let [.., ks, _, kt, _] = values;
+        if ks + kt > 1.0 {
             self.too_bright.get_or_insert_with(|| entity.keyword.span());
         }
         let next = MaterialId(self.materials.len() as u32);

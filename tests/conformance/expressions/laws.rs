@@ -6,6 +6,7 @@ use ray13::scene::{Shape, Solid};
 use super::random::{any_solid, any_turn};
 use crate::chance::Chance;
 use crate::engine::{Cut, Found, Subject};
+use crate::faults::assert_none;
 use crate::long::{cases, report};
 use crate::solids::{CYLINDER, moved, placed, scene, solid};
 use crate::tally::ulp;
@@ -85,7 +86,7 @@ fn alike(a: Option<Found>, b: Option<Found>) -> bool {
     }
 }
 
-/// Row 6: all structures and all orders of the operands of a sponge agree, as it stands and turned.
+/// All structures and all orders of the operands of a sponge agree, as it stands and turned.
 pub fn a_sponge_is_one_in_any_order<S: Subject>() {
     let whole = sponge();
     let mut faults = Vec::new();
@@ -119,10 +120,10 @@ pub fn a_sponge_is_one_in_any_order<S: Subject>() {
     }
     report(|| format!("sponge: {count} rays, {hits} hits, {} faults", faults.len()));
     assert!(hits * 4 > count, "{hits} of {count}");
-    assert!(faults.is_empty(), "{} of {count}:\n{}", faults.len(), faults[..faults.len().min(4)].join("\n"));
+    assert_none(&faults, count);
 }
 
-/// Row 7, the laws: both sides of each, on random solids with flush faces.
+/// Both sides of each, on random solids with flush faces.
 pub fn the_laws_of_sets_hold<S: Subject>() {
     use Solid::{Difference, Intersection, Union};
     let mut faults = Vec::new();
@@ -175,5 +176,5 @@ pub fn the_laws_of_sets_hold<S: Subject>() {
     }
     report(|| format!("laws: {count} rays, {hits} hits, {} faults", faults.len()));
     assert!(hits * 10 > count, "{hits} of {count}");
-    assert!(faults.is_empty(), "{} of {count}:\n{}", faults.len(), faults[..faults.len().min(6)].join("\n"));
+    assert_none(&faults, count);
 }

@@ -2,7 +2,7 @@
 
 use crate::math::{Bounds, DVec3, Ray};
 
-use super::span::{End, LIMIT, ROUNDING, Span, WORLD, displacement};
+use super::span::{End, LIMIT, ROUNDING, Span, WORLD, rounding_at};
 
 /// The points within `radius` of `center`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,14 +15,14 @@ pub struct Ball {
     off: f64,
 }
 
-/// The [`displacement`] of a ball whose centre is within the world. One from farther away only cuts, or is cut: how little
+/// The [`rounding_at`] of a ball whose centre is within the world. One from farther away only cuts, or is cut: how little
 /// is known of its chords is in their errors.
 const SEEN: f64 = ROUNDING * (WORLD + LIMIT);
 
 impl Ball {
     /// A ball whose map may be off by `map_error`.
     pub fn new(center: DVec3, radius: f64, map_error: DVec3) -> Self {
-        Self { center, radius, off: displacement(center.length()) + map_error.length() }
+        Self { center, radius, off: rounding_at(center.length()) + map_error.length() }
     }
 
     /// Where the ray is inside. A chord that rounding could have made counts as none.

@@ -6,7 +6,7 @@
 use crate::math::{Bounds, DVec3, Placement, Ray};
 
 use super::across::{Across, plane_crossing};
-use super::span::{End, displacement};
+use super::span::{End, rounding_at};
 
 /// So many edges are looked at together: past twice as many, boxes around each group of them are asked first.
 const GROUP: usize = 32;
@@ -53,9 +53,8 @@ impl Face {
         } else {
             Box::default()
         };
-        let bent_box =
-            (bent > displacement(reach)).then(|| Box::new(Bounds::around(outline.iter().copied())));
-        let off = bent.min(WRITTEN) + displacement(reach) + map_error.length();
+        let bent_box = (bent > rounding_at(reach)).then(|| Box::new(Bounds::around(outline.iter().copied())));
+        let off = bent.min(WRITTEN) + rounding_at(reach) + map_error.length();
         Self { outline: outline.into(), groups, normal, middle, off, bent_box }
     }
 

@@ -3,7 +3,7 @@
 use crate::math::{Bounds, DVec3, Placement, Ray};
 use crate::scene;
 
-use super::span::{End, Span, displacement};
+use super::span::{End, Span, rounding_at};
 
 /// An intersection of half-spaces, in the world.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,7 +39,7 @@ impl Facets {
             .collect();
         let map = crate::math::DAffine3 { matrix3: place.linear, translation: place.center };
         let bounds = unit.bounds.mapped(&map);
-        let seen = displacement(place.center.length());
+        let seen = rounding_at(place.center.length());
         let off: Box<[f64]> = faces.iter().map(|face| seen + face.normal.abs().dot(map_error)).collect();
         let seeming = off.iter().map(|off| seen / off).fold(1.0, f64::min);
         Self { faces, center: place.center, bounds, off, seeming }

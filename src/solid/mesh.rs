@@ -7,7 +7,7 @@ use crate::math::{Bounds, DVec3, Placement, Ray};
 use crate::scene;
 
 use super::across::{Across, plane_crossing};
-use super::span::{End, displacement};
+use super::span::{End, rounding_at};
 
 /// At most this many triangles are tested without looking at a box first.
 const LEAF: usize = 4;
@@ -56,7 +56,7 @@ impl Mesh {
         let mut nodes = Vec::new();
         let count = triangles.len();
         build(&mut nodes, &mut triangles, 0, count);
-        Self { triangles, nodes, off: displacement(reach) + map_error.length() }
+        Self { triangles, nodes, off: rounding_at(reach) + map_error.length() }
     }
 
     /// Every crossing of the line with the surface, in no order.

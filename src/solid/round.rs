@@ -2,7 +2,7 @@
 
 use crate::math::{Bounds, DVec3, Placement, Ray};
 
-use super::span::{End, Span, displacement};
+use super::span::{End, Span, rounding_at};
 
 /// The face numbers of a frustum.
 pub(super) const SIDE: u32 = 0;
@@ -72,7 +72,7 @@ impl Round {
 
     fn new(place: Placement, profile: Profile, map_error: DVec3) -> Self {
         let rows = [place.inverse.row(0), place.inverse.row(1), place.inverse.row(2)];
-        let seen = displacement(place.center.length());
+        let seen = rounding_at(place.center.length());
         let off = rows.map(|row| seen * row.length() + row.abs().dot(map_error));
         let seeming = (0..3).map(|i| seen * rows[i].length() / off[i]).fold(1.0, f64::min);
         let displacement = seen + map_error.length();

@@ -5,7 +5,7 @@
 
 use crate::math::{Bounds, DMat3, DVec3, Placement, Ray, two_sum};
 
-use super::span::{End, ROUNDING, Span, WORLD, displacement};
+use super::span::{End, ROUNDING, Span, WORLD, rounding_at};
 
 /// A box along the axes of the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,7 +15,7 @@ pub struct AxisBox {
     off: f64,
 }
 
-/// How far our own rounding may make a face of a box along the axes seem off its place: a [`displacement`] without the
+/// How far our own rounding may make a face of a box along the axes seem off its place: a [`rounding_at`] without the
 /// way to the box's centre, from which nothing is computed.
 const SEEN: f64 = ROUNDING * WORLD;
 
@@ -91,7 +91,7 @@ impl SkewBox {
     pub fn new(place: Placement, map_error: DVec3) -> Self {
         let rows = [place.inverse.row(0), place.inverse.row(1), place.inverse.row(2)];
         let lengths = rows.map(DVec3::length);
-        let seen = displacement(place.center.length());
+        let seen = rounding_at(place.center.length());
         let off = [0, 1, 2].map(|i| seen * lengths[i] + rows[i].abs().dot(map_error));
         let seeming = (0..3).map(|i| seen * lengths[i] / off[i]).fold(1.0, f64::min);
         let displacement = seen + map_error.length();

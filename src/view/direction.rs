@@ -7,7 +7,7 @@ use crate::math::DVec3;
 const NOISE: f64 = 4.0 * f64::EPSILON;
 
 /// The same direction, each component exactly 0 or large enough to matter over `way`, the length of a ray in the
-/// assembly's unit: what moves its end by less than [`NOISE`], beside coordinates near 1, is 0. The length of the
+/// assembly's unit: what moves its end by less than `NOISE`, beside coordinates near 1, is 0. The length of the
 /// direction stays 1 within rounding.
 ///
 /// So a ray that is meant to run along a plane does, and does not pass through it at a place that nobody can tell. And

@@ -25,11 +25,11 @@ impl Studio {
         let (lens, plan) = self.plan(request);
         let viewed = Instant::now();
         let cut_before = self.built().cutting;
-        let (structure, over_budget) = self.structure(plan.structure);
+        let workers = self.workers(request.options.threads);
+        let cut = || self.structure(plan.structure);
+        let (structure, over_budget) = workers.as_ref().map_or_else(cut, |pool| pool.install(cut));
         let engine = Exact::new(&self.assembly, structure);
         let tracing = Instant::now();
-
-        let workers = self.workers(request.options.threads);
         let work = || match plan.channels {
             Channels::Gray => self.trace::<f64>(&engine, &plan, &lens, request.dots),
             Channels::Three => self.trace::<DVec3>(&engine, &plan, &lens, request.dots),

@@ -23,7 +23,7 @@ const SIDE: usize = 4;
 pub const MOST_POINTERS: u32 = 64;
 
 /// Lattices within lattices over a whole scene.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tree {
     nodes: Vec<Node>,
     cells: Vec<Cell>,
@@ -62,7 +62,7 @@ impl Tree {
     /// Cuts the world of an assembly.
     pub fn new(assembly: &Assembly) -> Self {
         let boxes: Vec<Bounds> = assembly.objects.iter().map(|o| o.bounds).collect();
-        build::built(&boxes, &assembly.limit)
+        build::built(&boxes, &assembly.limit, build::SHARED)
     }
 
     /// How many small lattices there are.

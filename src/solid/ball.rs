@@ -60,7 +60,7 @@ impl Ball {
         })
     }
 
-    /// How far a point of it may be off its place, and seem so.
+    /// How far a point of it may be off its place, by its map and by our own rounding.
     pub fn off(&self) -> f64 {
         self.off
     }

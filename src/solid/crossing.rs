@@ -123,11 +123,10 @@ pub fn first_of_expression(
     events.sort_unstable_by(|a, b| a.end.t.total_cmp(&b.end.t).then(a.leaf.cmp(&b.leaf)));
     state.start(expression);
     let mut value = state.value(expression);
+    let form = |event: &Event| &primitives[expression.leaves[event.leaf as usize].primitive as usize].form;
     let mut rest = &mut events[..];
     while let Some(first) = rest.first().copied() {
-        let off =
-            |event: &Event| primitives[expression.leaves[event.leaf as usize].primitive as usize].form.off();
-        let length = gather_cluster(rest, off);
+        let length = gather_cluster(rest, |event| form(event).off());
         let (cluster, behind) = rest.split_at_mut(length);
         rest = behind;
         if first.end.t > reach.to {
@@ -137,8 +136,8 @@ pub fn first_of_expression(
             state.toggle(expression, event.leaf);
         }
         let before = std::mem::replace(&mut value, state.value(expression));
-        let form = &primitives[expression.leaves[first.leaf as usize].primitive as usize].form;
-        let passed = at_start(&first.end, form, departure) || cluster.iter().all(|e| e.end.t < reach.from);
+        let passed =
+            at_start(&first.end, form(&first), departure) || cluster.iter().all(|e| e.end.t < reach.from);
         if value != before && !passed {
             // The first in the file among those that made the change shows.
             let deciding = cluster.iter().filter(|e| state.decides(expression, e.leaf));
@@ -177,7 +176,7 @@ fn gather_cluster(events: &mut [Event], off: impl Fn(&Event) -> f64) -> usize {
             break;
         }
         let (a, b) = (sine(&events[0]), sine(&events[i]));
-        // A start that is 0 by construction has no error of its own.
+        // A start that is 0 by construction has neither error nor slope, and is one place with all that reach it.
         if a.max(b) <= SAME_SLOPE * a.min(b) || first.error == 0.0 || end.error == 0.0 {
             events[length..=i].rotate_right(1);
             length += 1;

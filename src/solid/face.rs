@@ -99,7 +99,7 @@ impl Face {
         Bounds::around(self.corners().iter().copied())
     }
 
-    /// How far a corner may be off its place, and seem so.
+    /// How far a corner may be off its place, by its map and by our own rounding.
     pub fn off(&self) -> f64 {
         self.off
     }

@@ -66,7 +66,7 @@ impl Facets {
         span.if_any(self.seeming, |surface| surface)
     }
 
-    /// How far a point of it may be off its place, and seem so.
+    /// How far a point of it may be off its place, by its map and by our own rounding.
     pub fn off(&self) -> f64 {
         self.off.iter().fold(0.0, |most, &off| most.max(off))
     }

@@ -87,7 +87,7 @@ impl Mesh {
         self.triangles[surface as usize].normal
     }
 
-    /// How far a corner may be off its place, and seem so.
+    /// How far a corner may be off its place, by its map and by our own rounding.
     pub fn off(&self) -> f64 {
         self.off
     }

@@ -93,7 +93,7 @@ impl Form {
         }
     }
 
-    /// How far a point of it may be off its place, and seem so.
+    /// How far a point of it may be off its place, by its map and by our own rounding.
     #[inline]
     pub fn off(&self) -> f64 {
         match self {

@@ -14,12 +14,12 @@ const TOP: u32 = 2;
 pub struct Round {
     place: Placement,
     profile: Profile,
-    /// How far a point of it may be off its place, and seem so, along each axis of the unit space: a coin has a sharp
-    /// rim however thin it is, and a needle a sharp tip.
+    /// How far a point of it may be off its place, by its map and by our own rounding, along each axis of the unit space: a
+    /// coin has a sharp rim however thin it is, and a needle a sharp tip.
     off: DVec3,
     /// The same in the world, for all of it.
     displacement: f64,
-    /// The least share of that which is how far it may seem.
+    /// The least share of it that is our own rounding.
     seeming: f64,
 }
 
@@ -54,7 +54,7 @@ struct Centred {
     t: f64,
     /// How far `o` may be off along each axis.
     off: DVec3,
-    /// The share of that which rounding may have made.
+    /// The share of it that is our own rounding.
     seeming: f64,
 }
 
@@ -117,7 +117,7 @@ impl Round {
         Centred { o, d, d_squared, t: first + second, off: self.off, seeming: self.seeming }
     }
 
-    /// How far a point of it may be off its place, and seem so.
+    /// How far a point of it may be off its place, by its map and by our own rounding.
     pub fn off(&self) -> f64 {
         self.displacement
     }

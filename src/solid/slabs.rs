@@ -49,7 +49,7 @@ impl AxisBox {
         span.if_any(self.seeming(), |surface| surface / 2)
     }
 
-    /// How far a point of it may be off its place, and seem so.
+    /// How far a point of it may be off its place, by its map and by our own rounding.
     pub fn off(&self) -> f64 {
         self.off
     }
@@ -112,7 +112,7 @@ impl SkewBox {
         span.if_any(self.seeming, |surface| surface / 2)
     }
 
-    /// How far a point of it may be off its place, and seem so.
+    /// How far a point of it may be off its place, by its map and by our own rounding.
     pub fn off(&self) -> f64 {
         self.displacement
     }

@@ -30,7 +30,7 @@ impl Tube {
         self.0.bounds()
     }
 
-    /// How far a point of it may be off its place, and seem so.
+    /// How far a point of it may be off its place, by its map and by our own rounding.
     pub fn off(&self) -> f64 {
         self.0.off()
     }

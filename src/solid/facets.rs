@@ -14,6 +14,8 @@ pub struct Facets {
     bounds: Bounds,
     /// By face: how far it may be off its place, by the map and by our own rounding.
     off: Box<[f64]>,
+    /// The largest of them.
+    displacement: f64,
     /// The least share of it that is our own rounding.
     seeming: f64,
 }
@@ -42,7 +44,8 @@ impl Facets {
         let seen = rounding_at(place.center.length());
         let off: Box<[f64]> = faces.iter().map(|face| seen + face.normal.abs().dot(map_error)).collect();
         let seeming = off.iter().map(|off| seen / off).fold(1.0, f64::min);
-        Self { faces, center: place.center, bounds, off, seeming }
+        let displacement = off.iter().fold(0.0, |most: f64, &off| most.max(off));
+        Self { faces, center: place.center, bounds, off, displacement, seeming }
     }
 
     /// Where the ray is inside. A ray in the plane of a face is decided half open, as for slabs: inside where
@@ -68,7 +71,7 @@ impl Facets {
 
     /// How far a point of it may be off its place, by its map and by our own rounding.
     pub fn off(&self) -> f64 {
-        self.off.iter().fold(0.0, |most, &off| most.max(off))
+        self.displacement
     }
 
     /// The share of its errors that our own rounding may have made.

@@ -213,7 +213,7 @@ impl Round {
     /// Whether the box is certainly inside.
     pub fn covers(&self, b: &Bounds) -> bool {
         let u = self.unit_bounds(b);
-        let farthest = u.lo.abs().max(u.hi.abs());
+        let farthest = u.farthest();
         match self.profile {
             Profile::Sphere => farthest.length_squared() < 1.0,
             Profile::Frustum { middle, slope } => {

@@ -89,7 +89,7 @@ impl Chain {
         let (mut points, mut error) = (b.corners(), DVec3::ZERO);
         let mut next = self.last.as_ref();
         while let Some(link) = next {
-            let farthest = points.iter().fold(DVec3::ZERO, |most, p| most.max(p.abs()));
+            let farthest = Bounds::around(points).farthest();
             let of = |lost: &DAffine3| lost.matrix3 * farthest + lost.translation;
             error += link.stretch * of(&link.unsure) + of(&link.lost);
             points = points.map(|p| link.own.transform_point3(p));

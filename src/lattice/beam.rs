@@ -1,0 +1,177 @@
+//! The frustum around a bundle of rays: what it does not meet, none of the rays meets.
+
+use fearless_simd::{Simd, SimdBase, f64x8};
+
+use crate::math::{Bundle, Column, Columns, DVec3, Mask, Number, ROWS};
+use crate::solid::WORLD;
+
+use super::boxes::Node;
+
+/// A ray within the world, from anywhere that it may start at, has left it after so much of its way: the diameter of
+/// a ball of radius [`WORLD`].
+pub const WAY: f64 = 2.0 * WORLD;
+
+/// How far rounding may put a dot product with a plane's normal off its place, for a normal whose components add up to
+/// 1: three products and two sums of numbers up to [`WORLD`] + [`WAY`], on either side of the comparison, and the
+/// point itself, a product and a sum. Ten roundings, rounded up to 16 half-ulps.
+const ROUNDED: f64 = 8.0 * f64::EPSILON * (WORLD + WAY);
+
+/// The least cosine between a ray and the beam's axis: past 78° off the slopes, and with them the planes, say little.
+const COHERENT: f64 = 0.2;
+
+/// A plane; points in front of it have `normal · p ≥ offset`.
+#[derive(Clone, Copy, Debug)]
+struct Plane {
+    normal: DVec3,
+    offset: f64,
+}
+
+impl Plane {
+    /// Everything is in front.
+    const NOWHERE: Self = Self { normal: DVec3::ZERO, offset: f64::NEG_INFINITY };
+
+    /// Of eight boxes side by side, how far the foremost point of each lies along the normal.
+    #[inline(always)]
+    fn foremost<S: Simd>(&self, lo: &[f64x8<S>; 3], hi: &[f64x8<S>; 3]) -> f64x8<S> {
+        let side = |axis: usize| if self.normal[axis] > 0.0 { hi[axis] } else { lo[axis] };
+        side(0) * self.normal.x + side(1) * self.normal.y + side(2) * self.normal.z
+    }
+}
+
+/// How a bundle of rays spreads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Spread {
+    /// From one point, or in no order: planes through the outermost rays.
+    Apart,
+    /// Towards one point at the end of each.
+    Together,
+}
+
+/// The space that a bundle of rays passes, bounded by planes.
+#[derive(Clone, Copy, Debug)]
+pub struct Beam {
+    sides: [Plane; 4],
+    axis: DVec3,
+    /// Nothing that lies behind these along the axis is met.
+    first: f64,
+    last: f64,
+    /// A point `p` is no nearer to the start of any ray than `axis · p − start`.
+    start: f64,
+}
+
+/// Boxes that a beam meets, one bit for each, and how near each is at least to any ray's start.
+#[derive(Clone, Copy, Debug)]
+pub struct Met<S: Simd> {
+    /// The first box is the lowest bit.
+    pub boxes: u8,
+    /// At least so far away, for each.
+    pub near: f64x8<S>,
+}
+
+impl Beam {
+    /// The beam around the live rays of some bundles, as far as `reach` of each.
+    #[inline(always)]
+    pub fn around<'b, S: Simd>(
+        simd: S,
+        bundles: impl Iterator<Item = (&'b Bundle, Option<&'b Column>)> + Clone,
+        spread: Spread,
+    ) -> Self {
+        let live = || bundles.clone().filter(|(bundle, _)| bundle.live != 0);
+        let mut sum = DVec3::ZERO;
+        for (bundle, _) in live() {
+            // Corners and middle: enough for a direction in between.
+            for lane in [0, 7, 27, 36, 56, 63] {
+                sum += bundle.d.get(lane);
+            }
+        }
+        let axis = sum.normalize_or(DVec3::X);
+        let u = axis.any_orthonormal_vector();
+        let v = axis.cross(u);
+
+        let rows = || live().flat_map(|(bundle, reach)| (0..ROWS).map(move |row| (bundle, reach, row)));
+        let infinite = f64x8::splat(simd, f64::INFINITY);
+        let (mut low, mut high, mut least) = ([infinite; 2], [-infinite; 2], infinite);
+        for (bundle, _, row) in rows() {
+            let d = bundle.d.load(simd, row);
+            let w = d.dot_one(axis);
+            least = w.smaller(least);
+            for (slot, across) in [u, v].into_iter().enumerate() {
+                let slope = d.dot_one(across) / w;
+                low[slot] = slope.smaller(low[slot]);
+                high[slot] = slope.larger(high[slot]);
+            }
+        }
+        let coherent = lowest(least) > COHERENT;
+        let mut normals = [DVec3::ZERO; 4];
+        if coherent {
+            for (slot, across) in [u, v].into_iter().enumerate() {
+                let (low, high) = (lowest(low[slot]), highest(high[slot]));
+                let (below, above) = if spread == Spread::Apart { (low, high) } else { (high, low) };
+                normals[2 * slot] = across - below * axis;
+                normals[2 * slot + 1] = above * axis - across;
+            }
+        }
+        let mut offsets = [infinite; 4];
+        let (mut first, mut last, mut start) = (infinite, -infinite, -infinite);
+        for (bundle, reach, row) in rows() {
+            let rays = bundle.load(simd, row);
+            let way = reach.map_or(f64x8::splat(simd, WAY), |reach| reach.load(simd, row));
+            let way = way.smaller(way.same(WAY));
+            // Of a segment the ends are the outermost.
+            let end = |along: DVec3| (rays.o.dot_one(along), rays.d.dot_one(along) * way);
+            for (offset, &normal) in offsets.iter_mut().zip(&normals) {
+                let (at, on) = end(normal);
+                *offset = at.smaller(at + on).smaller(*offset);
+            }
+            let (at, on) = end(axis);
+            first = at.smaller(at + on).smaller(first);
+            last = at.larger(at + on).larger(last);
+            start = at.larger(start);
+        }
+        let margin = |normal: DVec3| ROUNDED * normal.abs().element_sum();
+        let sides = std::array::from_fn(|k| {
+            if coherent {
+                Plane { normal: normals[k], offset: lowest(offsets[k]) - margin(normals[k]) }
+            } else {
+                Plane::NOWHERE
+            }
+        });
+        let off = margin(axis);
+        let (first, last, start) = (lowest(first) - off, highest(last) + off, highest(start) + off);
+        Self { sides, axis, first, last, start }
+    }
+
+    /// Which of a node's eight boxes the beam may meet. An empty slot is never met.
+    #[inline(always)]
+    pub fn meets<S: Simd>(&self, simd: S, node: &Node) -> Met<S> {
+        let load = |side: &[[f64; 8]; 3]| [0, 1, 2].map(|axis| f64x8::from_slice(simd, &side[axis]));
+        self.meets_boxes(simd, &load(&node.lo), &load(&node.hi))
+    }
+
+    /// Which of eight boxes, by axis, the beam may meet.
+    #[inline(always)]
+    pub fn meets_boxes<S: Simd>(&self, simd: S, lo: &[f64x8<S>; 3], hi: &[f64x8<S>; 3]) -> Met<S> {
+        let all = |x: f64| f64x8::splat(simd, x);
+        let mut met = lo[0].is_at_most(hi[0]);
+        for side in &self.sides {
+            met = met & !side.foremost(lo, hi).is_below(all(side.offset));
+        }
+        let forward = Plane { normal: self.axis, offset: 0.0 };
+        let backward = Plane { normal: -self.axis, offset: 0.0 };
+        let (farthest, nearest) = (forward.foremost(lo, hi), -backward.foremost(lo, hi));
+        met = met & !farthest.is_below(all(self.first)) & !nearest.is_above(all(self.last));
+        Met { boxes: met.bits(), near: nearest - self.start }
+    }
+}
+
+/// The least of eight.
+#[inline(always)]
+fn lowest<S: Simd>(x: f64x8<S>) -> f64 {
+    x.to_array().into_iter().fold(f64::INFINITY, |least, x| if x < least { x } else { least })
+}
+
+/// The greatest of eight.
+#[inline(always)]
+fn highest<S: Simd>(x: f64x8<S>) -> f64 {
+    -lowest(-x)
+}

@@ -1,0 +1,36 @@
+//! Memory of one worker.
+
+use crate::lattice::Beam;
+use crate::solid::{BundleScratch, Found, Pruning, Remains};
+use crate::stage::Counts;
+
+/// What tracing a tile needs, used again for every tile.
+#[derive(Debug)]
+pub struct TileMemory {
+    /// By bundle: its own frustum, and how far its rays have still to look.
+    pub(super) beams: Vec<Beam>,
+    pub(super) far: Vec<f64>,
+    /// Nodes to be walked, and how near they are at least.
+    pub(super) stack: Vec<(f64, u32)>,
+    pub(super) scratch: BundleScratch,
+    pub(super) found: Box<Found>,
+    pub(super) pruning: Pruning,
+    /// Pruned expressions that are not in use.
+    pub(super) remains: Vec<Remains>,
+    pub(super) counts: Counts,
+}
+
+impl Default for TileMemory {
+    fn default() -> Self {
+        Self {
+            beams: Vec::new(),
+            far: Vec::new(),
+            stack: Vec::new(),
+            scratch: BundleScratch::default(),
+            found: Box::new(Found::NONE),
+            pruning: Pruning::default(),
+            remains: Vec::new(),
+            counts: Counts::default(),
+        }
+    }
+}

@@ -4,12 +4,16 @@
 mod bounds;
 mod exact;
 mod grid;
+mod number;
 mod placement;
 mod ray;
+mod vector;
 
 pub use bounds::Bounds;
 pub use exact::{product_rest, two_sum};
 pub use glam::{DAffine3, DMat3, DVec2, DVec3};
 pub use grid::{Grid, Size};
+pub use number::{LANES, Mask, Number};
 pub use placement::{Placement, is_singular};
 pub use ray::Ray;
+pub use vector::{Rays, Vector};

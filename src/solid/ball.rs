@@ -1,8 +1,8 @@
 //! Spheres that stayed spheres: a centre and a radius.
 
-use crate::math::{Bounds, DVec3, Ray};
+use crate::math::{Bounds, DVec3, Mask, Number, Rays};
 
-use super::span::{End, LIMIT, ROUNDING, Span, WORLD, rounding_at};
+use super::span::{Ends, LIMIT, ROUNDING, Spans, WORLD, rounding_at};
 
 /// The points within `radius` of `center`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,39 +25,42 @@ impl Ball {
         Self { center, radius, off: rounding_at(center.length()) + map_error.length() }
     }
 
-    /// Where the ray is inside. A chord that rounding could have made counts as none.
+    /// Where each ray is inside. A chord that rounding could have made counts as none.
     ///
     /// The origin is moved to the point of the ray closest to the centre, twice: the first move leaves an error
     /// in proportion to the way, the second removes it along the ray. The half-chord then comes from
     /// `(r − l)(r + l)`, which does not cancel as `b² − 4ac` does (Haines, Günther, Akenine-Möller: Precision
     /// improvements for ray/sphere intersection, Ray Tracing Gems, 2019).
-    #[inline]
-    pub fn span(&self, ray: &Ray) -> Option<Span> {
-        let from_center = ray.o - self.center;
-        let first = -from_center.dot(ray.d);
-        let near = from_center + first * ray.d;
-        let second = -near.dot(ray.d);
-        let near = near + second * ray.d;
+    #[inline(always)]
+    pub fn spans<N: Number>(&self, rays: &Rays<N>) -> Spans<N> {
+        let like = rays.o.x;
+        let from_center = rays.o - self.center;
+        let first = -from_center.dot(rays.d);
+        let near = from_center + rays.d * first;
+        let second = -near.dot(rays.d);
+        let near = near + rays.d * second;
         let l_squared = near.length_squared();
-        if l_squared > self.radius * self.radius {
-            return None;
+        let near_enough = l_squared.is_at_most(like.same(self.radius * self.radius));
+        if !near_enough.any() {
+            return Spans::none(like);
         }
-        let l = l_squared.sqrt();
-        let half_squared = (self.radius - l) * (self.radius + l);
+        let l = l_squared.root();
+        let half_squared = (-l + self.radius) * (l + self.radius);
         // Moving the ray sideways changes the square of the half-chord by 2·l times as much.
-        if half_squared.is_nan() || half_squared <= 2.0 * self.radius * SEEN {
-            return None;
-        }
-        let half = half_squared.sqrt();
+        let any = near_enough & half_squared.is_above(like.same(2.0 * self.radius * SEEN));
+        let half = half_squared.root();
         // Half a chord that the map's own error could have made is off by no more than all of that.
         let grazing = 2.0 * self.radius * self.off;
-        let sideways = if half_squared < grazing { grazing.sqrt() } else { self.off * l / half };
-        let error = self.off + sideways;
+        let sideways =
+            half_squared.is_below(like.same(grazing)).choose(like.same(grazing.sqrt()), l * self.off / half);
+        let error = sideways + self.off;
         let middle = first + second;
-        Some(Span {
-            enter: End { t: middle - half, error, surface: 0 },
-            leave: End { t: middle + half, error, surface: 0 },
-        })
+        let surface = like.same(0.0);
+        Spans {
+            enter: Ends { t: middle - half, error, surface },
+            leave: Ends { t: middle + half, error, surface },
+            any,
+        }
     }
 
     /// How far a point of it may be off its place, by its map and by our own rounding.

@@ -9,12 +9,12 @@
 //! A ray that skims a face crosses it somewhere within an interval as long as the world, and has only faces of the
 //! same slope for company: what it crosses steeply on the way keeps its own place ([`SAME_SLOPE`]).
 
-use crate::math::Ray;
+use crate::math::{Number, Ray, Rays};
 use crate::stage::{Meter, Probe, Stage};
 
 use super::expression::Expression;
 use super::primitive::{Form, Primitive};
-use super::span::{Departure, End};
+use super::span::{Departure, End, Ends, Spans};
 use super::state::State;
 
 /// A place where a ray goes into or out of a solid.
@@ -66,10 +66,51 @@ impl Reach {
 /// The eye is where it is: for a ray from there only rounding counts, not how far the map of the primitive may be off.
 #[inline]
 pub fn at_start(end: &End, form: &Form, departure: Option<Departure>) -> bool {
-    match departure {
-        Some(departure) => end.t <= end.error * (1.0 + departure.off / form.off()),
-        None => end.t <= 2.0 * end.error * form.seeming(),
+    end.t <= start_of(end.error, form, departure.map(|d| d.off))
+}
+
+/// Up to which distance a crossing with this error lies at the start of its ray.
+#[inline(always)]
+pub(super) fn start_of<N: Number>(error: N, form: &Form, departure_off: Option<N>) -> N {
+    match departure_off {
+        Some(off) => error * (off / form.off() + 1.0),
+        None => error * 2.0 * form.seeming(),
     }
+}
+
+/// The surfaces that rays start on, as seen from one primitive.
+#[derive(Clone, Copy, Debug)]
+pub struct Starts<N: Number> {
+    /// Which rays start on a surface of this primitive.
+    pub here: N::Mask,
+    /// Which of these go to its inside.
+    pub inward: N::Mask,
+    /// [`Departure::off`] of each; `None` for rays from the eye.
+    pub off: Option<N>,
+}
+
+/// The first crossings of one convex primitive.
+#[derive(Clone, Copy, Debug)]
+pub struct Firsts<N: Number> {
+    /// Where.
+    pub end: Ends<N>,
+    /// Whether the ray goes into the solid there.
+    pub entering: N::Mask,
+    /// Which rays have one: of the others the numbers mean nothing.
+    pub any: N::Mask,
+}
+
+/// The first crossings of one convex primitive, given the spans of rays in it.
+#[inline(always)]
+pub fn firsts_of_spans<N: Number>(spans: Spans<N>, form: &Form, starts: &Starts<N>) -> Firsts<N> {
+    // A convex solid is not met again by a ray that leaves it.
+    let any = spans.any & !(starts.here & !starts.inward);
+    let before = |end: &Ends<N>| end.t.is_at_most(start_of(end.error, form, starts.off));
+    let leaving = starts.here | before(&spans.enter);
+    let end = Ends::choose(leaving, spans.leave, spans.enter);
+    // The start on this primitive is at 0 by construction.
+    let behind = (starts.here & end.t.is_at_most(end.t.same(0.0))) | (!starts.here & before(&end));
+    Firsts { end, entering: !leaving, any: any & !behind }
 }
 
 /// The first crossing of one convex primitive.
@@ -84,21 +125,14 @@ pub fn first_of_span(
     meter.counts.primitive_tests += 1;
     let here = departure.filter(|d| d.primitive == index);
     if here.is_some_and(|d| !d.inward) {
-        // A convex solid is not met again by a ray that leaves it.
         return None;
     }
-    let span = primitive.form.span(ray)?;
-    let at_start = |end: &End| at_start(end, &primitive.form, departure);
-    let (end, entering) =
-        if here.is_some() || at_start(&span.enter) { (span.leave, false) } else { (span.enter, true) };
-    let behind = if here.is_some() { end.t <= 0.0 } else { at_start(&end) };
-    (!behind).then_some(Crossing {
-        t: end.t,
-        error: end.error,
-        primitive: index,
-        surface: end.surface,
-        entering,
-    })
+    let spans = primitive.form.spans(&Rays::from(ray)).filter(|spans| spans.any)?;
+    let starts =
+        Starts { here: here.is_some(), inward: here.is_some(), off: departure.map(|d| d.off) };
+    let first = firsts_of_spans(spans, &primitive.form, &starts);
+    let End { t, error, surface } = first.end.one();
+    first.any.then_some(Crossing { t, error, primitive: index, surface, entering: first.entering })
 }
 
 /// The first crossing of an expression within `reach`.

@@ -1,9 +1,9 @@
 //! Convex solids of flat faces: prisms, pyramids, coarse spheres.
 
-use crate::math::{Bounds, DVec3, Placement, Ray};
+use crate::math::{Bounds, DVec3, Mask, Number, Placement, Rays};
 use crate::scene;
 
-use super::span::{End, Span, rounding_at};
+use super::span::{Ends, Spans, rounding_at};
 
 /// An intersection of half-spaces, in the world.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,25 +48,28 @@ impl Facets {
         Self { faces, center: place.center, bounds, off, displacement, seeming }
     }
 
-    /// Where the ray is inside. A ray in the plane of a face is decided half open, as for slabs: inside where
+    /// Where each ray is inside. A ray in the plane of a face is decided half open, as for slabs: inside where
     /// the normal's first component that is not 0 is negative.
-    #[inline]
-    pub fn span(&self, ray: &Ray) -> Option<Span> {
-        let from_center = ray.o - self.center;
-        let mut span = Span::LINE;
+    #[inline(always)]
+    pub fn spans<N: Number>(&self, rays: &Rays<N>) -> Spans<N> {
+        let like = rays.o.x;
+        let from_center = rays.o - self.center;
+        let mut spans = Spans::line(like);
+        let (before, behind) = (like.same(f64::NEG_INFINITY), like.same(f64::INFINITY));
         for (surface, (face, off)) in self.faces.iter().zip(&self.off).enumerate() {
-            let above = face.normal.dot(from_center) - face.offset;
-            let d = face.normal.dot(ray.d);
-            let end = End { t: -above / d, error: off / d.abs(), surface: surface as u32 };
-            if d < -STILL {
-                span.clip(end, Span::LINE.leave);
-            } else if d > STILL {
-                span.clip(Span::LINE.enter, end);
-            } else if above > 0.0 || (above == 0.0 && !points_down(face.normal)) {
-                return None;
-            }
+            let above = from_center.dot_one(face.normal) - face.offset;
+            let d = rays.d.dot_one(face.normal);
+            let (t, error, surface) = (-above / d, like.same(*off) / d.magnitude(), like.same(surface as f64));
+            let (against, along) = (d.is_below(like.same(-STILL)), d.is_above(like.same(STILL)));
+            let enter = Ends { t: against.choose(t, before), error, surface };
+            let leave = Ends { t: along.choose(t, behind), error, surface };
+            spans.clip(enter, leave);
+            let zero = like.same(0.0);
+            let outside =
+                if points_down(face.normal) { above.is_above(zero) } else { above.is_at_least(zero) };
+            spans.any = spans.any & (against | along | !outside);
         }
-        span.if_any(self.seeming, |surface| surface)
+        spans.if_any(self.seeming, |surface| surface)
     }
 
     /// How far a point of it may be off its place, by its map and by our own rounding.

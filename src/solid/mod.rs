@@ -25,5 +25,5 @@ pub use assembly::{Assembly, AssemblyError, Body, Datum, Object};
 pub use crossing::{Crossing, Reach, Scratch, first_of_expression, first_of_span};
 pub use expression::{Child, Expression, Leaf, Pruned, Tree};
 pub use primitive::{Cover, Form, Primitive};
-pub use span::{Departure, End, LIMIT, ROUNDING, Span, WORLD};
+pub use span::{Departure, End, Ends, LIMIT, ROUNDING, Span, Spans, WORLD};
 pub use surface::first_of_surface;

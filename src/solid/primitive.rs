@@ -1,6 +1,6 @@
 //! One primitive, put into the world and specialised: only what its map requires is computed per ray.
 
-use crate::math::{Bounds, DMat3, DVec3, Placement, Ray};
+use crate::math::{Bounds, DMat3, DVec3, Number, Placement, Ray, Rays};
 use crate::scene::{MaterialId, Shape};
 
 use super::ball::Ball;
@@ -10,7 +10,7 @@ use super::mesh::Mesh;
 use super::patch::Patch;
 use super::round::Round;
 use super::slabs::{AxisBox, SkewBox};
-use super::span::{End, ROUNDING, Span};
+use super::span::{End, ROUNDING, Span, Spans};
 use super::tube::Tube;
 
 /// A primitive in the world.
@@ -83,12 +83,18 @@ impl Form {
     /// The ray's span in a convex solid; a mesh has crossings instead, and a surface no inside.
     #[inline]
     pub fn span(&self, ray: &Ray) -> Option<Span> {
+        self.spans(&Rays::from(ray))?.one()
+    }
+
+    /// The spans of one ray, or of several, in a convex solid; `None` for what is not one.
+    #[inline(always)]
+    pub fn spans<N: Number>(&self, rays: &Rays<N>) -> Option<Spans<N>> {
         match self {
-            Self::Ball(ball) => ball.span(ray),
-            Self::AxisBox(slabs) => slabs.span(ray),
-            Self::SkewBox(slabs) => slabs.span(ray),
-            Self::Round(round) => round.span(ray),
-            Self::Facets(facets) => facets.span(ray),
+            Self::Ball(ball) => Some(ball.spans(rays)),
+            Self::AxisBox(slabs) => Some(slabs.spans(rays)),
+            Self::SkewBox(slabs) => Some(slabs.spans(rays)),
+            Self::Round(round) => Some(round.spans(rays)),
+            Self::Facets(facets) => Some(facets.spans(rays)),
             Self::Mesh(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => None,
         }
     }

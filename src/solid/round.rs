@@ -1,8 +1,8 @@
 //! Curved solids in their unit space: ellipsoids, and cylinders, cones and frustums of any slant.
 
-use crate::math::{Bounds, DVec3, Placement, Ray};
+use crate::math::{Bounds, DVec3, Mask, Number, Placement, Rays, Vector};
 
-use super::span::{End, Span, rounding_at};
+use super::span::{Ends, Spans, rounding_at};
 
 /// The face numbers of a frustum.
 pub(super) const SIDE: u32 = 0;
@@ -35,23 +35,27 @@ enum Profile {
 }
 
 /// Where a line crosses the side of a frustum between its caps.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct SideCrossings {
+#[derive(Clone, Copy, Debug)]
+pub struct SideCrossings<N: Number> {
     /// Into it.
-    pub enter: Option<End>,
+    pub enter: Ends<N>,
+    /// Whether there is such a place.
+    pub enters: N::Mask,
     /// Out of it.
-    pub leave: Option<End>,
+    pub leave: Ends<N>,
+    /// Whether there is such a place.
+    pub leaves: N::Mask,
     /// Whether the line crosses the whole cone, beyond the caps too, only once.
-    pub one_way: bool,
+    pub one_way: N::Mask,
 }
 
-/// A ray in the unit space, re-centred: `o` is its point closest to the unit origin.
-struct Centred {
-    o: DVec3,
-    d: DVec3,
-    d_squared: f64,
+/// Rays in the unit space, re-centred: `o` is the point of each that is closest to the unit origin.
+struct Centred<N> {
+    o: Vector<N>,
+    d: Vector<N>,
+    d_squared: N,
     /// `t` of the closest point.
-    t: f64,
+    t: N,
     /// How far `o` may be off along each axis.
     off: DVec3,
     /// The share of it that is our own rounding.
@@ -79,41 +83,51 @@ impl Round {
         Self { place, profile, off: DVec3::from_array(off), displacement, seeming }
     }
 
-    /// Where the ray is inside. A chord that rounding could have made counts as none.
-    #[inline]
-    pub fn span(&self, ray: &Ray) -> Option<Span> {
-        let ray = self.centred(ray);
+    /// Where each ray is inside. A chord that rounding could have made counts as none.
+    #[inline(always)]
+    pub fn spans<N: Number>(&self, rays: &Rays<N>) -> Spans<N> {
+        let rays = self.centred(rays);
         match self.profile {
-            Profile::Sphere => sphere_span(&ray),
-            Profile::Frustum { middle, slope } => frustum_span(&ray, middle, slope),
+            Profile::Sphere => sphere_spans(&rays),
+            Profile::Frustum { middle, slope } => frustum_spans(&rays, middle, slope),
         }
     }
 
-    /// Where the line crosses the side of a frustum: into it, and out of it. A line with only one crossing, which is
-    /// steeper than the side or parallel to it, has only one of them.
-    pub fn side_crossings(&self, ray: &Ray) -> SideCrossings {
-        let ray = self.centred(ray);
-        let Profile::Frustum { middle, slope } = self.profile else { return SideCrossings::default() };
-        if ray.passes_by() {
-            return SideCrossings::default();
+    /// Where each line crosses the side of a frustum: into it, and out of it. A line with only one crossing, which is
+    /// steeper than the side or parallel to it, has only one of them. The side of an ellipsoid is never crossed.
+    #[inline(always)]
+    pub fn side_crossings<N: Number>(&self, rays: &Rays<N>) -> SideCrossings<N> {
+        let rays = self.centred(rays);
+        let (middle, slope) = match self.profile {
+            Profile::Frustum { middle, slope } => (middle, slope),
+            Profile::Sphere => (f64::NAN, 0.0),
+        };
+        let side = side_spans(&rays, middle, slope);
+        let met = side.any & !rays.pass_by();
+        let finite = |t: N| t.magnitude().is_below(t.same(f64::INFINITY));
+        let between_caps = |end: Ends<N>| {
+            let z = rays.o.z + end.t * rays.d.z;
+            met & finite(end.t) & z.magnitude().is_at_most(z.same(1.0))
+        };
+        SideCrossings {
+            enter: Ends { t: rays.t + side.enter.t, ..side.enter },
+            enters: between_caps(side.enter),
+            leave: Ends { t: rays.t + side.leave.t, ..side.leave },
+            leaves: between_caps(side.leave),
+            one_way: met & (!finite(side.enter.t) | !finite(side.leave.t)),
         }
-        let Some(side) = side_span(&ray, middle, slope) else { return SideCrossings::default() };
-        let [enter, leave] = [side.enter, side.leave].map(|end| {
-            let z = ray.o.z + end.t * ray.d.z;
-            (end.t.is_finite() && z.abs() <= 1.0).then_some(End { t: ray.t + end.t, ..end })
-        });
-        SideCrossings { enter, leave, one_way: !side.enter.t.is_finite() || !side.leave.t.is_finite() }
     }
 
-    fn centred(&self, ray: &Ray) -> Centred {
-        let from_center = ray.o - self.place.center;
-        let o = self.place.inverse * from_center;
-        let d = self.place.inverse * ray.d;
+    #[inline(always)]
+    fn centred<N: Number>(&self, rays: &Rays<N>) -> Centred<N> {
+        let from_center = rays.o - self.place.center;
+        let o = from_center.mapped(&self.place.inverse);
+        let d = rays.d.mapped(&self.place.inverse);
         let d_squared = d.length_squared();
         let first = -o.dot(d) / d_squared;
-        let o = o + first * d;
+        let o = o + d * first;
         let second = -o.dot(d) / d_squared;
-        let o = o + second * d;
+        let o = o + d * second;
         Centred { o, d, d_squared, t: first + second, off: self.off, seeming: self.seeming }
     }
 
@@ -224,123 +238,145 @@ impl Round {
     }
 }
 
-impl Centred {
+impl<N: Number> Centred<N> {
     /// Whether the line is certainly beside the frustum, which lies within √2 of the unit origin.
-    fn passes_by(&self) -> bool {
+    #[inline(always)]
+    fn pass_by(&self) -> N::Mask {
         let off = self.off.element_sum();
         // (√2 + off)² with 4 for 2√2.
-        self.o.length_squared() > 2.0 + off * (4.0 + off)
+        self.o.length_squared().is_above(self.t.same(2.0 + off * (4.0 + off)))
     }
 }
 
-fn sphere_span(ray: &Centred) -> Option<Span> {
-    let l_squared = ray.o.length_squared();
-    if l_squared > 1.0 {
-        return None;
+#[inline(always)]
+fn sphere_spans<N: Number>(rays: &Centred<N>) -> Spans<N> {
+    let l_squared = rays.o.length_squared();
+    let near_enough = l_squared.is_at_most(rays.t.same(1.0));
+    if !near_enough.any() {
+        return Spans::none(rays.t);
     }
-    let l = l_squared.sqrt();
-    let half_squared = (1.0 - l) * (1.0 + l);
+    let l = l_squared.root();
+    let half_squared = (-l + 1.0) * (l + 1.0);
     // Moving the ray by at most `off` changes the square of the half-chord by 2·o·off.
-    let across = ray.o.abs().dot(ray.off);
-    if half_squared.is_nan() || half_squared <= 2.0 * across * ray.seeming {
-        return None;
-    }
-    let root = half_squared.sqrt();
-    let speed = ray.d_squared.sqrt();
+    let across = rays.o.magnitude().dot_one(rays.off);
+    let any = near_enough & half_squared.is_above(across * 2.0 * rays.seeming);
+    let root = half_squared.root();
+    let speed = rays.d_squared.root();
     let half = root / speed;
     // The crossing q = o ± half·d, moved by `off`, moves along the ray by |q|·off over q·d, and |q·d| = speed · root.
     // Half a chord that the map's own error could have made is off by no more than all of that.
-    let sideways = if half_squared < 2.0 * across { (2.0 * across).sqrt() } else { across / root };
-    let error = (sideways + ray.d.abs().dot(ray.off) / speed) / speed;
-    Some(Span {
-        enter: End { t: ray.t - half, error, surface: 0 },
-        leave: End { t: ray.t + half, error, surface: 0 },
-    })
+    let sideways = half_squared.is_below(across * 2.0).choose((across * 2.0).root(), across / root);
+    let error = (sideways + rays.d.magnitude().dot_one(rays.off) / speed) / speed;
+    let surface = rays.t.same(0.0);
+    Spans {
+        enter: Ends { t: rays.t - half, error, surface },
+        leave: Ends { t: rays.t + half, error, surface },
+        any,
+    }
 }
 
-/// The line against the side, then against `|z| ≤ 1`.
-fn frustum_span(ray: &Centred, middle: f64, slope: f64) -> Option<Span> {
-    let (o, d) = (ray.o, ray.d);
-    if ray.passes_by() {
-        return None;
+/// The lines against the side, then against `|z| ≤ 1`.
+#[inline(always)]
+fn frustum_spans<N: Number>(rays: &Centred<N>, middle: f64, slope: f64) -> Spans<N> {
+    let (o, d) = (rays.o, rays.d);
+    let mut spans = Spans::line(rays.t);
+    let zero = rays.t.same(0.0);
+    let still = d.z.is_equal(zero);
+    let inside = o.z.is_at_least(rays.t.same(-1.0)) & o.z.is_below(rays.t.same(1.0));
+    spans.any = !rays.pass_by() & (!still | inside);
+    if !spans.any.any() {
+        return spans;
     }
-    let mut span = Span::LINE;
-    let end = |t: f64, error: f64, surface: u32| End { t: ray.t + t, error, surface };
-    if d.z == 0.0 {
-        if !(-1.0..1.0).contains(&o.z) {
-            return None;
-        }
-    } else {
-        let (low, high) = ((-1.0 - o.z) / d.z, (1.0 - o.z) / d.z);
-        let error = ray.off.z / d.z.abs();
-        if d.z > 0.0 {
-            span.clip(end(low, error, BOTTOM), end(high, error, TOP));
-        } else {
-            span.clip(end(high, error, TOP), end(low, error, BOTTOM));
-        }
-    }
-    let side = side_span(ray, middle, slope)?;
-    span.clip(end(side.enter.t, side.enter.error, SIDE), end(side.leave.t, side.leave.error, SIDE));
-    span.if_any(ray.seeming, |surface| surface.min(BOTTOM))
+    let (low, high) = ((-o.z - 1.0) / d.z, (-o.z + 1.0) / d.z);
+    let (error, forward) = (zero.same(rays.off.z) / d.z.magnitude(), d.z.is_above(zero));
+    let (bottom, top) = (zero.same(f64::from(BOTTOM)), zero.same(f64::from(TOP)));
+    let enter = still.choose(zero.same(f64::NEG_INFINITY), forward.choose(low, high));
+    let leave = still.choose(zero.same(f64::INFINITY), forward.choose(high, low));
+    spans.clip(
+        Ends { t: rays.t + enter, error, surface: forward.choose(bottom, top) },
+        Ends { t: rays.t + leave, error, surface: forward.choose(top, bottom) },
+    );
+    let side = side_spans(rays, middle, slope);
+    spans.any = spans.any & side.any;
+    spans.clip(
+        Ends { t: rays.t + side.enter.t, ..side.enter },
+        Ends { t: rays.t + side.leave.t, ..side.leave },
+    );
+    spans.if_any(rays.seeming, |surface| surface.smaller(bottom))
 }
 
-/// The line against `x² + y² ≤ ρ²`, `ρ = middle + slope · z ≥ 0`: where it is inside, counted from its point closest
+/// The lines against `x² + y² ≤ ρ²`, `ρ = middle + slope · z ≥ 0`: where each is inside, counted from its point closest
 /// to the unit origin. An end that there is not is infinite.
-fn side_span(ray: &Centred, middle: f64, slope: f64) -> Option<Span> {
-    let (o, d) = (ray.o, ray.d);
-    let (rho, d_rho) = (middle + slope * o.z, slope * d.z);
+#[inline(always)]
+fn side_spans<N: Number>(rays: &Centred<N>, middle: f64, slope: f64) -> Spans<N> {
+    let (o, d) = (rays.o, rays.d);
+    let (rho, d_rho) = (o.z * slope + middle, d.z * slope);
     let a = d.x * d.x + d.y * d.y - d_rho * d_rho;
     let b = o.x * d.x + o.y * d.y - rho * d_rho;
     let c = o.x * o.x + o.y * o.y - rho * rho;
     // b² − ac by Lagrange's identity for the form x² + y² − ρ²: differences of products of nearby lengths,
     // never of their squares.
     let across = d.x * o.y - d.y * o.x;
-    let along = (squared(d.x * rho - d_rho * o.x) + squared(d.y * rho - d_rho * o.y)).sqrt();
-    let discriminant = (along - across.abs()) * (along + across.abs());
+    let along = (squared(d.x * rho - d_rho * o.x) + squared(d.y * rho - d_rho * o.y)).root();
+    let discriminant = (along - across.magnitude()) * (along + across.magnitude());
     // A point moved by `off` changes the form x² + y² − ρ² by (2|x| + off.x)·off.x, and so for y and ρ: near an apex
     // hardly at all, and at the long end of an ellipse by the long axis' off only.
-    let off = DVec3::new(ray.off.x, ray.off.y, slope.abs() * ray.off.z);
-    let form_off = |t: f64, off: DVec3| {
-        let p = DVec3::new(o.x + t * d.x, o.y + t * d.y, rho + t * d_rho);
-        (2.0 * p.abs() + off).dot(off)
+    let off = DVec3::new(rays.off.x, rays.off.y, slope.abs() * rays.off.z);
+    let form_off = |t: N, off: DVec3| {
+        let p = Vector { x: o.x + t * d.x, y: o.y + t * d.y, z: rho + t * d_rho };
+        let p = p.magnitude();
+        Vector { x: p.x * 2.0 + off.x, y: p.y * 2.0 + off.y, z: p.z * 2.0 + off.z }.dot_one(off)
     };
+    let zero = rays.t.same(0.0);
+    let (crosses, steeper) = (a.is_above(zero), a.is_below(zero));
     // A chord is none where the form at its middle, −discriminant / a at t = −b / a, may be 0.
-    let is_chord = || discriminant > 0.0 && discriminant > a * form_off(-b / a, ray.seeming * off);
-    if discriminant.is_nan() || (a > 0.0 && !is_chord()) {
-        return None;
+    let is_chord = discriminant.is_above(zero)
+        & discriminant.is_above(a * form_off(-b / a, rays.seeming * off));
+    let is_number = discriminant.is_equal(discriminant);
+    let met = is_number & (!crosses | is_chord);
+    if !met.any() {
+        return Spans::none(rays.t);
     }
     // A line along or inside the cone always crosses it: below 0 there is rounding only.
-    let root = discriminant.max(0.0).sqrt();
+    let root = discriminant.larger(zero).root();
     // The root of a number that is off by `form_off · |a|` is off by that over twice the root, and never by more than
     // the root of that: all there is to say at the apex, where the root is 0.
-    let error = |t: f64| {
-        let form_off = form_off(t, off);
-        if discriminant < form_off * a.abs() { (form_off / a.abs()).sqrt() } else { 0.5 * form_off / root }
+    let error = |t: N| {
+        let (form_off, a) = (form_off(t, off), a.magnitude());
+        discriminant.is_below(form_off * a).choose((form_off / a).root(), form_off * 0.5 / root)
     };
     // The root whose terms do not cancel, and the other from the product c / a.
-    let q = -(b + root.copysign(b));
-    let (t1, t2) = if q == 0.0 { (0.0, 0.0) } else { (q / a, c / q) };
-    let (low, high) = if t1 < t2 { (t1, t2) } else { (t2, t1) };
-    let end = |t: f64, error: f64| End { t, error, surface: SIDE };
-    if a > 0.0 {
-        Some(Span { enter: end(low, error(low)), leave: end(high, error(high)) })
-    } else if a < 0.0 {
-        // Steeper than the side: one crossing per nappe; only the one with ρ ≥ 0 is the solid's.
-        Some(if d_rho > 0.0 {
-            Span { enter: end(high, error(high)), ..Span::LINE }
-        } else {
-            Span { leave: end(low, error(low)), ..Span::LINE }
-        })
-    } else if b != 0.0 {
-        // Parallel to the side, or to the axis of a cylinder: 2bt + c ≤ 0.
-        let t = -0.5 * c / b;
-        let end = end(t, 0.5 * form_off(t, off) / b.abs());
-        Some(if b > 0.0 { Span { leave: end, ..Span::LINE } } else { Span { enter: end, ..Span::LINE } })
-    } else {
-        (c < 0.0).then_some(Span::LINE)
+    let q = -(b + root.signed_as(b));
+    let none = q.is_equal(zero);
+    let (t1, t2) = (none.choose(zero, q / a), none.choose(zero, c / q));
+    let ordered = t1.is_below(t2);
+    let (low, high) = (ordered.choose(t1, t2), ordered.choose(t2, t1));
+    let surface = rays.t.same(f64::from(SIDE));
+    let low = Ends { t: low, error: error(low), surface };
+    let high = Ends { t: high, error: error(high), surface };
+    if !(met & !crosses).any() {
+        return Spans { enter: low, leave: high, any: met };
+    }
+    // Parallel to the side, or to the axis of a cylinder: 2bt + c ≤ 0.
+    let t = c * -0.5 / b;
+    let once = Ends { t, error: form_off(t, off) * 0.5 / b.magnitude(), surface };
+    let line = Spans::line(rays.t);
+    // Steeper than the side: one crossing per nappe; only the one with ρ ≥ 0 is the solid's.
+    let widens = d_rho.is_above(zero);
+    let slanted = !b.is_equal(zero);
+    let leaves = b.is_above(zero);
+    let enter = Ends::choose(slanted & !leaves, once, line.enter);
+    let leave = Ends::choose(slanted & leaves, once, line.leave);
+    let enter = Ends::choose(steeper, Ends::choose(widens, high, line.enter), enter);
+    let leave = Ends::choose(steeper, Ends::choose(widens, line.leave, low), leave);
+    Spans {
+        enter: Ends::choose(crosses, low, enter),
+        leave: Ends::choose(crosses, high, leave),
+        any: met & (crosses | steeper | slanted | c.is_below(zero)),
     }
 }
 
-fn squared(x: f64) -> f64 {
+#[inline(always)]
+fn squared<N: Number>(x: N) -> N {
     x * x
 }

@@ -3,9 +3,9 @@
 //! A direction component of 0 is decided by `lo ≤ o < hi`, half open, so that 0 · ∞ never arises and of two
 //! boxes that share a face exactly one claims a ray in the plane of that face.
 
-use crate::math::{Bounds, DMat3, DVec3, Placement, Ray, two_sum};
+use crate::math::{Bounds, DMat3, DVec3, Mask, Number, Placement, Rays, two_sum};
 
-use super::span::{End, ROUNDING, Span, WORLD, rounding_at};
+use super::span::{Ends, ROUNDING, Spans, WORLD, rounding_at};
 
 /// A box along the axes of the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,15 +38,19 @@ impl AxisBox {
         Self { bounds, off: SEEN + off }
     }
 
-    /// Where the ray is inside.
-    #[inline]
-    pub fn span(&self, ray: &Ray) -> Option<Span> {
-        let mut span = Span::LINE;
+    /// Where each ray is inside.
+    #[inline(always)]
+    pub fn spans<N: Number>(&self, rays: &Rays<N>) -> Spans<N> {
+        let mut spans = Spans::line(rays.o.x);
         for axis in 0..3 {
-            let (lo, hi) = (self.bounds.lo[axis], self.bounds.hi[axis]);
-            clip_to_slab(&mut span, ray.o[axis], ray.d[axis], STILL, [lo, hi], self.off, axis)?;
+            let slab = Slab { lo: self.bounds.lo[axis], hi: self.bounds.hi[axis], off: self.off, still: STILL };
+            slab.clip(&mut spans, rays.o.along(axis), rays.d.along(axis), axis);
+            if !spans.any.any() {
+                return spans;
+            }
         }
-        span.if_any(self.seeming(), |surface| surface / 2)
+        let spans = spans.if_any(self.seeming(), |axis| axis);
+        with_sides(spans, [rays.d.x, rays.d.y, rays.d.z])
     }
 
     /// How far a point of it may be off its place, by its map and by our own rounding.
@@ -100,16 +104,20 @@ impl SkewBox {
         Self { place, rows, off, displacement, seeming, still }
     }
 
-    /// Where the ray is inside.
-    #[inline]
-    pub fn span(&self, ray: &Ray) -> Option<Span> {
-        let from_center = ray.o - self.place.center;
-        let mut span = Span::LINE;
+    /// Where each ray is inside.
+    #[inline(always)]
+    pub fn spans<N: Number>(&self, rays: &Rays<N>) -> Spans<N> {
+        let from_center = rays.o - self.place.center;
+        let mut spans = Spans::line(rays.o.x);
+        let speeds = self.rows.map(|row| rays.d.dot_one(row));
         for axis in 0..3 {
-            let (o, d) = (self.rows[axis].dot(from_center), self.rows[axis].dot(ray.d));
-            clip_to_slab(&mut span, o, d, self.still[axis], [-1.0, 1.0], self.off[axis], axis)?;
+            let slab = Slab { lo: -1.0, hi: 1.0, off: self.off[axis], still: self.still[axis] };
+            slab.clip(&mut spans, from_center.dot_one(self.rows[axis]), speeds[axis], axis);
+            if !spans.any.any() {
+                return spans;
+            }
         }
-        span.if_any(self.seeming, |surface| surface / 2)
+        with_sides(spans.if_any(self.seeming, |axis| axis), speeds)
     }
 
     /// How far a point of it may be off its place, by its map and by our own rounding.
@@ -171,29 +179,45 @@ fn side(surface: u32) -> f64 {
 /// no closer to the face.
 const STILL: f64 = 4.0 * f64::MIN_POSITIVE;
 
-/// Cuts the span to one slab; `None` where the ray runs beside it. A `d` below `still` runs in the plane of its faces;
-/// `off` is how far `o` and the faces may be off.
-#[inline]
-fn clip_to_slab(
-    span: &mut Span,
-    o: f64,
-    d: f64,
-    still: f64,
-    [lo, hi]: [f64; 2],
+/// A pair of parallel planes.
+#[derive(Clone, Copy, Debug)]
+struct Slab {
+    lo: f64,
+    hi: f64,
+    /// How far a ray's start and the faces may be off.
     off: f64,
-    axis: usize,
-) -> Option<()> {
-    if d.abs() < still {
-        return (lo <= o && o < hi).then_some(());
+    /// A ray slower than this across the slab runs in the plane of its faces.
+    still: f64,
+}
+
+impl Slab {
+    /// Cuts each span to the slab, and leaves none of those rays that run beside it. The axis stands for the surface until
+    /// [`with_sides`] says which of the two it is.
+    #[inline(always)]
+    fn clip<N: Number>(&self, spans: &mut Spans<N>, o: N, d: N, axis: usize) {
+        let still = d.magnitude().is_below(o.same(self.still));
+        let inside = o.is_at_least(o.same(self.lo)) & o.is_below(o.same(self.hi));
+        spans.any = spans.any & (!still | inside);
+        let inverse = d.same(1.0) / d;
+        let (low, high) = ((-o + self.lo) * inverse, (-o + self.hi) * inverse);
+        let forward = d.is_above(d.same(0.0));
+        // A ray along the slab crosses neither face.
+        let enter = still.choose(o.same(f64::NEG_INFINITY), forward.choose(low, high));
+        let leave = still.choose(o.same(f64::INFINITY), forward.choose(high, low));
+        let (error, surface) = (inverse.magnitude() * self.off, o.same(axis as f64));
+        spans.clip(Ends { t: enter, error, surface }, Ends { t: leave, error, surface });
     }
-    let inverse = d.recip();
-    let error = off * inverse.abs();
-    let low = End { t: (lo - o) * inverse, error, surface: 2 * axis as u32 };
-    let high = End { t: (hi - o) * inverse, error, surface: 2 * axis as u32 + 1 };
-    if d > 0.0 {
-        span.clip(low, high);
-    } else {
-        span.clip(high, low);
-    }
-    Some(())
+}
+
+/// Spans whose surfaces are axes, with the faces themselves: a ray comes in by the face that it comes against.
+#[inline(always)]
+fn with_sides<N: Number>(spans: Spans<N>, d: [N; 3]) -> Spans<N> {
+    let face = |end: Ends<N>, comes_in: bool| {
+        let on = |axis: f64| end.surface.is_equal(end.surface.same(axis));
+        let speed = on(0.0).choose(d[0], on(1.0).choose(d[1], d[2]));
+        let (below, above) = if comes_in { (0.0, 1.0) } else { (1.0, 0.0) };
+        let side = speed.is_above(speed.same(0.0)).choose(speed.same(below), speed.same(above));
+        Ends { surface: end.surface + end.surface + side, ..end }
+    };
+    Spans { enter: face(spans.enter, true), leave: face(spans.leave, false), ..spans }
 }

@@ -1,5 +1,7 @@
 //! Where a ray is inside a solid.
 
+use crate::math::{Mask, Number};
+
 /// How far a coordinate of a crossing may be off, as a share of the lengths it was computed from.
 ///
 /// The longest chain of roundings between a ray and a crossing: the ray's start, which was itself computed as a point
@@ -45,32 +47,96 @@ pub struct Span {
     pub leave: End,
 }
 
-impl Span {
-    /// The whole line: the neutral element of [`Span::clip`].
-    pub(super) const LINE: Self = Self {
-        enter: End { t: f64::NEG_INFINITY, error: 0.0, surface: 0 },
-        leave: End { t: f64::INFINITY, error: 0.0, surface: 0 },
-    };
+/// One end of a span of one ray, or of as many as a [`Number`] has.
+#[derive(Clone, Copy, Debug)]
+pub struct Ends<N> {
+    /// As [`End::t`].
+    pub t: N,
+    /// As [`End::error`].
+    pub error: N,
+    /// As [`End::surface`].
+    pub surface: N,
+}
 
-    /// Cuts the span to `enter..leave`. Of two faces crossed at the same `t` the one clipped first stays.
-    pub(super) fn clip(&mut self, enter: End, leave: End) {
-        if enter.t > self.enter.t {
-            self.enter = enter;
-        }
-        if leave.t < self.leave.t {
-            self.leave = leave;
+/// The spans of one ray, or of as many as a [`Number`] has, in one convex primitive.
+#[derive(Clone, Copy, Debug)]
+pub struct Spans<N: Number> {
+    /// Where each comes in.
+    pub enter: Ends<N>,
+    /// Where each goes out.
+    pub leave: Ends<N>,
+    /// Which have a span at all: of the others the numbers mean nothing.
+    pub any: N::Mask,
+}
+
+impl<N: Number> Ends<N> {
+    /// Of each, the one where the answer is yes, the other where it is no.
+    #[inline(always)]
+    pub(super) fn choose(mask: N::Mask, yes: Self, no: Self) -> Self {
+        Self {
+            t: mask.choose(yes.t, no.t),
+            error: mask.choose(yes.error, no.error),
+            surface: mask.choose(yes.surface, no.surface),
         }
     }
 
-    /// The span, unless nothing is left of it. Not-a-number counts as nothing, and so does a chord across an edge that
-    /// rounding could have made: `seeming` is its share of the errors. Between faces of one `pair` every chord counts,
-    /// however thin the plate.
-    pub(super) fn if_any(self, seeming: f64, pair: impl Fn(u32) -> u32) -> Option<Self> {
+    #[inline(always)]
+    fn infinite(like: N, t: f64) -> Self {
+        Self { t: like.same(t), error: like.same(0.0), surface: like.same(0.0) }
+    }
+}
+
+impl<N: Number> Spans<N> {
+    /// The whole line, as often as there are numbers in `like`: the neutral element of [`Spans::clip`].
+    #[inline(always)]
+    pub(super) fn line(like: N) -> Self {
+        Self {
+            enter: Ends::infinite(like, f64::NEG_INFINITY),
+            leave: Ends::infinite(like, f64::INFINITY),
+            any: like.is_equal(like),
+        }
+    }
+
+    /// None at all.
+    #[inline(always)]
+    pub(super) fn none(like: N) -> Self {
+        let line = Self::line(like);
+        Self { any: !line.any, ..line }
+    }
+
+    /// Cuts each span to `enter..leave`. Of two faces crossed at the same `t` the one clipped first stays.
+    #[inline(always)]
+    pub(super) fn clip(&mut self, enter: Ends<N>, leave: Ends<N>) {
+        self.enter = Ends::choose(enter.t.is_above(self.enter.t), enter, self.enter);
+        self.leave = Ends::choose(leave.t.is_below(self.leave.t), leave, self.leave);
+    }
+
+    /// The spans, without those of which nothing is left. Not-a-number counts as nothing, and so does a chord across an
+    /// edge that rounding could have made: `seeming` is its share of the errors. Between faces of one `pair` every chord
+    /// counts, however thin the plate.
+    #[inline(always)]
+    pub(super) fn if_any(mut self, seeming: f64, pair: impl Fn(N) -> N) -> Self {
         let length = self.leave.t - self.enter.t;
-        let any = length > 0.0
-            && (pair(self.enter.surface) == pair(self.leave.surface)
-                || length > seeming * (self.enter.error + self.leave.error));
-        any.then_some(self)
+        let same_pair = pair(self.enter.surface).is_equal(pair(self.leave.surface));
+        let long = length.is_above((self.enter.error + self.leave.error) * seeming);
+        self.any = self.any & length.is_above(length.same(0.0)) & (same_pair | long);
+        self
+    }
+}
+
+impl Ends<f64> {
+    /// The end of one span.
+    #[inline(always)]
+    pub(super) fn one(self) -> End {
+        End { t: self.t, error: self.error, surface: self.surface as u32 }
+    }
+}
+
+impl Spans<f64> {
+    /// The span of one ray.
+    #[inline(always)]
+    pub(super) fn one(self) -> Option<Span> {
+        self.any.then(|| Span { enter: self.enter.one(), leave: self.leave.one() })
     }
 }
 

@@ -1,6 +1,6 @@
 //! Stage 7, SOLID: the first place along a ray where it meets a surface that bounds no solid.
 
-use crate::math::Ray;
+use crate::math::{Ray, Rays};
 use crate::stage::{Meter, Probe};
 
 use super::crossing::{Crossing, at_start};
@@ -37,16 +37,18 @@ pub fn first_of_surface(
             end.filter(|end| !at_start(end)).map(|end| crossing(end, patch.face.normal().dot(ray.d) < 0.0))
         }
         Form::Tube(tube) => {
-            let found = tube.crossings(ray);
+            let found = tube.crossings(&Rays::from(ray));
+            let (enter, leave) =
+                (found.enters.then(|| found.enter.one()), found.leaves.then(|| found.leave.one()));
             let ahead = |end: &End| !at_start(end);
             match here {
                 None => {
-                    let enter = found.enter.filter(ahead).map(|end| crossing(end, true));
-                    enter.or_else(|| found.leave.filter(ahead).map(|end| crossing(end, false)))
+                    let enter = enter.filter(ahead).map(|end| crossing(end, true));
+                    enter.or_else(|| leave.filter(ahead).map(|end| crossing(end, false)))
                 }
                 // The start is where it went in: what is left is where it comes out, if that is another place.
                 Some(departure) if departure.inward && !found.one_way => {
-                    found.leave.filter(|end| end.t > 0.0).map(|end| crossing(end, false))
+                    leave.filter(|end| end.t > 0.0).map(|end| crossing(end, false))
                 }
                 // Nor is the side of a convex solid by a ray to its outside.
                 Some(_) => None,

@@ -1,6 +1,6 @@
 //! Open tubes: the sides of cylinders, cones and frustums, seen from both sides.
 
-use crate::math::{Bounds, DVec3, Placement, Ray};
+use crate::math::{Bounds, DVec3, Number, Placement, Rays};
 
 use super::round::{Round, SIDE, SideCrossings};
 
@@ -14,10 +14,10 @@ impl Tube {
         Self(Round::frustum(place, bottom, top, map_error))
     }
 
-    /// Where the line of the ray goes in through the tube's wall, and where it comes out.
-    #[inline]
-    pub fn crossings(&self, ray: &Ray) -> SideCrossings {
-        self.0.side_crossings(ray)
+    /// Where the line of each ray goes in through the tube's wall, and where it comes out.
+    #[inline(always)]
+    pub fn crossings<N: Number>(&self, rays: &Rays<N>) -> SideCrossings<N> {
+        self.0.side_crossings(rays)
     }
 
     /// The normal at a point of the tube, away from its axis, of length 1.

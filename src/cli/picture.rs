@@ -91,6 +91,8 @@ pub enum StructureName {
     Lattice,
     /// Lattices within lattices
     Tree,
+    /// Boxes around boxes
+    Boxes,
 }
 
 impl From<StructureName> for StructureChoice {
@@ -100,6 +102,7 @@ impl From<StructureName> for StructureChoice {
             StructureName::None => Self::None,
             StructureName::Lattice => Self::Lattice,
             StructureName::Tree => Self::Tree,
+            StructureName::Boxes => Self::Boxes,
         }
     }
 }

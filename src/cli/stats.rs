@@ -52,6 +52,7 @@ pub fn figures(frame: &Frame, built: &Built) -> Map<String, Value> {
         Space::Whole => {}
         Space::Lattice(cells) => put("lattice_cells", json!(cells)),
         Space::Tree(nodes) => put("tree_nodes", json!(nodes)),
+        Space::Boxes(nodes) => put("box_nodes", json!(nodes)),
     }
     put("objects", json!(frame.objects));
     put("primitives", json!(frame.primitives));

@@ -17,8 +17,8 @@ impl Studio {
         let built = match Space::of(&structure) {
             Space::Whole => None,
             Space::Lattice([x, y, z]) => Some(format!("{x} × {y} × {z} cells")),
-            Space::Tree(1) => Some("1 node".to_owned()),
-            Space::Tree(nodes) => Some(format!("{nodes} nodes")),
+            Space::Tree(1) | Space::Boxes(1) => Some("1 node".to_owned()),
+            Space::Tree(nodes) | Space::Boxes(nodes) => Some(format!("{nodes} nodes")),
         };
         for stage in stages.iter_mut().filter(|s| s.stage == Stage::Lattice) {
             if let Some(over) = &over_budget {

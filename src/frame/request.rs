@@ -84,6 +84,8 @@ pub enum Space {
     Lattice([usize; 3]),
     /// By lattices within lattices, this many.
     Tree(usize),
+    /// By boxes around boxes, this many nodes of eight.
+    Boxes(usize),
 }
 
 impl Space {
@@ -93,6 +95,7 @@ impl Space {
             Structure::None => Self::Whole,
             Structure::Lattice(lattice, _) => Self::Lattice(lattice.planes().dimensions()),
             Structure::Tree(tree, _) => Self::Tree(tree.nodes()),
+            Structure::Boxes(boxes, _) => Self::Boxes(boxes.nodes().len()),
         }
     }
 
@@ -102,6 +105,7 @@ impl Space {
             Self::Whole => "none",
             Self::Lattice(_) => "lattice",
             Self::Tree(_) => "tree",
+            Self::Boxes(_) => "boxes",
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
-use crate::lattice::{Lattice, OverBudget, Structure, SubLattices, Tree};
+use crate::lattice::{Boxes, Lattice, OverBudget, Structure, SubLattices, Tree};
 use crate::math::DVec3;
 use crate::plan::StructureChoice;
 use crate::scene::{Camera, Scene};
@@ -19,6 +19,7 @@ pub struct Studio {
     assembling: Duration,
     lattice: OnceLock<(Result<Lattice, OverBudget>, Duration)>,
     tree: OnceLock<(Tree, Duration)>,
+    boxes: OnceLock<(Boxes, Duration)>,
     subs: OnceLock<(SubLattices, Duration)>,
     /// The workers of the last picture, kept while the number of threads stays the same.
     workers: Mutex<Option<Workers>>,
@@ -31,7 +32,7 @@ type Workers = (usize, Arc<rayon::ThreadPool>);
 pub struct Built {
     /// Putting the solids together.
     pub assembling: Duration,
-    /// Building lattice, tree and sub-lattices, as far as they were wanted.
+    /// Building lattice, tree, boxes and sub-lattices, as far as they were wanted.
     pub cutting: Duration,
 }
 
@@ -47,6 +48,7 @@ impl Studio {
             assembling,
             lattice: OnceLock::new(),
             tree: OnceLock::new(),
+            boxes: OnceLock::new(),
             subs: OnceLock::new(),
             workers: Mutex::new(None),
         })
@@ -62,6 +64,7 @@ impl Studio {
         let times = [
             self.lattice.get().map(|(_, time)| *time),
             self.tree.get().map(|(_, time)| *time),
+            self.boxes.get().map(|(_, time)| *time),
             self.subs.get().map(|(_, time)| *time),
         ];
         Built { assembling: self.assembling, cutting: times.into_iter().flatten().sum() }
@@ -93,14 +96,21 @@ impl Studio {
         &self.tree.get_or_init(|| timed(|| Tree::new(&self.assembly))).0
     }
 
+    /// The boxes around boxes, built now if they were not before.
+    pub fn boxes(&self) -> &Boxes {
+        &self.boxes.get_or_init(|| timed(|| Boxes::new(&self.assembly))).0
+    }
+
     /// How space is cut for a plan, and why that is not the lattice that the plan wants.
     pub(super) fn structure(&self, choice: StructureChoice) -> (Structure<'_>, Option<OverBudget>) {
         if choice == StructureChoice::None {
             return (Structure::None, None);
         }
         let subs = &self.subs.get_or_init(|| timed(|| SubLattices::new(&self.assembly))).0;
-        if choice == StructureChoice::Tree {
-            return (Structure::Tree(self.tree(), subs), None);
+        match choice {
+            StructureChoice::Tree => return (Structure::Tree(self.tree(), subs), None),
+            StructureChoice::Boxes => return (Structure::Boxes(self.boxes(), subs), None),
+            _ => {}
         }
         match self.lattice() {
             Ok(lattice) => (Structure::Lattice(lattice, subs), None),

@@ -5,12 +5,14 @@
 //! → object pointers) is [`Lattice::objects_in`]; the object list is [`crate::solid::Assembly::objects`], each
 //! composite one with its [`SubLattice`]; the sub-object list is [`crate::solid::Assembly::primitives`].
 
+mod boxes;
 mod clip;
 mod planes;
 mod structure;
 mod sub;
 mod tree;
 
+pub use boxes::{Boxes, Child, Node, WIDE};
 pub use clip::{Outcode, entry};
 pub use planes::{Planes, SLACK, Step, slack};
 pub use structure::Structure;
@@ -83,19 +85,30 @@ impl Lattice {
     }
 
     /// Calls `visit` with the objects of each cell that the ray passes between `from` and `to`, in order, until it
-    /// breaks.
+    /// breaks. `visit` returns how far the ray still matters: cells that begin beyond that are not visited.
     pub fn walk<B>(
         &self,
         ray: &Ray,
         from: f64,
         to: f64,
         cells_visited: &mut u64,
-        mut visit: impl FnMut(&[u32], Step) -> ControlFlow<B>,
+        mut visit: impl FnMut(&[u32], Step) -> ControlFlow<B, f64>,
     ) -> Option<B> {
-        self.planes.walk(ray, from, to, |step| {
+        let mut farthest = to;
+        let found = self.planes.walk(ray, from, to, |step| {
+            if step.from > farthest {
+                return ControlFlow::Break(None);
+            }
             *cells_visited += 1;
-            visit(self.objects_in(step.cell), step)
-        })
+            match visit(self.objects_in(step.cell), step) {
+                ControlFlow::Break(value) => ControlFlow::Break(Some(value)),
+                ControlFlow::Continue(still) => {
+                    farthest = still;
+                    ControlFlow::Continue(())
+                }
+            }
+        });
+        found.flatten()
     }
 }
 

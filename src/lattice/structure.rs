@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use crate::math::Ray;
 
-use super::{Lattice, Step, SubLattice, SubLattices, Tree};
+use super::{Boxes, Lattice, Step, SubLattice, SubLattices, Tree};
 
 /// How the space of a picture is cut. Every structure leads to the same hits.
 #[derive(Clone, Copy, Debug)]
@@ -15,23 +15,27 @@ pub enum Structure<'a> {
     Lattice(&'a Lattice, &'a SubLattices),
     /// Lattices within lattices, with sub-lattices in composite objects.
     Tree(&'a Tree, &'a SubLattices),
+    /// Boxes around boxes, with sub-lattices in composite objects.
+    Boxes(&'a Boxes, &'a SubLattices),
 }
 
 impl<'a> Structure<'a> {
-    /// Calls `visit` with the objects of each cell that the ray passes between `from` and `to`, in order, until it
-    /// breaks. Without a structure there are no cells.
+    /// Calls `visit` with the objects of each cell that the ray passes between `from` and `to` until it breaks: in
+    /// order where cells are apart, nearly so where boxes overlap. `visit` returns how far the ray still matters: cells
+    /// that begin beyond that are not visited. Without a structure there are no cells.
     pub fn walk<B>(
         &self,
         ray: &Ray,
         from: f64,
         to: f64,
         cells_visited: &mut u64,
-        visit: impl FnMut(&[u32], Step) -> ControlFlow<B>,
+        visit: impl FnMut(&[u32], Step) -> ControlFlow<B, f64>,
     ) -> Option<B> {
         match self {
             Self::None => None,
             Self::Lattice(lattice, _) => lattice.walk(ray, from, to, cells_visited, visit),
             Self::Tree(tree, _) => tree.walk(ray, from, to, cells_visited, visit),
+            Self::Boxes(boxes, _) => boxes.walk(ray, from, to, cells_visited, visit),
         }
     }
 
@@ -40,7 +44,7 @@ impl<'a> Structure<'a> {
     pub fn sub(&self, object: u32) -> Option<&'a SubLattice> {
         match self {
             Self::None => None,
-            Self::Lattice(_, subs) | Self::Tree(_, subs) => subs.of(object),
+            Self::Lattice(_, subs) | Self::Tree(_, subs) | Self::Boxes(_, subs) => subs.of(object),
         }
     }
 
@@ -50,6 +54,7 @@ impl<'a> Structure<'a> {
             Self::None => "none",
             Self::Lattice(..) => "lattice",
             Self::Tree(..) => "tree",
+            Self::Boxes(..) => "boxes",
         }
     }
 }

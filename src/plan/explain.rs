@@ -145,6 +145,7 @@ impl Plan {
             }
             (Cut::Asked, StructureChoice::None) => "no structure is wanted".into(),
             (Cut::Asked, StructureChoice::Tree) => format!("{objects}, a tree is wanted"),
+            (Cut::Asked, StructureChoice::Boxes) => format!("{objects}, boxes are wanted"),
             (Cut::Asked, _) => format!("{objects}, a lattice is wanted"),
         }
     }

@@ -81,4 +81,6 @@ pub enum StructureChoice {
     Lattice,
     /// Lattices within lattices.
     Tree,
+    /// Boxes around boxes.
+    Boxes,
 }

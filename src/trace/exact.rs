@@ -168,17 +168,14 @@ impl<'a> Exact<'a> {
         }
         meter.at(Stage::Cell);
         let mut visited = 0;
-        self.structure.walk(ray, entry, f64::INFINITY, &mut visited, |objects, step| {
-            if step.from > memory.best + self.slack {
-                return ControlFlow::Break(());
-            }
+        self.structure.walk(ray, entry, f64::INFINITY, &mut visited, |objects, _| -> ControlFlow<(), f64> {
             for &object in objects {
                 if memory.first_time(object) {
                     test(object, memory, meter);
                     meter.at(Stage::Cell);
                 }
             }
-            ControlFlow::Continue(())
+            ControlFlow::Continue(memory.best + self.slack)
         });
         meter.counts.cells_visited += visited;
         memory.chosen(ray)
@@ -246,7 +243,7 @@ impl Engine for Exact<'_> {
                     }
                 }
             }
-            ControlFlow::Continue(())
+            ControlFlow::Continue(distance)
         });
         meter.counts.cells_visited += visited;
         found.is_some()

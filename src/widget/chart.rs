@@ -91,7 +91,7 @@ impl FlowChart {
             Stage::Objects => counted(self.objects as u64),
             Stage::Lattice => match self.space {
                 Space::Whole => Line::idle(),
-                Space::Tree(nodes) => {
+                Space::Tree(nodes) | Space::Boxes(nodes) => {
                     let number = figures::count(nodes as u64);
                     let named = format!("{number} node{}", if nodes == 1 { "" } else { "s" });
                     let fits = named.chars().count() <= COUNT_COLUMNS.into();

@@ -19,21 +19,24 @@ struct Walk<'a, 'v, V> {
     inverse: DVec3,
     visit: &'v mut V,
     cells_visited: &'v mut u64,
+    /// How far the ray still matters.
+    farthest: f64,
 }
 
 impl Tree {
     /// Calls `visit` with the objects of each full cell that the ray passes between `from` and `to`, and of each
-    /// node when it is entered, in order, until it breaks.
+    /// node when it is entered, in order, until it breaks. `visit` returns how far the ray still matters: cells that
+    /// begin beyond that are not visited.
     pub fn walk<B>(
         &self,
         ray: &Ray,
         from: f64,
         to: f64,
         cells_visited: &mut u64,
-        mut visit: impl FnMut(&[u32], Step) -> ControlFlow<B>,
+        mut visit: impl FnMut(&[u32], Step) -> ControlFlow<B, f64>,
     ) -> Option<B> {
         let inverse = ray.d.recip();
-        let mut walk = Walk { tree: self, ray, inverse, visit: &mut visit, cells_visited };
+        let mut walk = Walk { tree: self, ray, inverse, visit: &mut visit, cells_visited, farthest: to };
         // The root is the first node, for it is made before its cells.
         match walk.node(&self.nodes[0], from, to) {
             ControlFlow::Break(value) => Some(value),
@@ -42,11 +45,11 @@ impl Tree {
     }
 }
 
-impl<B, V: FnMut(&[u32], Step) -> ControlFlow<B>> Walk<'_, '_, V> {
+impl<B, V: FnMut(&[u32], Step) -> ControlFlow<B, f64>> Walk<'_, '_, V> {
     fn node(&mut self, node: &Node, from: f64, to: f64) -> ControlFlow<B> {
         *self.cells_visited += 1;
         if node.own.count > 0 {
-            (self.visit)(self.tree.list(node.own), Step { cell: 0, from, to })?;
+            self.farthest = (self.visit)(self.tree.list(node.own), Step { cell: 0, from, to })?;
         }
         if node.full == 0 {
             return ControlFlow::Continue(());
@@ -72,12 +75,16 @@ impl<B, V: FnMut(&[u32], Step) -> ControlFlow<B>> Walk<'_, '_, V> {
             };
             // Rounding may put the next plane a little behind the start.
             let end = next[axis].max(now).min(to);
+            if now > self.farthest {
+                return ControlFlow::Continue(());
+            }
             if node.full >> bit & 1 == 1 {
                 let before = (node.full & ((1 << bit) - 1)).count_ones();
                 match self.tree.cells[(node.first_cell + before) as usize] {
                     Cell::Objects(list) => {
                         *self.cells_visited += 1;
-                        (self.visit)(self.tree.list(list), Step { cell: bit as usize, from: now, to: end })?;
+                        let step = Step { cell: bit as usize, from: now, to: end };
+                        self.farthest = (self.visit)(self.tree.list(list), step)?;
                     }
                     Cell::Node(index) => self.node(&self.tree.nodes[index as usize], now, end)?,
                 }

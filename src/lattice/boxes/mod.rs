@@ -1,0 +1,137 @@
+//! A hierarchy of boxes, eight side by side: what single rays and beams of rays ask at once.
+//!
+//! Lattice and tree cut space, and point to an object from every cell that it reaches into. Here the objects are
+//! parted instead: each has one place, and boxes may overlap. So nothing is tested twice, memory is known beforehand,
+//! and a node is asked by a few operations on eight numbers each.
+
+mod build;
+mod walk;
+
+use fearless_simd::Level;
+
+use crate::math::{Bounds, DVec3};
+use crate::solid::Assembly;
+
+use super::planes::slack;
+
+/// Children of a node: as many as the widest registers have numbers, of 64 bits each.
+pub const WIDE: usize = 8;
+
+/// Eight boxes side by side, by axis, so that one operation asks all of them. The first [`Node::len`] slots are
+/// filled, ascending along the longest axis of the node; an empty one has `lo = ∞` and `hi = −∞`, which no ray and no
+/// beam meets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(64))]
+pub struct Node {
+    /// The smallest coordinates along x, y and z.
+    pub lo: [[f64; WIDE]; 3],
+    /// The largest coordinates along x, y and z.
+    pub hi: [[f64; WIDE]; 3],
+    children: [u32; WIDE],
+    /// Bit `slot` is set where the child is a node.
+    inner: u8,
+    len: u8,
+}
+
+/// What stands in a slot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Child {
+    /// A node, by its index in [`Boxes::nodes`].
+    Node(u32),
+    /// An object, by its index in the assembly.
+    Object(u32),
+}
+
+impl Node {
+    const EMPTY: Self = Self {
+        lo: [[f64::INFINITY; WIDE]; 3],
+        hi: [[f64::NEG_INFINITY; WIDE]; 3],
+        children: [0; WIDE],
+        inner: 0,
+        len: 0,
+    };
+
+    /// How many slots are filled.
+    #[inline]
+    pub fn len(&self) -> usize {
+        usize::from(self.len)
+    }
+
+    /// Whether no slot is filled: only the root of no objects.
+    #[inline]
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// What stands in a slot, `slot < WIDE`; `None` where it is empty.
+    #[inline]
+    pub fn child(&self, slot: usize) -> Option<Child> {
+        (slot < self.len()).then(|| self.filled(slot))
+    }
+
+    /// What stands in a filled slot.
+    #[inline]
+    fn filled(&self, slot: usize) -> Child {
+        let index = self.children[slot];
+        if self.inner >> slot & 1 == 1 { Child::Node(index) } else { Child::Object(index) }
+    }
+
+    /// The box of a slot.
+    pub fn bounds(&self, slot: usize) -> Bounds {
+        let of = |sides: &[[f64; WIDE]; 3]| DVec3::from_array([0, 1, 2].map(|axis| sides[axis][slot]));
+        Bounds::new(of(&self.lo), of(&self.hi))
+    }
+
+    fn push(&mut self, bounds: &Bounds, child: Child) {
+        let slot = self.len();
+        for axis in 0..3 {
+            self.lo[axis][slot] = bounds.lo[axis];
+            self.hi[axis][slot] = bounds.hi[axis];
+        }
+        match child {
+            Child::Object(index) => self.children[slot] = index,
+            Child::Node(index) => {
+                self.children[slot] = index;
+                self.inner |= 1 << slot;
+            }
+        }
+        self.len += 1;
+    }
+}
+
+/// Boxes around boxes over a whole scene.
+#[derive(Clone, Debug)]
+pub struct Boxes {
+    /// The root is the first.
+    nodes: Vec<Node>,
+    /// What the processor can do.
+    level: Level,
+}
+
+impl Boxes {
+    /// Parts the objects of an assembly. Their boxes are padded by [`slack`], so that no ray that meets an object by
+    /// its own computation misses the object's box by rounding.
+    pub fn new(assembly: &Assembly) -> Self {
+        let margin = DVec3::splat(slack(assembly.off));
+        Self::over(assembly.objects.iter().map(|object| object.bounds.padded(margin)))
+    }
+
+    /// The hierarchy over these boxes, numbered as they come.
+    fn over(boxes: impl Iterator<Item = Bounds>) -> Self {
+        Self { nodes: build::built(boxes), level: Level::new() }
+    }
+
+    /// All nodes. The root is the first; where there are no objects it is empty.
+    #[inline]
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
+    /// Memory held, in bytes.
+    pub fn memory(&self) -> usize {
+        size_of_val(&self.nodes[..])
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -7,9 +7,10 @@ use rayon::prelude::*;
 use crate::glyph::{self, Palette};
 use crate::math::{Bounds, DVec3, Grid, Ray, Size};
 use crate::plan::{Channels, Options, Plan};
-use crate::shade::{Channel, Memory, Shader, View};
+use crate::lattice::Structure;
+use crate::shade::{Channel, Memory, Shader, Sight, TileShading, View};
 use crate::stage::{Counts, Meter, Probe, Silent, Stage, StageTimes, Stopwatch};
-use crate::trace::Exact;
+use crate::trace::{Exact, Fast};
 use crate::view::{Lens, Picture, TILE, Tile, settled, tiles};
 
 use super::{Frame, Request, Space, Studio};
@@ -28,11 +29,20 @@ impl Studio {
         let workers = self.workers(request.options.threads);
         let cut = || self.structure(plan.structure);
         let (structure, over_budget) = workers.as_ref().map_or_else(cut, |pool| pool.install(cut));
-        let engine = Exact::new(&self.assembly, structure);
         let tracing = Instant::now();
-        let work = || match plan.channels {
-            Channels::Gray => self.trace::<f64>(&engine, &plan, &lens, request.dots),
-            Channels::Three => self.trace::<DVec3>(&engine, &plan, &lens, request.dots),
+        let work = || {
+            if let Structure::Boxes(boxes, subs) = structure {
+                let engine = Fast::new(&self.assembly, boxes, subs);
+                return match plan.channels {
+                    Channels::Gray => self.trace_tiles::<f64>(&engine, &plan, &lens, request.dots),
+                    Channels::Three => self.trace_tiles::<DVec3>(&engine, &plan, &lens, request.dots),
+                };
+            }
+            let engine = Exact::new(&self.assembly, structure);
+            match plan.channels {
+                Channels::Gray => self.trace::<f64>(&engine, &plan, &lens, request.dots),
+                Channels::Three => self.trace::<DVec3>(&engine, &plan, &lens, request.dots),
+            }
         };
         let traced = workers.as_ref().map_or_else(work, |pool| pool.install(work));
         let trace = tracing.elapsed();
@@ -102,6 +112,106 @@ impl Studio {
             )
             .collect();
         Traced::gathered(dots, &tiles, &drawn)
+    }
+}
+
+/// The dots of a bundle: eight by eight.
+const BLOCK: u32 = 8;
+
+impl Studio {
+    fn trace_tiles<C: Channel>(&self, engine: &Fast, plan: &Plan, lens: &Lens, dots: Size) -> Traced {
+        let shader = Shader::<_, C>::new(self.scene(), &self.assembly, plan, engine);
+        let way = farthest(self.assembly.datum.inward_near(lens.eye), &self.assembly.limit);
+        let sampler = TileSampler { studio: self, engine, shader: &shader, lens, way, samples: plan.samples };
+        let tiles = tiles(dots);
+        let drawn: Vec<Drawn> = tiles
+            .par_iter()
+            .map_init(
+                || (shader.memory(), TileShading::default(), Sight::default()),
+                |memory, tile| {
+                    if tile.number % TIMED == 0 {
+                        let mut meter = Meter::new(Stopwatch::start(Stage::Ray));
+                        let dots = sampler.tile(tile, memory, &mut meter);
+                        Drawn { dots, counts: meter.counts, times: Some(meter.probe.stop()) }
+                    } else {
+                        let mut meter = Meter::new(Silent);
+                        let dots = sampler.tile(tile, memory, &mut meter);
+                        Drawn { dots, counts: meter.counts, times: None }
+                    }
+                },
+            )
+            .collect();
+        Traced::gathered(dots, &tiles, &drawn)
+    }
+}
+
+struct TileSampler<'a, 'b, C> {
+    studio: &'a Studio,
+    engine: &'a Fast<'b>,
+    shader: &'a Shader<'b, Fast<'b>, C>,
+    lens: &'a Lens,
+    way: f64,
+    samples: u32,
+}
+
+impl<'b, C: Channel> TileSampler<'_, 'b, C> {
+    fn tile(
+        &self,
+        tile: &Tile,
+        (memory, shading, sight): &mut (Memory<Fast<'b>>, TileShading, Sight),
+        meter: &mut Meter<impl Probe>,
+    ) -> Vec<Dot> {
+        let assembly = &self.studio.assembly;
+        let size = tile.size;
+        let nothing = Dot { light: 0.0, color: DVec3::ZERO, depth: f64::INFINITY, normal: DVec3::ZERO, object: 0 };
+        let mut dots = vec![nothing; size.area()];
+        let across = size.width.div_ceil(BLOCK);
+        let blocks = across * size.height.div_ceil(BLOCK);
+        let mut sums = vec![C::DARK; if self.samples > 1 { size.area() } else { 0 }];
+        let step = 1.0 / f64::from(self.samples);
+        let inside = |k: u32| (f64::from(k) + 0.5) * step - 0.5;
+        let offsets = (0..self.samples).flat_map(|b| (0..self.samples).map(move |a| (a, b)));
+        let offsets = offsets.map(|(a, b)| Some((inside(a), inside(b)))).filter(|_| self.samples > 1);
+        for offset in std::iter::once(None).chain(offsets) {
+            meter.at(Stage::Ray);
+            sight.clear(blocks as usize);
+            let (dx, dy) = offset.unwrap_or((0.0, 0.0));
+            for j in 0..size.height {
+                for i in 0..size.width {
+                    let (x, y) = (f64::from(tile.corner[0] + i) + 0.5 + dx, f64::from(tile.corner[1] + j) + 0.5 + dy);
+                    let ray = assembly.ray(&self.lens.ray(x, y));
+                    let ray = Ray::new(ray.o, settled(ray.d, self.way));
+                    let block = (j / BLOCK * across + i / BLOCK) as usize;
+                    let lane = (j % BLOCK * BLOCK + i % BLOCK) as usize;
+                    sight.set(block, lane, self.engine.nearer(&ray));
+                }
+            }
+            let eye = assembly.datum.inward_near(self.lens.eye);
+            self.shader.tile(eye, sight, shading, memory, meter, |block, lane, view| {
+                let (i, j) = (block as u32 % across * BLOCK + lane as u32 % BLOCK, block as u32 / across * BLOCK + lane as u32 / BLOCK);
+                let place = (j * size.width + i) as usize;
+                if offset.is_some() {
+                    sums[place] = sums[place] + view.light;
+                    return;
+                }
+                let (light, color) = (view.light.gray(), view.light.rgb());
+                dots[place] = view.seen.map_or(
+                    Dot { light, color, ..nothing },
+                    |seen| Dot {
+                        light,
+                        color,
+                        depth: (seen.t * assembly.datum.unit).min(f64::MAX),
+                        normal: seen.normal,
+                        object: assembly.objects[seen.object as usize].number + 1,
+                    },
+                );
+            });
+        }
+        for (dot, sum) in dots.iter_mut().zip(sums) {
+            let light = sum * (step * step);
+            (dot.light, dot.color) = (light.gray(), light.rgb());
+        }
+        dots
     }
 }
 

@@ -5,6 +5,7 @@
 //! → object pointers) is [`Lattice::objects_in`]; the object list is [`crate::solid::Assembly::objects`], each
 //! composite one with its [`SubLattice`]; the sub-object list is [`crate::solid::Assembly::primitives`].
 
+mod beam;
 mod boxes;
 mod clip;
 mod planes;
@@ -12,6 +13,7 @@ mod structure;
 mod sub;
 mod tree;
 
+pub use beam::{Beam, Met, Spread, WAY};
 pub use boxes::{Boxes, Child, Node, WIDE};
 pub use clip::{Outcode, entry};
 pub use planes::{Planes, SLACK, Step, slack};

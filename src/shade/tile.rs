@@ -7,7 +7,7 @@
 use crate::math::{BUNDLE, Bundle, Column, Columns, DVec3, Ray};
 use crate::solid::{Crossing, Departures};
 use crate::stage::{Meter, Probe, Stage};
-use crate::trace::{Engine, Fast, Hit, Nearest, Shaft, TileMemory};
+use crate::trace::{Fast, Hit, Nearest, Shaft, TileMemory};
 
 use super::channel::Channel;
 use super::path::Sent;
@@ -52,7 +52,7 @@ impl Sight {
     }
 }
 
-impl<C: Channel> Shader<'_, Fast<'_>, C> {
+impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
     /// What the rays of a tile see; `eye` is where they all start, and `put` is called for each live one with its
     /// bundle and its place in it.
     pub fn tile(
@@ -60,7 +60,7 @@ impl<C: Channel> Shader<'_, Fast<'_>, C> {
         eye: DVec3,
         sight: &mut Sight,
         tile: &mut TileShading,
-        memory: &mut Memory<Fast<'_>>,
+        memory: &mut Memory<Fast<'e>>,
         meter: &mut Meter<impl Probe>,
         mut put: impl FnMut(usize, usize, View<C>),
     ) {
@@ -150,7 +150,7 @@ impl<C: Channel> Shader<'_, Fast<'_>, C> {
         bundles: &[Bundle],
         hits: &[u64],
         tile: &mut TileShading,
-        memory: &mut Memory<Fast<'_>>,
+        memory: &mut Memory<Fast<'e>>,
         sums: &mut [[C; BUNDLE]],
         meter: &mut Meter<impl Probe>,
     ) {
@@ -201,7 +201,8 @@ impl<C: Channel> Shader<'_, Fast<'_>, C> {
                 if self.shadows {
                     let blocked = shaft.blocked & bit != 0;
                     if shaft.unsure & bit != 0 || (blocked && self.glass) {
-                        let departure = tile.departures[k].get(lane);
+                        let met = met(tile, k, lane, [0.0; 2]);
+                        let departure = self.departure(&met.hit, met.p, met.normal);
                         let (ray, distance) = (shaft.rays.ray(lane), shaft.distance.0[lane]);
                         visible = self.visibility(&ray, departure, distance, memory, meter);
                     } else {
@@ -227,7 +228,7 @@ impl<C: Channel> Shader<'_, Fast<'_>, C> {
         ray: &Ray,
         met: &Met,
         own: C,
-        memory: &mut Memory<Fast<'_>>,
+        memory: &mut Memory<Fast<'e>>,
         meter: &mut Meter<impl Probe>,
     ) -> C {
         let inside = memory.media.start(&self.around_eye);

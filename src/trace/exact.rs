@@ -255,7 +255,7 @@ impl Engine for Exact<'_> {
 /// Over a long way the product is larger than the sum, and each coordinate takes one rounding of the sum alone: a
 /// fused multiply-add, in software where the processor has none, gives the same bits everywhere. The length of the way
 /// is itself rounded, which moves the start along the ray; what is left of that is gone over again.
-fn moved_nearer(ray: &Ray) -> (Ray, [f64; 2]) {
+pub(super) fn moved_nearer(ray: &Ray) -> (Ray, [f64; 2]) {
     let far = -ray.o.dot(ray.d) - LIMIT;
     if far.is_nan() || far <= FAR {
         return (*ray, [0.0; 2]);

@@ -63,6 +63,12 @@ impl Node {
         self.len == 0
     }
 
+    /// A bit for each slot in which a node stands.
+    #[inline]
+    pub fn inner(&self) -> u8 {
+        self.inner
+    }
+
     /// What stands in a slot, `slot < WIDE`; `None` where it is empty.
     #[inline]
     pub fn child(&self, slot: usize) -> Option<Child> {

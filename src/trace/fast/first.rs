@@ -37,7 +37,7 @@ impl Fast<'_> {
         memory: &mut TileMemory,
     ) {
         let whole = Beam::around(simd, bundles.iter().map(|bundle| (bundle, None)), Spread::Apart);
-        let TileMemory { beams, far, stack, counts, .. } = memory;
+        let TileMemory { beams, far, stack, .. } = memory;
         beams.clear();
         beams.extend(bundles.iter().map(|bundle| {
             Beam::around(simd, std::iter::once((bundle, None)), Spread::Apart)

@@ -20,6 +20,13 @@ pub struct TileMemory {
     pub(super) counts: Counts,
 }
 
+impl TileMemory {
+    /// What was counted since it was last taken.
+    pub fn counts_mut(&mut self) -> &mut Counts {
+        &mut self.counts
+    }
+}
+
 impl Default for TileMemory {
     fn default() -> Self {
         Self {

@@ -4,7 +4,7 @@
 //! walks the boxes as the frustum of the rays from the eye does; which of two things stands in the way does not matter,
 //! and a ray that is blocked asks no more.
 
-use fearless_simd::{Simd, SimdBase, f64x8, mask64x8};
+use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 
 use crate::lattice::{Beam, Child, SLACK, Spread};
 use crate::math::{Bundle, Column, DVec3, LANES, Mask, Number, ROWS, Rays};

@@ -5,9 +5,9 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use crate::glyph::{self, Palette};
+use crate::lattice::Structure;
 use crate::math::{Bounds, DVec3, Grid, Ray, Size};
 use crate::plan::{Channels, Options, Plan};
-use crate::lattice::Structure;
 use crate::shade::{Channel, Memory, Shader, Sight, TileShading, View};
 use crate::stage::{Counts, Meter, Probe, Silent, Stage, StageTimes, Stopwatch};
 use crate::trace::{Exact, Fast};
@@ -163,7 +163,8 @@ impl<'b, C: Channel> TileSampler<'_, 'b, C> {
     ) -> Vec<Dot> {
         let assembly = &self.studio.assembly;
         let size = tile.size;
-        let nothing = Dot { light: 0.0, color: DVec3::ZERO, depth: f64::INFINITY, normal: DVec3::ZERO, object: 0 };
+        let nothing =
+            Dot { light: 0.0, color: DVec3::ZERO, depth: f64::INFINITY, normal: DVec3::ZERO, object: 0 };
         let mut dots = vec![nothing; size.area()];
         let across = size.width.div_ceil(BLOCK);
         let blocks = across * size.height.div_ceil(BLOCK);
@@ -178,7 +179,8 @@ impl<'b, C: Channel> TileSampler<'_, 'b, C> {
             let (dx, dy) = offset.unwrap_or((0.0, 0.0));
             for j in 0..size.height {
                 for i in 0..size.width {
-                    let (x, y) = (f64::from(tile.corner[0] + i) + 0.5 + dx, f64::from(tile.corner[1] + j) + 0.5 + dy);
+                    let (x, y) =
+                        (f64::from(tile.corner[0] + i) + 0.5 + dx, f64::from(tile.corner[1] + j) + 0.5 + dy);
                     let ray = assembly.ray(&self.lens.ray(x, y));
                     let ray = Ray::new(ray.o, settled(ray.d, self.way));
                     let block = (j / BLOCK * across + i / BLOCK) as usize;
@@ -188,23 +190,23 @@ impl<'b, C: Channel> TileSampler<'_, 'b, C> {
             }
             let eye = assembly.datum.inward_near(self.lens.eye);
             self.shader.tile(eye, sight, shading, memory, meter, |block, lane, view| {
-                let (i, j) = (block as u32 % across * BLOCK + lane as u32 % BLOCK, block as u32 / across * BLOCK + lane as u32 / BLOCK);
+                let (i, j) = (
+                    block as u32 % across * BLOCK + lane as u32 % BLOCK,
+                    block as u32 / across * BLOCK + lane as u32 / BLOCK,
+                );
                 let place = (j * size.width + i) as usize;
                 if offset.is_some() {
                     sums[place] = sums[place] + view.light;
                     return;
                 }
                 let (light, color) = (view.light.gray(), view.light.rgb());
-                dots[place] = view.seen.map_or(
-                    Dot { light, color, ..nothing },
-                    |seen| Dot {
-                        light,
-                        color,
-                        depth: (seen.t * assembly.datum.unit).min(f64::MAX),
-                        normal: seen.normal,
-                        object: assembly.objects[seen.object as usize].number + 1,
-                    },
-                );
+                dots[place] = view.seen.map_or(Dot { light, color, ..nothing }, |seen| Dot {
+                    light,
+                    color,
+                    depth: (seen.t * assembly.datum.unit).min(f64::MAX),
+                    normal: seen.normal,
+                    object: assembly.objects[seen.object as usize].number + 1,
+                });
             });
         }
         for (dot, sum) in dots.iter_mut().zip(sums) {

@@ -33,8 +33,11 @@ impl Plane {
     /// Of eight boxes side by side, how far the foremost point of each lies along the normal.
     #[inline(always)]
     fn foremost<S: Simd>(&self, lo: &[f64x8<S>; 3], hi: &[f64x8<S>; 3]) -> f64x8<S> {
-        let side = |axis: usize| if self.normal[axis] > 0.0 { hi[axis] } else { lo[axis] };
-        side(0) * self.normal.x + side(1) * self.normal.y + side(2) * self.normal.z
+        let n = self.normal;
+        let x = if n.x > 0.0 { hi[0] } else { lo[0] };
+        let y = if n.y > 0.0 { hi[1] } else { lo[1] };
+        let z = if n.z > 0.0 { hi[2] } else { lo[2] };
+        x * n.x + y * n.y + z * n.z
     }
 }
 
@@ -88,23 +91,26 @@ impl Beam {
         let u = axis.any_orthonormal_vector();
         let v = axis.cross(u);
 
-        let rows = || live().flat_map(|(bundle, reach)| (0..ROWS).map(move |row| (bundle, reach, row)));
         let infinite = f64x8::splat(simd, f64::INFINITY);
         let (mut low, mut high, mut least) = ([infinite; 2], [-infinite; 2], infinite);
-        for (bundle, _, row) in rows() {
-            let d = bundle.d.load(simd, row);
-            let w = d.dot_one(axis);
-            least = w.smaller(least);
-            for (slot, across) in [u, v].into_iter().enumerate() {
-                let slope = d.dot_one(across) / w;
-                low[slot] = slope.smaller(low[slot]);
-                high[slot] = slope.larger(high[slot]);
+        for (bundle, _) in live() {
+            for row in 0..ROWS {
+                let d = bundle.d.load(simd, row);
+                let w = d.dot_one(axis);
+                least = w.smaller(least);
+                let inverse = w.same(1.0) / w;
+                let slopes = [d.dot_one(u) * inverse, d.dot_one(v) * inverse];
+                for slot in 0..2 {
+                    low[slot] = slopes[slot].smaller(low[slot]);
+                    high[slot] = slopes[slot].larger(high[slot]);
+                }
             }
         }
         let coherent = lowest(least) > COHERENT;
         let mut normals = [DVec3::ZERO; 4];
         if coherent {
-            for (slot, across) in [u, v].into_iter().enumerate() {
+            for slot in 0..2 {
+                let across = [u, v][slot];
                 let (low, high) = (lowest(low[slot]), highest(high[slot]));
                 let (below, above) = if spread == Spread::Apart { (low, high) } else { (high, low) };
                 normals[2 * slot] = across - below * axis;
@@ -113,20 +119,23 @@ impl Beam {
         }
         let mut offsets = [infinite; 4];
         let (mut first, mut last, mut start) = (infinite, -infinite, -infinite);
-        for (bundle, reach, row) in rows() {
-            let rays = bundle.load(simd, row);
-            let way = reach.map_or(f64x8::splat(simd, WAY), |reach| reach.load(simd, row));
-            let way = way.smaller(way.same(WAY));
-            // Of a segment the ends are the outermost.
-            let end = |along: DVec3| (rays.o.dot_one(along), rays.d.dot_one(along) * way);
-            for (offset, &normal) in offsets.iter_mut().zip(&normals) {
-                let (at, on) = end(normal);
-                *offset = at.smaller(at + on).smaller(*offset);
+        for (bundle, reach) in live() {
+            for row in 0..ROWS {
+                let rays = bundle.load(simd, row);
+                let mut way = f64x8::splat(simd, WAY);
+                if let Some(reach) = reach {
+                    way = reach.load(simd, row).smaller(way);
+                }
+                // Of a segment the ends are the outermost.
+                for k in 0..4 {
+                    let (at, on) = (rays.o.dot_one(normals[k]), rays.d.dot_one(normals[k]) * way);
+                    offsets[k] = at.smaller(at + on).smaller(offsets[k]);
+                }
+                let (at, on) = (rays.o.dot_one(axis), rays.d.dot_one(axis) * way);
+                first = at.smaller(at + on).smaller(first);
+                last = at.larger(at + on).larger(last);
+                start = at.larger(start);
             }
-            let (at, on) = end(axis);
-            first = at.smaller(at + on).smaller(first);
-            last = at.larger(at + on).larger(last);
-            start = at.larger(start);
         }
         let margin = |normal: DVec3| ROUNDED * normal.abs().element_sum();
         let sides = std::array::from_fn(|k| {
@@ -144,34 +153,35 @@ impl Beam {
     /// Which of a node's eight boxes the beam may meet. An empty slot is never met.
     #[inline(always)]
     pub fn meets<S: Simd>(&self, simd: S, node: &Node) -> Met<S> {
-        let load = |side: &[[f64; 8]; 3]| [0, 1, 2].map(|axis| f64x8::from_slice(simd, &side[axis]));
-        self.meets_boxes(simd, &load(&node.lo), &load(&node.hi))
+        let (lo, hi) = node.sides(simd);
+        self.meets_boxes(simd, &lo, &hi)
     }
 
     /// Which of eight boxes, by axis, the beam may meet.
     #[inline(always)]
     pub fn meets_boxes<S: Simd>(&self, simd: S, lo: &[f64x8<S>; 3], hi: &[f64x8<S>; 3]) -> Met<S> {
-        let all = |x: f64| f64x8::splat(simd, x);
         let mut met = lo[0].is_at_most(hi[0]);
         for side in &self.sides {
-            met = met & !side.foremost(lo, hi).is_below(all(side.offset));
+            met = met & !side.foremost(lo, hi).is_below(f64x8::splat(simd, side.offset));
         }
         let forward = Plane { normal: self.axis, offset: 0.0 };
         let backward = Plane { normal: -self.axis, offset: 0.0 };
         let (farthest, nearest) = (forward.foremost(lo, hi), -backward.foremost(lo, hi));
-        met = met & !farthest.is_below(all(self.first)) & !nearest.is_above(all(self.last));
+        met = met
+            & !farthest.is_below(f64x8::splat(simd, self.first))
+            & !nearest.is_above(f64x8::splat(simd, self.last));
         Met { boxes: met.bits(), near: nearest - self.start }
     }
 }
 
 /// The least of eight.
 #[inline(always)]
-fn lowest<S: Simd>(x: f64x8<S>) -> f64 {
+pub fn lowest<S: Simd>(x: f64x8<S>) -> f64 {
     x.to_array().into_iter().fold(f64::INFINITY, |least, x| if x < least { x } else { least })
 }
 
 /// The greatest of eight.
 #[inline(always)]
-fn highest<S: Simd>(x: f64x8<S>) -> f64 {
+pub fn highest<S: Simd>(x: f64x8<S>) -> f64 {
     -lowest(-x)
 }

@@ -13,7 +13,7 @@ mod structure;
 mod sub;
 mod tree;
 
-pub use beam::{Beam, Met, Spread, WAY};
+pub use beam::{Beam, Met, Spread, WAY, highest, lowest};
 pub use boxes::{Boxes, Child, Node, WIDE};
 pub use clip::{Outcode, entry};
 pub use planes::{Planes, SLACK, Step, slack};

@@ -88,8 +88,7 @@ impl Columns for [Column; 3] {
 
 impl Bundle {
     /// No rays.
-    pub const EMPTY: Self =
-        Self { o: [Column::filled(0.0); 3], d: [Column::filled(0.0); 3], live: 0 };
+    pub const EMPTY: Self = Self { o: [Column::filled(0.0); 3], d: [Column::filled(0.0); 3], live: 0 };
 
     /// Eight rays: those of row `row`, below [`ROWS`].
     #[inline(always)]

@@ -131,8 +131,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
                 hits[k] |= 1 << lane;
                 let ray = bundle.ray(lane);
                 let p = ray.at(t);
-                let (primitive, surface) =
-                    (nearest.primitive.0[lane] as u32, nearest.surface.0[lane] as u32);
+                let (primitive, surface) = (nearest.primitive.0[lane] as u32, nearest.surface.0[lane] as u32);
                 let normal = self.assembly.turned_normal(primitive, surface, p, ray.d);
                 tile.points[k].set(lane, p);
                 tile.normals[k].set(lane, normal);

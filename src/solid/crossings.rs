@@ -28,8 +28,7 @@ pub struct Departures {
 
 impl Departures {
     /// From nowhere.
-    pub const NONE: Self =
-        Self { primitive: Column::filled(-1.0), inward: 0, off: Column::filled(0.0) };
+    pub const NONE: Self = Self { primitive: Column::filled(-1.0), inward: 0, off: Column::filled(0.0) };
 
     /// Sets the surface that one ray starts on; it goes to the outside unless it did to the inside before.
     pub fn set(&mut self, lane: usize, departure: &Departure) {
@@ -225,19 +224,74 @@ fn gather<S: Simd>(
     let about = (bundle, wanted, here, reach);
     match form {
         Form::Ball(ball) => {
-            simd.vectorize(#[inline(always)] || rows(simd, about, sides, |rays| ball.spans(rays)));
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    rows(
+                        simd,
+                        about,
+                        sides,
+                        #[inline(always)]
+                        |rays| ball.spans(rays),
+                    )
+                },
+            );
         }
         Form::AxisBox(slabs) => {
-            simd.vectorize(#[inline(always)] || rows(simd, about, sides, |rays| slabs.spans(rays)));
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    rows(
+                        simd,
+                        about,
+                        sides,
+                        #[inline(always)]
+                        |rays| slabs.spans(rays),
+                    )
+                },
+            );
         }
         Form::SkewBox(slabs) => {
-            simd.vectorize(#[inline(always)] || rows(simd, about, sides, |rays| slabs.spans(rays)));
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    rows(
+                        simd,
+                        about,
+                        sides,
+                        #[inline(always)]
+                        |rays| slabs.spans(rays),
+                    )
+                },
+            );
         }
         Form::Round(round) => {
-            simd.vectorize(#[inline(always)] || rows(simd, about, sides, |rays| round.spans(rays)));
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    rows(
+                        simd,
+                        about,
+                        sides,
+                        #[inline(always)]
+                        |rays| round.spans(rays),
+                    )
+                },
+            );
         }
         Form::Facets(facets) => {
-            simd.vectorize(#[inline(always)] || rows(simd, about, sides, |rays| facets.spans(rays)));
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    rows(
+                        simd,
+                        about,
+                        sides,
+                        #[inline(always)]
+                        |rays| facets.spans(rays),
+                    )
+                },
+            );
         }
         Form::Mesh(_) | Form::Face(_) | Form::Patch(_) | Form::Tube(_) => {
             (sides[0].ahead, sides[1].ahead) = (0, 0);
@@ -453,16 +507,14 @@ fn take<S: Simd>(simd: S, side: &Side, lanes: u64, primitive: u32, found: &mut F
             continue;
         }
         let mask: mask64x8<S> = mask64x8::from_bitmask(simd, bits);
-        let pairs = [
-            (&side.t, &mut found.t),
-            (&side.error, &mut found.error),
-            (&side.surface, &mut found.surface),
-        ];
+        let pairs =
+            [(&side.t, &mut found.t), (&side.error, &mut found.error), (&side.surface, &mut found.surface)];
         for (from, to) in pairs {
             let chosen = mask.select(from.load(simd, row), to.load(simd, row));
             to.store(row, chosen);
         }
-        let primitive = mask.select(f64x8::splat(simd, f64::from(primitive)), found.primitive.load(simd, row));
+        let primitive =
+            mask.select(f64x8::splat(simd, f64::from(primitive)), found.primitive.load(simd, row));
         found.primitive.store(row, primitive);
     }
 }

@@ -127,8 +127,11 @@ impl Flat<'_> {
                 || (above != Link::ROOT && places[above as usize] == Link::ROOT);
             places.push(if gone { Link::ROOT } else { nodes.len() as u32 });
             if !gone {
-                let parent =
-                    if above == Link::ROOT { node.parent } else { Link { node: places[above as usize], ..node.parent } };
+                let parent = if above == Link::ROOT {
+                    node.parent
+                } else {
+                    Link { node: places[above as usize], ..node.parent }
+                };
                 let threshold = if node.threshold == 1 { 1 } else { open[place] };
                 nodes.push(Node { parent, threshold, initial: 0 });
             }

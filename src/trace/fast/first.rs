@@ -17,7 +17,7 @@ use crate::stage::{Meter, Silent};
 use super::Fast;
 use super::memory::TileMemory;
 use super::nearest::{Nearest, Offer};
-use super::walk::{bounds_between, push_nearest_last, sides, through, touching};
+use super::walk::{bounds_between, push_nearest_last, through, touching};
 
 /// The most leaves of an expression that are asked at once, rather than the way being cut into shorter slices: more
 /// cost more than a slice does.
@@ -39,9 +39,9 @@ impl Fast<'_> {
         let whole = Beam::around(simd, bundles.iter().map(|bundle| (bundle, None)), Spread::Apart);
         let TileMemory { beams, far, stack, .. } = memory;
         beams.clear();
-        beams.extend(bundles.iter().map(|bundle| {
-            Beam::around(simd, std::iter::once((bundle, None)), Spread::Apart)
-        }));
+        for bundle in bundles {
+            beams.push(Beam::around(simd, std::iter::once((bundle, None)), Spread::Apart));
+        }
         far.clear();
         far.extend(bundles.iter().map(|b| if b.live == 0 { f64::NEG_INFINITY } else { f64::INFINITY }));
         for found in &mut *nearest {
@@ -56,7 +56,7 @@ impl Fast<'_> {
             }
             let node = &self.boxes.nodes()[node as usize];
             memory.counts.cells_visited += 1;
-            let (lo, hi) = sides(simd, node);
+            let (lo, hi) = node.sides(simd);
             let met = whole.meets_boxes(simd, &lo, &hi);
             let objects = met.boxes & !node.inner();
             if objects != 0 {
@@ -106,7 +106,8 @@ impl Fast<'_> {
                     let lane = rest.trailing_zeros() as usize;
                     rest &= rest - 1;
                     let ray = bundle.ray(lane);
-                    if let Some(c) = first_of_surface(&ray, primitive, *index, None, &mut Meter::new(Silent)) {
+                    if let Some(c) = first_of_surface(&ray, primitive, *index, None, &mut Meter::new(Silent))
+                    {
                         found.set(lane, &c);
                     }
                 }
@@ -153,13 +154,7 @@ struct Slicing<'a, S> {
 
 impl<S: Simd> Slicing<'_, S> {
     /// Looks at the way from `from` to `to`, nearest slices first.
-    fn slice(
-        &mut self,
-        expression: Flat,
-        (from, to): (f64, f64),
-        halvings: u32,
-        memory: &mut TileMemory,
-    ) {
+    fn slice(&mut self, expression: Flat, (from, to): (f64, f64), halvings: u32, memory: &mut TileMemory) {
         if self.open == 0 || from > to {
             return;
         }
@@ -188,9 +183,7 @@ impl<S: Simd> Slicing<'_, S> {
         memory.counts.primitive_tests += expression.leaves.len() as u64;
         memory.counts.csg_evaluations += 1;
         let TileMemory { scratch, found, .. } = memory;
-        first_of_expressions(
-            simd, bundle, self.open, expression, primitives, None, reach, scratch, found,
-        );
+        first_of_expressions(simd, bundle, self.open, expression, primitives, None, reach, scratch, found);
         self.nearest.unsure |= found.unsure;
         self.open &= !(found.unsure | found.any);
         if found.any != 0 {
@@ -221,14 +214,7 @@ fn offer_found<S: Simd>(simd: S, found: &Found, object: u32, nearest: &mut Neare
 }
 
 /// One convex primitive that is an object.
-fn single<S: Simd>(
-    simd: S,
-    form: &Form,
-    bundle: &Bundle,
-    nearest: &mut Nearest,
-    object: u32,
-    index: u32,
-) {
+fn single<S: Simd>(simd: S, form: &Form, bundle: &Bundle, nearest: &mut Nearest, object: u32, index: u32) {
     #[inline(always)]
     fn rows<S: Simd>(
         simd: S,
@@ -255,19 +241,74 @@ fn single<S: Simd>(
     let about = (form, bundle, object, index);
     match form {
         Form::Ball(ball) => {
-            simd.vectorize(#[inline(always)] || rows(simd, about, nearest, |rays| ball.spans(rays)));
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    rows(
+                        simd,
+                        about,
+                        nearest,
+                        #[inline(always)]
+                        |rays| ball.spans(rays),
+                    )
+                },
+            );
         }
         Form::AxisBox(slabs) => {
-            simd.vectorize(#[inline(always)] || rows(simd, about, nearest, |rays| slabs.spans(rays)));
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    rows(
+                        simd,
+                        about,
+                        nearest,
+                        #[inline(always)]
+                        |rays| slabs.spans(rays),
+                    )
+                },
+            );
         }
         Form::SkewBox(slabs) => {
-            simd.vectorize(#[inline(always)] || rows(simd, about, nearest, |rays| slabs.spans(rays)));
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    rows(
+                        simd,
+                        about,
+                        nearest,
+                        #[inline(always)]
+                        |rays| slabs.spans(rays),
+                    )
+                },
+            );
         }
         Form::Round(round) => {
-            simd.vectorize(#[inline(always)] || rows(simd, about, nearest, |rays| round.spans(rays)));
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    rows(
+                        simd,
+                        about,
+                        nearest,
+                        #[inline(always)]
+                        |rays| round.spans(rays),
+                    )
+                },
+            );
         }
         Form::Facets(facets) => {
-            simd.vectorize(#[inline(always)] || rows(simd, about, nearest, |rays| facets.spans(rays)));
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    rows(
+                        simd,
+                        about,
+                        nearest,
+                        #[inline(always)]
+                        |rays| facets.spans(rays),
+                    )
+                },
+            );
         }
         Form::Mesh(_) | Form::Face(_) | Form::Patch(_) | Form::Tube(_) => {}
     }

@@ -9,15 +9,15 @@ use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 use crate::lattice::{Beam, Child, SLACK, Spread};
 use crate::math::{Bundle, Column, DVec3, LANES, Mask, Number, ROWS, Rays};
 use crate::solid::{
-    Body, Departures, Firsts, Flat, Form, Left, Reach, Spans, Starts, first_of_expressions,
-    first_of_surface, firsts_of_spans,
+    Body, Departures, Firsts, Flat, Form, Left, Reach, Spans, Starts, first_of_expressions, first_of_surface,
+    firsts_of_spans,
 };
 use crate::stage::{Meter, Silent};
 
 use super::Fast;
 use super::first::{FEW, HALVINGS};
 use super::memory::TileMemory;
-use super::walk::{bounds_between, push_nearest_last, sides, through, touching};
+use super::walk::{bounds_between, push_nearest_last, through, touching};
 
 /// Rays towards a light.
 #[derive(Clone, Debug)]
@@ -57,13 +57,15 @@ impl Fast<'_> {
         let bundles = || shafts.iter().map(|shaft| (&shaft.rays, Some(&shaft.distance)));
         let whole = Beam::around(simd, bundles(), Spread::Together);
         memory.beams.clear();
-        memory.beams.extend(bundles().map(|one| Beam::around(simd, std::iter::once(one), Spread::Together)));
+        for one in bundles() {
+            memory.beams.push(Beam::around(simd, std::iter::once(one), Spread::Together));
+        }
         memory.stack.clear();
         memory.stack.push((f64::NEG_INFINITY, 0));
         while let Some((_, node)) = memory.stack.pop() {
             let node = &self.boxes.nodes()[node as usize];
             memory.counts.cells_visited += 1;
-            let (lo, hi) = sides(simd, node);
+            let (lo, hi) = node.sides(simd);
             let met = whole.meets_boxes(simd, &lo, &hi);
             let objects = met.boxes & !node.inner();
             if objects != 0 {
@@ -173,7 +175,15 @@ impl<S: Simd> Slicing<'_, S> {
         let TileMemory { scratch, found, .. } = memory;
         let departures = Some(self.departures);
         first_of_expressions(
-            simd, &shaft.rays, self.open, expression, primitives, departures, reach, scratch, found,
+            simd,
+            &shaft.rays,
+            self.open,
+            expression,
+            primitives,
+            departures,
+            reach,
+            scratch,
+            found,
         );
         shaft.unsure |= found.unsure;
         self.open &= !(found.unsure | found.any);
@@ -217,19 +227,74 @@ fn single<S: Simd>(simd: S, form: &Form, shaft: &mut Shaft, departures: &Departu
     let about = (form, departures, index);
     match form {
         Form::Ball(ball) => {
-            simd.vectorize(#[inline(always)] || rows(simd, about, shaft, |rays| ball.spans(rays)));
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    rows(
+                        simd,
+                        about,
+                        shaft,
+                        #[inline(always)]
+                        |rays| ball.spans(rays),
+                    )
+                },
+            );
         }
         Form::AxisBox(slabs) => {
-            simd.vectorize(#[inline(always)] || rows(simd, about, shaft, |rays| slabs.spans(rays)));
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    rows(
+                        simd,
+                        about,
+                        shaft,
+                        #[inline(always)]
+                        |rays| slabs.spans(rays),
+                    )
+                },
+            );
         }
         Form::SkewBox(slabs) => {
-            simd.vectorize(#[inline(always)] || rows(simd, about, shaft, |rays| slabs.spans(rays)));
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    rows(
+                        simd,
+                        about,
+                        shaft,
+                        #[inline(always)]
+                        |rays| slabs.spans(rays),
+                    )
+                },
+            );
         }
         Form::Round(round) => {
-            simd.vectorize(#[inline(always)] || rows(simd, about, shaft, |rays| round.spans(rays)));
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    rows(
+                        simd,
+                        about,
+                        shaft,
+                        #[inline(always)]
+                        |rays| round.spans(rays),
+                    )
+                },
+            );
         }
         Form::Facets(facets) => {
-            simd.vectorize(#[inline(always)] || rows(simd, about, shaft, |rays| facets.spans(rays)));
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    rows(
+                        simd,
+                        about,
+                        shaft,
+                        #[inline(always)]
+                        |rays| facets.spans(rays),
+                    )
+                },
+            );
         }
         Form::Mesh(_) | Form::Face(_) | Form::Patch(_) | Form::Tube(_) => {}
     }

@@ -2,15 +2,8 @@
 
 use fearless_simd::{Simd, SimdBase, f64x8};
 
-use crate::lattice::{Child, Met, Node};
+use crate::lattice::{Child, Met, Node, highest, lowest};
 use crate::math::{Bounds, Bundle, DVec3, LANES, Mask, Number, ROWS};
-
-/// The lower and the upper sides of a node's boxes, by axis.
-#[inline(always)]
-pub fn sides<S: Simd>(simd: S, node: &Node) -> ([f64x8<S>; 3], [f64x8<S>; 3]) {
-    let load = |sides: &[[f64; LANES]; 3]| [0, 1, 2].map(|axis| f64x8::from_slice(simd, &sides[axis]));
-    (load(&node.lo), load(&node.hi))
-}
 
 /// Puts the nodes among a node's children that were met on the stack, the nearest last.
 #[inline(always)]
@@ -93,11 +86,11 @@ pub fn bounds_between<S: Simd>(simd: S, bundle: &Bundle, from: f64, to: f64) -> 
                     }
                 }
             }
-            let least = |x: f64x8<S>| x.to_array().into_iter().fold(f64::INFINITY, f64::min);
-            Bounds::new(
-                DVec3::from_array(lo.map(least)),
-                DVec3::from_array(hi.map(|x| -least(-x))),
-            )
+            let (lo, hi) = (
+                [lowest(lo[0]), lowest(lo[1]), lowest(lo[2])],
+                [highest(hi[0]), highest(hi[1]), highest(hi[2])],
+            );
+            Bounds::new(DVec3::from_array(lo), DVec3::from_array(hi))
         },
     )
 }

@@ -11,7 +11,7 @@ use crate::plan::{Channels, Options, Plan};
 use crate::shade::{Channel, Memory, Shader, Sight, TileShading, View};
 use crate::stage::{Counts, Meter, Probe, Silent, Stage, StageTimes, Stopwatch};
 use crate::trace::{Exact, Fast};
-use crate::view::{Lens, Picture, TILE, Tile, settled, tiles};
+use crate::view::{BLOCK, Block, Lens, Picture, TILE, Tile, settled, tiles};
 
 use super::{Frame, Request, Space, Studio};
 
@@ -115,9 +115,6 @@ impl Studio {
     }
 }
 
-/// The dots of a bundle: eight by eight.
-const BLOCK: u32 = 8;
-
 impl Studio {
     fn trace_tiles<C: Channel>(&self, engine: &Fast, plan: &Plan, lens: &Lens, dots: Size) -> Traced {
         let shader = Shader::<_, C>::new(self.scene(), &self.assembly, plan, engine);
@@ -175,20 +172,17 @@ impl<'b, C: Channel> TileSampler<'_, 'b, C> {
         let offsets = offsets.map(|(a, b)| Some((inside(a), inside(b)))).filter(|_| self.samples > 1);
         for offset in std::iter::once(None).chain(offsets) {
             meter.at(Stage::Ray);
-            sight.clear(blocks as usize);
-            let (dx, dy) = offset.unwrap_or((0.0, 0.0));
-            for j in 0..size.height {
-                for i in 0..size.width {
-                    let (x, y) =
-                        (f64::from(tile.corner[0] + i) + 0.5 + dx, f64::from(tile.corner[1] + j) + 0.5 + dy);
-                    let ray = assembly.ray(&self.lens.ray(x, y));
-                    let ray = Ray::new(ray.o, settled(ray.d, self.way));
-                    let block = (j / BLOCK * across + i / BLOCK) as usize;
-                    let lane = (j % BLOCK * BLOCK + i % BLOCK) as usize;
-                    sight.set(block, lane, self.engine.nearer(&ray));
-                }
-            }
+            sight.clear();
+            let off = offset.unwrap_or((0.0, 0.0)).into();
             let eye = assembly.datum.inward_near(self.lens.eye);
+            for number in 0..blocks {
+                let (i, j) = (number % across * BLOCK, number / across * BLOCK);
+                let size = Size::new(BLOCK.min(size.width - i), BLOCK.min(size.height - j));
+                let block = Block { corner: [tile.corner[0] + i, tile.corner[1] + j], size };
+                let mut rays = block.rays(self.lens, off, eye, self.way, self.engine.level());
+                let way = self.engine.approach(&mut rays);
+                sight.push(rays, way);
+            }
             self.shader.tile(eye, sight, shading, memory, meter, |block, lane, view| {
                 let (i, j) = (
                     block as u32 % across * BLOCK + lane as u32 % BLOCK,

@@ -2,6 +2,7 @@
 
 mod channel;
 mod direction;
+mod lit;
 mod media;
 mod path;
 mod shadow;

@@ -15,7 +15,7 @@ use super::path::Sent;
 
 /// A light nearer than this, in the assembly's unit, is at the point itself: 2⁻⁵⁰⁰, whose square does not
 /// underflow. A hit's own place is not known so well by far.
-const NEAREST: f64 = f64::from_bits((1023 - 500) << 52);
+pub(super) const NEAREST: f64 = f64::from_bits((1023 - 500) << 52);
 
 /// Shades hits of one picture.
 #[derive(Debug)]

@@ -5,11 +5,12 @@
 //! glass or to tell two surfaces apart, it goes its way alone.
 
 use crate::math::{BUNDLE, Bundle, Column, Columns, DVec3, Ray};
-use crate::solid::{Crossing, Departures};
+use crate::solid::{Crossing, Departures, Form};
 use crate::stage::{Meter, Probe, Stage};
 use crate::trace::{Fast, Hit, Nearest, Shaft, TileMemory};
 
 use super::channel::Channel;
+use super::lit::{Lit, Surfaces};
 use super::path::Sent;
 use super::surface::{Memory, Met, Seen, Shader, View};
 
@@ -27,28 +28,23 @@ pub struct Sight {
 pub struct TileShading {
     trace: TileMemory,
     nearest: Vec<Nearest>,
-    points: Vec<[Column; 3]>,
-    normals: Vec<[Column; 3]>,
+    surfaces: Vec<Surfaces>,
     departures: Vec<Departures>,
     shafts: Vec<Shaft>,
-    facing: Vec<Column>,
-    cosine: Vec<Column>,
+    lit: Vec<Lit>,
 }
 
 impl Sight {
-    /// Room for so many bundles, all empty.
-    pub fn clear(&mut self, bundles: usize) {
+    /// No rays.
+    pub fn clear(&mut self) {
         self.bundles.clear();
-        self.bundles.resize(bundles, Bundle::EMPTY);
-        self.ways.resize(bundles, [Column::filled(0.0); 2]);
+        self.ways.clear();
     }
 
-    /// Puts a ray from the eye in its place.
-    #[inline]
-    pub fn set(&mut self, bundle: usize, lane: usize, (near, way): (Ray, [f64; 2])) {
-        self.bundles[bundle].set(lane, &near);
-        let [far, left] = &mut self.ways[bundle];
-        (far.0[lane], left.0[lane]) = (way[0], way[1]);
+    /// Adds a bundle of rays, and the way to where they start.
+    pub fn push(&mut self, bundle: Bundle, way: [Column; 2]) {
+        self.bundles.push(bundle);
+        self.ways.push(way);
     }
 }
 
@@ -58,15 +54,14 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
     pub fn tile(
         &self,
         eye: DVec3,
-        sight: &mut Sight,
+        sight: &Sight,
         tile: &mut TileShading,
         memory: &mut Memory<Fast<'e>>,
         meter: &mut Meter<impl Probe>,
         mut put: impl FnMut(usize, usize, View<C>),
     ) {
         meter.at(Stage::Cell);
-        let bundles = &mut sight.bundles[..];
-        bundles.iter_mut().for_each(Bundle::close);
+        let bundles = &sight.bundles[..];
         let count = bundles.len();
         tile.nearest.resize(count, Nearest::NOTHING);
         self.engine.first_of(bundles, &mut tile.nearest, &mut tile.trace);
@@ -74,7 +69,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         let mut sums = vec![[C::DARK; BUNDLE]; count];
         let hits = self.meet(bundles, tile);
         for lamp in 0..self.lamps.len() {
-            self.lamp(lamp, bundles, &hits, tile, memory, &mut sums, meter);
+            self.lamp(lamp, bundles, tile, memory, &mut sums, meter);
         }
         for (k, bundle) in bundles.iter().enumerate() {
             let mut rest = bundle.live;
@@ -112,32 +107,50 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
     /// The surfaces that were met: their points, normals and departures. Answers which rays met one.
     fn meet(&self, bundles: &[Bundle], tile: &mut TileShading) -> Vec<u64> {
         let count = bundles.len();
-        tile.points.resize(count, [Column::filled(0.0); 3]);
-        tile.normals.resize(count, [Column::filled(0.0); 3]);
+        tile.surfaces.resize(count, Surfaces::NONE);
         tile.departures.resize(count, Departures::NONE);
-        let mut hits = vec![0; count];
+        let mut hits = Vec::with_capacity(count);
         for (k, bundle) in bundles.iter().enumerate() {
-            let nearest = &tile.nearest[k];
-            let departures = &mut tile.departures[k];
-            departures.inward = 0;
-            let mut rest = bundle.live & !nearest.unsure;
+            let surfaces = &mut tile.surfaces[k];
+            surfaces.met(bundle, &tile.nearest[k], self.engine.level());
+            let (mut balls, mut patches) = (0_u64, 0_u64);
+            let mut rest = surfaces.hits;
             while rest != 0 {
                 let lane = rest.trailing_zeros() as usize;
                 rest &= rest - 1;
-                let t = nearest.t.0[lane];
-                if t == f64::INFINITY {
-                    continue;
+                let primitive = tile.nearest[k].primitive.0[lane] as u32;
+                let form = &self.assembly.primitives[primitive as usize].form;
+                let departures = &mut tile.departures[k];
+                departures.primitive.0[lane] = f64::from(primitive);
+                departures.off.0[lane] = form.off();
+                let finish = self.finish_of(primitive);
+                surfaces.shines.0[lane] = if finish.kd > 0.0 || finish.ks > 0.0 { 1.0 } else { 0.0 };
+                match form {
+                    Form::Ball(ball) => {
+                        balls |= 1 << lane;
+                        surfaces.normal.set(lane, ball.center);
+                        surfaces.radius.0[lane] = ball.radius;
+                    }
+                    Form::Patch(_) => patches |= 1 << lane,
+                    _ => {
+                        let surface = tile.nearest[k].surface.0[lane] as u32;
+                        surfaces.normal.set(lane, form.normal(surfaces.p.get(lane), surface));
+                    }
                 }
-                hits[k] |= 1 << lane;
-                let ray = bundle.ray(lane);
-                let p = ray.at(t);
-                let (primitive, surface) = (nearest.primitive.0[lane] as u32, nearest.surface.0[lane] as u32);
-                let normal = self.assembly.turned_normal(primitive, surface, p, ray.d);
-                tile.points[k].set(lane, p);
-                tile.normals[k].set(lane, normal);
-                let hit = Hit { t, error: 0.0, p, object: 0, primitive, surface, entering: true };
-                departures.set(lane, &self.departure(&hit, p, normal));
             }
+            let inward = surfaces.turn(bundle, balls, self.engine.level());
+            tile.departures[k].inward = inward;
+            while patches != 0 {
+                let lane = patches.trailing_zeros() as usize;
+                patches &= patches - 1;
+                let (p, nearest) = (surfaces.p.get(lane), &tile.nearest[k]);
+                let (primitive, surface) = (nearest.primitive.0[lane] as u32, nearest.surface.0[lane] as u32);
+                let normal = self.assembly.turned_normal(primitive, surface, p, bundle.d.get(lane));
+                surfaces.normal.set(lane, normal);
+                let hit = Hit { t: 0.0, error: 0.0, p, object: 0, primitive, surface, entering: true };
+                tile.departures[k].set(lane, &self.departure(&hit, p, normal));
+            }
+            hits.push(surfaces.hits);
         }
         hits
     }
@@ -147,7 +160,6 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         &self,
         lamp: usize,
         bundles: &[Bundle],
-        hits: &[u64],
         tile: &mut TileShading,
         memory: &mut Memory<Fast<'e>>,
         sums: &mut [[C; BUNDLE]],
@@ -155,35 +167,10 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
     ) {
         let count = bundles.len();
         tile.shafts.resize(count, Shaft::EMPTY);
-        tile.facing.resize(count, Column::filled(0.0));
-        tile.cosine.resize(count, Column::filled(0.0));
+        tile.lit.resize(count, Lit::NONE);
         for (k, bundle) in bundles.iter().enumerate() {
             let shaft = &mut tile.shafts[k];
-            (shaft.rays.live, shaft.blocked, shaft.unsure) = (0, 0, 0);
-            let mut rest = hits[k];
-            while rest != 0 {
-                let lane = rest.trailing_zeros() as usize;
-                rest &= rest - 1;
-                let (p, normal) = (tile.points[k].get(lane), tile.normals[k].get(lane));
-                let primitive = tile.nearest[k].primitive.0[lane] as u32;
-                let finish = self.finish_of(primitive);
-                let Some(ray) = self.towards(lamp, p, normal) else { continue };
-                if finish.kd > 0.0 || finish.ks > 0.0 {
-                    tile.facing[k].0[lane] = ray.facing;
-                    tile.cosine[k].0[lane] = ray.mirrored_cosine(normal, bundle.d.get(lane));
-                    shaft.distance.0[lane] = ray.distance;
-                    shaft.rays.set(lane, &Ray::new(p, ray.d));
-                }
-            }
-            shaft.rays.close();
-            if shaft.rays.live != 0 {
-                let first = shaft.distance.0[shaft.rays.live.trailing_zeros() as usize];
-                for lane in 0..BUNDLE {
-                    if shaft.rays.live >> lane & 1 == 0 {
-                        shaft.distance.0[lane] = first;
-                    }
-                }
-            }
+            tile.lit[k].light(self.lamps[lamp].at, bundle, &tile.surfaces[k], shaft, self.engine.level());
         }
         if self.shadows {
             meter.at(Stage::Cell);
@@ -214,7 +201,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
                     }
                 }
                 let finish = self.finish_of(tile.nearest[k].primitive.0[lane] as u32);
-                let (facing, cosine) = (tile.facing[k].0[lane], tile.cosine[k].0[lane]);
+                let (facing, cosine) = (tile.lit[k].facing.0[lane], tile.lit[k].cosine.0[lane]);
                 let share = self.share(finish, facing, cosine) * visible;
                 sums[k][lane] = (sums[k][lane] + self.lamps[lamp].light * share).limited();
             }
@@ -242,7 +229,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
 /// A surface that was met, as one ray meets it.
 fn met(tile: &TileShading, k: usize, lane: usize, [far, left]: [f64; 2]) -> Met {
     let nearest = &tile.nearest[k];
-    let p = tile.points[k].get(lane);
+    let p = tile.surfaces[k].p.get(lane);
     let hit = Hit {
         t: far + (left + nearest.t.0[lane]),
         error: 0.0,
@@ -252,5 +239,5 @@ fn met(tile: &TileShading, k: usize, lane: usize, [far, left]: [f64; 2]) -> Met 
         surface: nearest.surface.0[lane] as u32,
         entering: nearest.entering >> lane & 1 == 1,
     };
-    Met { hit, p, normal: tile.normals[k].get(lane) }
+    Met { hit, p, normal: tile.surfaces[k].normal.get(lane) }
 }

@@ -11,14 +11,14 @@ mod nearest;
 mod shaft;
 mod walk;
 
-use fearless_simd::{Level, dispatch};
+use fearless_simd::{Level, Simd, dispatch};
 
 use crate::lattice::{Boxes, Structure, SubLattices, slack};
-use crate::math::{Bundle, Ray};
+use crate::math::{Bundle, Column, Columns, ROWS, Ray};
 use crate::solid::{Assembly, Crossing, Departure, Departures};
 use crate::stage::{Meter, Probe};
 
-use super::exact::moved_nearer;
+use super::exact::all_moved_nearer;
 use super::{Engine, Exact, Hit, Memory};
 
 pub use memory::TileMemory;
@@ -54,10 +54,12 @@ impl<'a> Fast<'a> {
         self.level
     }
 
-    /// A ray from the eye as a bundle wants it: from a start near the world, and the way there, in two parts that are
-    /// to be added to a distance, the second first.
-    pub fn nearer(&self, ray: &Ray) -> (Ray, [f64; 2]) {
-        moved_nearer(ray)
+    /// Moves the starts of rays from the eye near to the world. Answers the way there, in two parts that are to be added
+    /// to a distance, the second first.
+    pub fn approach(&self, bundle: &mut Bundle) -> [Column; 2] {
+        let mut ways = [Column::filled(0.0); 2];
+        dispatch!(self.level, simd => approached(simd, bundle, &mut ways));
+        ways
     }
 
     /// The first hits of a tile of rays from the eye, by bundles that are [closed](Bundle::close). Those that are
@@ -77,6 +79,16 @@ impl<'a> Fast<'a> {
     /// [`Engine::blocked`] one by one.
     pub fn blocked_of(&self, shafts: &mut [Shaft], departures: &[Departures], memory: &mut TileMemory) {
         dispatch!(self.level, simd => self.blocked_of_tile(simd, shafts, departures, memory));
+    }
+}
+
+#[inline(always)]
+fn approached<S: Simd>(simd: S, bundle: &mut Bundle, ways: &mut [Column; 2]) {
+    for row in 0..ROWS {
+        let (near, [far, left]) = all_moved_nearer(&bundle.load(simd, row));
+        bundle.o.store(row, near.o);
+        ways[0].store(row, far);
+        ways[1].store(row, left);
     }
 }
 

@@ -37,6 +37,19 @@ impl Shaft {
     pub const EMPTY: Self =
         Self { rays: Bundle::EMPTY, distance: Column::filled(0.0), blocked: 0, unsure: 0 };
 
+    /// Gives those that do not ask the numbers of the first that does ([`Bundle::close`]).
+    pub fn close(&mut self) {
+        self.rays.close();
+        if self.rays.live != 0 {
+            let first = self.distance.0[self.rays.live.trailing_zeros() as usize];
+            for (lane, distance) in self.distance.0.iter_mut().enumerate() {
+                if self.rays.live >> lane & 1 == 0 {
+                    *distance = first;
+                }
+            }
+        }
+    }
+
     /// The rays that are neither blocked nor unsure.
     #[inline(always)]
     fn open(&self) -> u64 {

@@ -2,9 +2,11 @@
 
 mod draw;
 mod explain;
+mod gather;
+mod kept;
 pub mod pcat;
 mod request;
 mod studio;
 
-pub use request::{Frame, Request, Space};
+pub use request::{Frame, Request, Space, Wants};
 pub use studio::{Built, Studio};

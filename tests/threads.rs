@@ -37,7 +37,7 @@ fn frames_do_not_depend_on_threads() {
         let draw = |threads| {
             let mut request = request(studio.camera(0, 1.5), Size::new(122, 84));
             request.options.threads = threads;
-            studio.draw(&request)
+            studio.draw_anew(&request)
         };
         let first = draw(THREADS[0]);
         let one = contents(&first);

@@ -38,10 +38,14 @@ impl Studio {
 
     /// A picture of which some of the grids may be there already.
     fn finished(&self, request: &Request, reused: Option<Frame>, start: Instant) -> Frame {
-        let workers = self.workers(request.options.threads);
+        let cells_lack = |frame: &Frame| request.wants.cells && frame.cells.is_none();
+        let workers = match &reused {
+            Some(frame) if !cells_lack(frame) => None,
+            _ => self.workers(request.options.threads),
+        };
         let work = || {
             let mut frame = reused.unwrap_or_else(|| self.traced(request));
-            if request.wants.cells && frame.cells.is_none() {
+            if cells_lack(&frame) {
                 let dithering = Instant::now();
                 frame.cells = Some(Arc::new(composed(&frame, request)));
                 frame.times[Stage::Dither] = dithering.elapsed();

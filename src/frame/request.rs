@@ -160,6 +160,6 @@ impl Frame {
 
     /// The level of each dot.
     pub fn levels(&self, tone: Tone) -> Grid<Level> {
-        self.light.map(|&light| tone.level(light))
+        Grid::from_fn_in_parallel(self.light.size(), |column, row| tone.level(self.light[(column, row)]))
     }
 }

@@ -78,13 +78,13 @@ impl PairFit {
     /// The cells of two grays out of `grays` nearest to `light`, of [`DOTS`] to a cell.
     pub fn compose_grays(&self, light: &Grid<f64>, grays: &Grays, tone: Tone) -> Grid<Cell> {
         // NaN counts as no light.
-        cells(&light.map(|&light| tone.shown(light).max(0.0)), |dots| self.two_grays(&dots, grays))
+        cells(light, |dots| self.two_grays(&dots.map(|light| tone.shown(light).max(0.0)), grays))
     }
 
     /// The cells of two colours nearest to `color`, of [`DOTS`] to a cell.
     pub fn compose_colors(&self, color: &Grid<DVec3>, tone: Tone) -> Grid<Cell> {
         let shown = |color: DVec3| tone.shown_color(color).max(DVec3::ZERO);
-        cells(&color.map(|&color| shown(color)), |dots| self.two_colors(&dots))
+        cells(color, |dots| self.two_colors(&dots.map(shown)))
     }
 
     fn two_grays(&self, dots: &Dots, grays: &Grays) -> Cell {
@@ -127,9 +127,9 @@ pub fn paint(color: DVec3) -> Paint {
 }
 
 /// A cell for each [`DOTS`] of a picture.
-fn cells<T: Copy>(dots: &Grid<T>, mut cell: impl FnMut([T; DOT_COUNT]) -> Cell) -> Grid<Cell> {
+fn cells<T: Copy + Sync>(dots: &Grid<T>, cell: impl Fn([T; DOT_COUNT]) -> Cell + Sync) -> Grid<Cell> {
     let size = Size::new(dots.size().width / DOTS.width, dots.size().height / DOTS.height);
-    Grid::from_fn(size, |column, row| {
+    Grid::from_fn_in_parallel(size, |column, row| {
         cell(std::array::from_fn(|dot| {
             let (x, y) = (dot as u32 % DOTS.width, dot as u32 / DOTS.width);
             dots[(column * DOTS.width + x, row * DOTS.height + y)]

@@ -114,8 +114,8 @@ fn encoded(
 ) -> Result<Vec<u8>, CliError> {
     let mut out = Vec::new();
     let done = match format {
-        Format::Txt => wanted(&frame.cells).and_then(|cells| output::text(cells, &mut out)),
-        Format::Ans => wanted(&frame.cells).and_then(|cells| output::ansi(cells, &mut out)),
+        Format::Txt => wanted(frame.cells.as_ref()).and_then(|cells| output::text(cells, &mut out)),
+        Format::Ans => wanted(frame.cells.as_ref()).and_then(|cells| output::ansi(cells, &mut out)),
         Format::Levels => output::levels(&frame.levels(request.tone), &mut out),
         Format::Png => {
             let drawn = output::png(&pixels(frame, request, channel), &mut out);
@@ -128,9 +128,13 @@ fn encoded(
                 Some(color) => output::pfm_vectors(color, &mut out),
                 None => output::pfm_gray(&frame.light, &mut out),
             },
-            Channel::Depth => wanted(&frame.depth).and_then(|depth| output::pfm_gray(depth, &mut out)),
-            Channel::Normal => wanted(&frame.normal).and_then(|normal| output::pfm_vectors(normal, &mut out)),
-            Channel::Object => wanted(&frame.object)
+            Channel::Depth => {
+                wanted(frame.depth.as_ref()).and_then(|depth| output::pfm_gray(depth, &mut out))
+            }
+            Channel::Normal => {
+                wanted(frame.normal.as_ref()).and_then(|normal| output::pfm_vectors(normal, &mut out))
+            }
+            Channel::Object => wanted(frame.object.as_ref())
                 .and_then(|object| output::pfm_gray(&object.map(|&n| f64::from(n)), &mut out)),
         },
     };
@@ -139,8 +143,8 @@ fn encoded(
 }
 
 /// A grid that the request asked for.
-fn wanted<T>(grid: &Option<Arc<Grid<T>>>) -> io::Result<&Grid<T>> {
-    grid.as_deref().ok_or_else(|| io::Error::other("it lacks what it was drawn for"))
+fn wanted<T>(grid: Option<&Arc<Grid<T>>>) -> io::Result<&Grid<T>> {
+    grid.map(Arc::as_ref).ok_or_else(|| io::Error::other("it lacks what it was drawn for"))
 }
 
 /// Colours where they are wanted, as the tone shows them or as they are; else grays.

@@ -12,7 +12,7 @@ use super::eye::{Dots, overlaps};
 use super::paint::Paint;
 use super::shape::{DOT_COUNT, DOTS, HALVES, Shape};
 use crate::math::{DVec3, Grid, Size};
-use crate::tone::{Level, Tone, color_of_lab, lab_of_color, lightness, srgb_of_light};
+use crate::tone::{Level, Tone, color_of_lab, labs_of_colors, lightness, lightnesses, srgb_of_light};
 
 /// One way to part the dots.
 #[derive(Clone, Copy, Debug)]
@@ -92,7 +92,7 @@ impl PairFit {
         if dots.iter().all(|dot| *dot == dots[0]) {
             return Cell::flat(grays.of_level(Level::nearest(dots[0])));
         }
-        let (shape, [[ink, paper]]) = self.best([dots.map(lightness)]);
+        let (shape, [[ink, paper]]) = self.best([lightnesses(*dots)]);
         Cell::pair(shape, grays.nearest(ink), grays.nearest(paper))
     }
 
@@ -100,8 +100,7 @@ impl PairFit {
         if dots.iter().all(|dot| *dot == dots[0]) {
             return Cell::flat(paint(dots[0]));
         }
-        let labs = dots.map(lab_of_color);
-        let (shape, best) = self.best::<3>(std::array::from_fn(|axis| labs.map(|lab| lab[axis])));
+        let (shape, best) = self.best(labs_of_colors(*dots));
         let [ink, paper] = [0, 1].map(|side| paint(color_of_lab(best.map(|axis| axis[side]))));
         Cell::pair(shape, ink, paper)
     }

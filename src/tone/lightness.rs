@@ -1,6 +1,6 @@
 //! Light, lightness and the bytes of a picture file: the curves of CIE 1976 L* and of sRGB (IEC 61966-2-1).
 
-use super::root::{NEAR, cube_root, near_cube_root};
+use super::root::{NEAR, cube_roots, near_cube_root};
 
 /// The light where L*'s straight foot meets its cube root: (6/29)³.
 const FOOT_LIGHT: f64 = 216.0 / 24389.0;
@@ -12,7 +12,20 @@ const SRGB_FOOT: f64 = 0.003_130_8;
 
 /// CIE L*, 0 to 100, of linear `light`, 0 to 1, against white at 1.
 pub fn lightness(light: f64) -> f64 {
-    if light > FOOT_LIGHT { 116.0 * cube_root(light) - 16.0 } else { FOOT_SLOPE * light }
+    lightnesses([light])[0]
+}
+
+/// [`lightness`] of several at once, which is sooner than one by one.
+pub fn lightnesses<const N: usize>(mut light: [f64; N]) -> [f64; N] {
+    let mut roots = light;
+    for root in &mut roots {
+        *root = root.max(FOOT_LIGHT);
+    }
+    roots = cube_roots(roots);
+    for (light, root) in light.iter_mut().zip(roots) {
+        *light = if *light > FOOT_LIGHT { 116.0 * root - 16.0 } else { FOOT_SLOPE * *light };
+    }
+    light
 }
 
 /// [`lightness`] in single precision, of several at once: each the number nearest to its own.
@@ -29,7 +42,7 @@ pub fn lightness_in_single<const N: usize>(light: [f64; N]) -> [f32; N] {
         })
     };
     let (low, high) = (bound(-AWAY), bound(AWAY));
-    if low == high { low } else { light.map(|light| lightness(light) as f32) }
+    if low == high { low } else { lightnesses(light).map(|lightness| lightness as f32) }
 }
 
 /// The light, 0 to 1, of a CIE `lightness` L*, 0 to 100.

@@ -20,9 +20,20 @@ pub(super) fn near_cube_root(x: f64) -> f64 {
     halley(halley(f64::from_bits(u64::from(high) << 32)))
 }
 
-/// The number nearest to the cube root of `x`, which lies from 2⁻¹⁰ to 2¹⁰: what `libm::cbrt` gives.
+/// The numbers nearest to the cube roots of `x`, which lie from 2⁻¹⁰ to 2¹⁰: what `libm::cbrt` gives. Several are found
+/// side by side.
 #[inline]
-pub(super) fn cube_root(x: f64) -> f64 {
+pub(super) fn cube_roots<const N: usize>(x: [f64; N]) -> [f64; N] {
+    let (mut low, mut high) = (x, x);
+    for (low, high) in low.iter_mut().zip(&mut high) {
+        (*low, *high) = about_cube_root(*low);
+    }
+    if low == high { low } else { x.map(libm::cbrt) }
+}
+
+/// Two numbers about the cube root, equal where no third one can be the nearest to it.
+#[inline]
+fn about_cube_root(x: f64) -> (f64, f64) {
     let y = near_cube_root(x);
     // A step of Newton's from y, whose cube is taken in twice the bits.
     let (square, below_square) = product(y, y);
@@ -30,8 +41,7 @@ pub(super) fn cube_root(x: f64) -> f64 {
     let step = ((x - cube) - below_cube - below_square * y) / (3.0 * square);
     // The step's own error is that of Newton's method, the square of y's, 2⁻⁹², and less than 2⁻⁹⁵ of rounding.
     let error = y * (1.0 / (1_u64 << 45) as f64 / (1_u64 << 45) as f64);
-    let (low, high) = (y + (step - error), y + (step + error));
-    if low == high { low } else { libm::cbrt(x) }
+    (y + (step - error), y + (step + error))
 }
 
 /// The product as a sum of two numbers, exactly (T. J. Dekker, Numer. Math. 18, 1971).
@@ -58,7 +68,7 @@ mod tests {
 
     fn assert_root(x: f64) {
         let exact = libm::cbrt(x);
-        assert_eq!(cube_root(x).to_bits(), exact.to_bits(), "{x}");
+        assert_eq!(cube_roots([x])[0].to_bits(), exact.to_bits(), "{x}");
         assert!((near_cube_root(x) - exact).abs() <= NEAR * exact, "{x}");
     }
 
@@ -75,7 +85,7 @@ mod tests {
     fn cubes_have_their_roots() {
         for k in 1..1000 {
             let root = f64::from(k) / 128.0;
-            assert_eq!(cube_root(root * root * root), root);
+            assert_eq!(cube_roots([root * root * root, 0.5]), [root, libm::cbrt(0.5)]);
         }
     }
 

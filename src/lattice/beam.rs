@@ -150,6 +150,14 @@ impl Beam {
         Self { sides, axis, first, last, start }
     }
 
+    /// All its planes, each a normal and an offset below which nothing is met: the four sides, the first and the last
+    /// along its axis. And what is to be taken from the place of a point along the axis to know how near it is at
+    /// least to the start of any ray.
+    pub fn planes(&self) -> ([(DVec3, f64); 6], f64) {
+        let [a, b, c, d] = self.sides.map(|side| (side.normal, side.offset));
+        ([a, b, c, d, (self.axis, self.first), (-self.axis, -self.last)], self.start)
+    }
+
     /// Which of a node's eight boxes the beam may meet. An empty slot is never met.
     #[inline(always)]
     pub fn meets<S: Simd>(&self, simd: S, node: &Node) -> Met<S> {

@@ -8,6 +8,7 @@
 mod beam;
 mod boxes;
 mod clip;
+mod fan;
 mod planes;
 mod structure;
 mod sub;
@@ -16,6 +17,7 @@ mod tree;
 pub use beam::{Beam, Met, Spread, WAY, highest, lowest};
 pub use boxes::{Boxes, Child, Node, WIDE};
 pub use clip::{Outcode, entry};
+pub use fan::{FAN, Fan, FanMet};
 pub use planes::{Planes, SLACK, Step, slack};
 pub use structure::Structure;
 pub use sub::{SubLattice, SubLattices};

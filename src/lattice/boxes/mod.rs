@@ -74,6 +74,14 @@ impl Node {
         )
     }
 
+    /// The lower and the upper corner of a slot's box.
+    #[inline(always)]
+    pub fn corners(&self, slot: usize) -> ([f64; 3], [f64; 3]) {
+        let [lx, ly, lz] = &self.lo;
+        let [hx, hy, hz] = &self.hi;
+        ([lx[slot], ly[slot], lz[slot]], [hx[slot], hy[slot], hz[slot]])
+    }
+
     /// A bit for each slot in which a node stands.
     #[inline]
     pub fn inner(&self) -> u8 {

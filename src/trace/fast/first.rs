@@ -9,14 +9,15 @@ use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 use crate::lattice::{Beam, Child, SLACK, Spread};
 use crate::math::{Bundle, DVec3, LANES, Mask, Number, ROWS, Rays};
 use crate::solid::{
-    Body, Firsts, Flat, Form, Found, Left, Reach, Spans, Starts, first_of_expressions, first_of_surface,
-    firsts_of_spans,
+    Ball, Body, Firsts, Flat, Form, Found, Left, Reach, Spans, Starts, first_of_expressions,
+    first_of_surface, firsts_of_spans,
 };
 use crate::stage::{Meter, Silent};
 
 use super::Fast;
 use super::memory::TileMemory;
 use super::nearest::{Nearest, Offer};
+use super::thin::Thin;
 use super::walk::{bounds_between, push_nearest_last, through, touching};
 
 /// The most leaves of an expression that are asked at once, rather than the way being cut into shorter slices: more
@@ -37,10 +38,15 @@ impl Fast<'_> {
         memory: &mut TileMemory,
     ) {
         let whole = Beam::around(simd, bundles.iter().map(|bundle| (bundle, None)), Spread::Apart);
-        let TileMemory { beams, far, stack, .. } = memory;
+        let TileMemory { beams, far, thin, fan, stack, .. } = memory;
         beams.clear();
         for bundle in bundles {
             beams.push(Beam::around(simd, std::iter::once((bundle, None)), Spread::Apart));
+        }
+        fan.set(beams);
+        thin.resize(bundles.len(), Thin::EMPTY);
+        for (thin, bundle) in thin.iter_mut().zip(bundles) {
+            thin.set(bundle);
         }
         far.clear();
         far.extend(bundles.iter().map(|b| if b.live == 0 { f64::NEG_INFINITY } else { f64::INFINITY }));
@@ -58,20 +64,20 @@ impl Fast<'_> {
             memory.counts.cells_visited += 1;
             let (lo, hi) = node.sides(simd);
             let met = whole.meets_boxes(simd, &lo, &hi);
-            let objects = met.boxes & !node.inner();
-            if objects != 0 {
-                for (k, bundle) in bundles.iter().enumerate() {
-                    let own = memory.beams[k].meets_boxes(simd, &lo, &hi);
-                    let ahead = own.near.is_at_most(f64x8::splat(simd, memory.far[k] + self.slack));
-                    let mut left = own.boxes & objects & ahead.bits();
-                    while left != 0 {
-                        let slot = left.trailing_zeros() as usize;
-                        left &= left - 1;
-                        let Some(Child::Object(object)) = node.child(slot) else { continue };
-                        if own.near[slot] <= memory.far[k] + self.slack {
-                            self.object_of_bundle(simd, object, bundle, &mut nearest[k], memory, k);
-                            memory.far[k] = nearest[k].farthest(simd, bundle);
-                        }
+            let mut objects = met.boxes & !node.inner();
+            while objects != 0 {
+                let slot = objects.trailing_zeros() as usize;
+                objects &= objects - 1;
+                let Some(Child::Object(object)) = node.child(slot) else { continue };
+                let (lo, hi) = node.corners(slot);
+                let asked = memory.fan.meets(simd, lo, hi);
+                let mut left = asked.frustums;
+                while left != 0 {
+                    let k = left.trailing_zeros() as usize;
+                    left &= left - 1;
+                    if f64::from(asked.near[k]) <= memory.far[k] + self.slack {
+                        self.object_of_bundle(simd, object, &bundles[k], &mut nearest[k], memory, k);
+                        memory.far[k] = nearest[k].farthest(simd, &bundles[k]);
                     }
                 }
             }
@@ -93,7 +99,16 @@ impl Fast<'_> {
         match &self.assembly.objects[object as usize].body {
             Body::Single(index) => {
                 memory.counts.primitive_tests += 1;
-                single(simd, &primitives[*index as usize].form, bundle, nearest, object, *index);
+                let form = &primitives[*index as usize].form;
+                if let Form::Ball(ball) = form {
+                    let thin = &memory.thin[k];
+                    simd.vectorize(
+                        #[inline(always)]
+                        || self.ball(simd, (ball, form), thin, bundle, nearest, [object, *index]),
+                    );
+                } else {
+                    single(simd, form, bundle, nearest, object, *index);
+                }
             }
             Body::Surface(index) => {
                 memory.counts.primitive_tests += 1;
@@ -119,6 +134,45 @@ impl Fast<'_> {
                 let to = memory.far[k] + self.slack;
                 self.composite(simd, object, Flat::from(&**whole), bundle, to, nearest, memory);
             }
+        }
+    }
+
+    /// The first hits of a bundle with a ball.
+    #[inline(always)]
+    fn ball<S: Simd>(
+        &self,
+        simd: S,
+        (ball, form): (&Ball, &Form),
+        thin: &Thin,
+        bundle: &Bundle,
+        nearest: &mut Nearest,
+        [object, index]: [u32; 2],
+    ) {
+        let near = thin.near(simd, ball.center, ball.radius);
+        if near == 0 {
+            return;
+        }
+        let no = mask64x8::splat(simd, false);
+        let zero = f64x8::splat(simd, 0.0);
+        let primitive = f64x8::splat(simd, f64::from(index));
+        let start = f64x8::splat(simd, 2.0 * ball.most_error());
+        for row in 0..ROWS {
+            if (near >> (row * LANES)) as u8 == 0 {
+                continue;
+            }
+            let spans = ball.spans(&bundle.load(simd, row));
+            if !spans.any.any() {
+                continue;
+            }
+            let ahead = spans.enter.t.is_above(start);
+            let met = if (spans.any & !ahead).any() {
+                let starts = Starts { here: no, inward: no, off: None };
+                let Firsts { end, entering, any } = firsts_of_spans(spans, form, &starts);
+                Offer { any, t: end.t, entering, object, primitive, surface: zero }
+            } else {
+                Offer { any: spans.any, t: spans.enter.t, entering: !no, object, primitive, surface: zero }
+            };
+            nearest.offer(simd, row, &met);
         }
     }
 
@@ -240,20 +294,6 @@ fn single<S: Simd>(simd: S, form: &Form, bundle: &Bundle, nearest: &mut Nearest,
     }
     let about = (form, bundle, object, index);
     match form {
-        Form::Ball(ball) => {
-            simd.vectorize(
-                #[inline(always)]
-                || {
-                    rows(
-                        simd,
-                        about,
-                        nearest,
-                        #[inline(always)]
-                        |rays| ball.spans(rays),
-                    )
-                },
-            );
-        }
         Form::AxisBox(slabs) => {
             simd.vectorize(
                 #[inline(always)]
@@ -310,6 +350,6 @@ fn single<S: Simd>(simd: S, form: &Form, bundle: &Bundle, nearest: &mut Nearest,
                 },
             );
         }
-        Form::Mesh(_) | Form::Face(_) | Form::Patch(_) | Form::Tube(_) => {}
+        Form::Ball(_) | Form::Mesh(_) | Form::Face(_) | Form::Patch(_) | Form::Tube(_) => {}
     }
 }

@@ -1,8 +1,10 @@
 //! Memory of one worker.
 
-use crate::lattice::Beam;
+use crate::lattice::{Beam, Fan};
 use crate::solid::{BundleScratch, Found, Pruning, Remains};
 use crate::stage::Counts;
+
+use super::thin::Thin;
 
 /// What tracing a tile needs, used again for every tile.
 #[derive(Debug)]
@@ -10,6 +12,8 @@ pub struct TileMemory {
     /// By bundle: its own frustum, and how far its rays have still to look.
     pub(super) beams: Vec<Beam>,
     pub(super) far: Vec<f64>,
+    pub(super) thin: Vec<Thin>,
+    pub(super) fan: Fan,
     /// Nodes to be walked, and how near they are at least.
     pub(super) stack: Vec<(f64, u32)>,
     pub(super) scratch: BundleScratch,
@@ -32,6 +36,8 @@ impl Default for TileMemory {
         Self {
             beams: Vec::new(),
             far: Vec::new(),
+            thin: Vec::new(),
+            fan: Fan::new(),
             stack: Vec::new(),
             scratch: BundleScratch::default(),
             found: Box::new(Found::NONE),

@@ -9,6 +9,7 @@ mod first;
 mod memory;
 mod nearest;
 mod shaft;
+mod thin;
 mod walk;
 
 use fearless_simd::{Level, Simd, dispatch};

@@ -9,14 +9,15 @@ use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 use crate::lattice::{Beam, Child, SLACK, Spread};
 use crate::math::{Bundle, Column, DVec3, LANES, Mask, Number, ROWS, Rays};
 use crate::solid::{
-    Body, Departures, Firsts, Flat, Form, Left, Reach, Spans, Starts, first_of_expressions, first_of_surface,
-    firsts_of_spans,
+    Ball, Body, Departures, Firsts, Flat, Form, Left, Reach, Spans, Starts, first_of_expressions,
+    first_of_surface, firsts_of_spans,
 };
 use crate::stage::{Meter, Silent};
 
 use super::Fast;
 use super::first::{FEW, HALVINGS};
 use super::memory::TileMemory;
+use super::thin::Thin;
 use super::walk::{bounds_between, push_nearest_last, through, touching};
 
 /// Rays towards a light.
@@ -73,6 +74,18 @@ impl Fast<'_> {
         for one in bundles() {
             memory.beams.push(Beam::around(simd, std::iter::once(one), Spread::Together));
         }
+        memory.fan.set(&memory.beams);
+        let mut open = 0_u16;
+        for (k, shaft) in shafts.iter().enumerate() {
+            open |= u16::from(shaft.open() != 0) << k;
+        }
+        if open == 0 {
+            return;
+        }
+        memory.thin.resize(shafts.len(), Thin::EMPTY);
+        for (thin, shaft) in memory.thin.iter_mut().zip(&*shafts) {
+            thin.set(&shaft.rays);
+        }
         memory.stack.clear();
         memory.stack.push((f64::NEG_INFINITY, 0));
         while let Some((_, node)) = memory.stack.pop() {
@@ -80,28 +93,71 @@ impl Fast<'_> {
             memory.counts.cells_visited += 1;
             let (lo, hi) = node.sides(simd);
             let met = whole.meets_boxes(simd, &lo, &hi);
-            let objects = met.boxes & !node.inner();
-            if objects != 0 {
-                let mut all_blocked = true;
-                for (k, shaft) in shafts.iter_mut().enumerate() {
-                    if shaft.open() == 0 {
-                        continue;
+            let mut objects = met.boxes & !node.inner();
+            while objects != 0 {
+                let slot = objects.trailing_zeros() as usize;
+                objects &= objects - 1;
+                let Some(Child::Object(object)) = node.child(slot) else { continue };
+                let (lo, hi) = node.corners(slot);
+                let mut left = memory.fan.meets(simd, lo, hi).frustums & open;
+                while left != 0 {
+                    let k = left.trailing_zeros() as usize;
+                    left &= left - 1;
+                    self.object_in_shaft(simd, object, &mut shafts[k], &departures[k], memory, k);
+                    if shafts[k].open() == 0 {
+                        open &= !(1 << k);
                     }
-                    let mut left = memory.beams[k].meets_boxes(simd, &lo, &hi).boxes & objects;
-                    while left != 0 {
-                        let slot = left.trailing_zeros() as usize;
-                        left &= left - 1;
-                        if let Some(Child::Object(object)) = node.child(slot) {
-                            self.object_in_shaft(simd, object, shaft, &departures[k], memory);
-                        }
-                    }
-                    all_blocked &= shaft.open() == 0;
                 }
-                if all_blocked {
+                if open == 0 {
                     return;
                 }
             }
             push_nearest_last(&mut memory.stack, node, &met);
+        }
+    }
+
+    /// A ball in the way of a light.
+    #[inline(always)]
+    fn ball_in_shaft<S: Simd>(
+        &self,
+        simd: S,
+        (ball, form): (&Ball, &Form),
+        thin: &Thin,
+        shaft: &mut Shaft,
+        departures: &Departures,
+        index: u32,
+    ) {
+        let near = thin.near(simd, ball.center, ball.radius) & shaft.open();
+        if near == 0 {
+            return;
+        }
+        let error = ball.most_error();
+        let start = f64x8::splat(simd, error * (1.0 + self.assembly.off / ball.off()));
+        let index = f64x8::splat(simd, f64::from(index));
+        for row in 0..ROWS {
+            let bits = (near >> (row * LANES)) as u8;
+            if bits == 0 {
+                continue;
+            }
+            let spans = ball.spans(&shaft.rays.load(simd, row));
+            let met: mask64x8<S> = spans.any & mask64x8::from_bitmask(simd, u64::from(bits));
+            if !met.any() {
+                continue;
+            }
+            let here = departures.primitive.load(simd, row).is_equal(index);
+            let distance = shaft.distance.load(simd, row);
+            let (enter, leave) = (spans.enter.t, spans.leave.t);
+            // A ball ahead, well before the light; one behind, or beyond the light.
+            let sure = met & !here & enter.is_above(start) & (enter + error).is_below(distance);
+            let beside = !here & (leave.is_below(-start) | (enter - error).is_above(distance));
+            let mut blocked = sure;
+            if (met & !sure & !beside).any() {
+                let inward = mask64x8::from_bitmask(simd, departures.inward >> (row * LANES) & 0xFF);
+                let off = Some(departures.off.load(simd, row));
+                let Firsts { end, any, .. } = firsts_of_spans(spans, form, &Starts { here, inward, off });
+                blocked = any & (end.t + end.error).is_below(distance);
+            }
+            shaft.blocked |= (u64::from(blocked.bits()) << (row * LANES)) & near;
         }
     }
 
@@ -112,13 +168,23 @@ impl Fast<'_> {
         shaft: &mut Shaft,
         departures: &Departures,
         memory: &mut TileMemory,
+        k: usize,
     ) {
         let primitives = &self.assembly.primitives;
         let own = &self.assembly.objects[object as usize];
         match &own.body {
             Body::Single(index) => {
                 memory.counts.primitive_tests += 1;
-                single(simd, &primitives[*index as usize].form, shaft, departures, *index);
+                let form = &primitives[*index as usize].form;
+                if let Form::Ball(ball) = form {
+                    let thin = &memory.thin[k];
+                    simd.vectorize(
+                        #[inline(always)]
+                        || self.ball_in_shaft(simd, (ball, form), thin, shaft, departures, *index),
+                    );
+                } else {
+                    single(simd, form, shaft, departures, *index);
+                }
             }
             Body::Surface(index) => {
                 memory.counts.primitive_tests += 1;
@@ -239,20 +305,6 @@ fn single<S: Simd>(simd: S, form: &Form, shaft: &mut Shaft, departures: &Departu
     }
     let about = (form, departures, index);
     match form {
-        Form::Ball(ball) => {
-            simd.vectorize(
-                #[inline(always)]
-                || {
-                    rows(
-                        simd,
-                        about,
-                        shaft,
-                        #[inline(always)]
-                        |rays| ball.spans(rays),
-                    )
-                },
-            );
-        }
         Form::AxisBox(slabs) => {
             simd.vectorize(
                 #[inline(always)]
@@ -309,6 +361,6 @@ fn single<S: Simd>(simd: S, form: &Form, shaft: &mut Shaft, departures: &Departu
                 },
             );
         }
-        Form::Mesh(_) | Form::Face(_) | Form::Patch(_) | Form::Tube(_) => {}
+        Form::Ball(_) | Form::Mesh(_) | Form::Face(_) | Form::Patch(_) | Form::Tube(_) => {}
     }
 }

@@ -1,6 +1,6 @@
 //! Rays that are traced together.
 
-use fearless_simd::{Simd, SimdBase, f64x8};
+use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x8, mask64x8};
 
 use super::number::LANES;
 use super::vector::{Rays, Vector};
@@ -40,11 +40,23 @@ impl Column {
         f64x8::from_slice(simd, &self.0[row * LANES..][..LANES])
     }
 
+    /// Sets some of eight.
+    #[inline(always)]
+    pub fn put<S: Simd>(&mut self, simd: S, row: usize, which: mask64x8<S>, x: f64x8<S>) {
+        self.store(row, which.select(x, self.load(simd, row)));
+    }
+
     /// Sets eight of them.
     #[inline(always)]
     pub fn store<S: Simd>(&mut self, row: usize, x: f64x8<S>) {
         x.store_slice(&mut self.0[row * LANES..][..LANES]);
     }
+}
+
+/// The answers of a row, below [`ROWS`], out of a bit for each ray of a bundle.
+#[inline(always)]
+pub fn row_of<S: Simd>(simd: S, bits: u64, row: usize) -> mask64x8<S> {
+    mask64x8::from_bitmask(simd, bits >> (row * LANES) & 0xFF)
 }
 
 /// A vector of each ray of a bundle.

@@ -102,12 +102,7 @@ impl<N: Number> Vector<N> {
     #[inline(always)]
     #[must_use]
     pub fn mapped(self, map: &DMat3) -> Self {
-        let component = |x: f64, y: f64, z: f64| self.x * x + self.y * y + self.z * z;
-        Self {
-            x: component(map.x_axis.x, map.y_axis.x, map.z_axis.x),
-            y: component(map.x_axis.y, map.y_axis.y, map.z_axis.y),
-            z: component(map.x_axis.z, map.y_axis.z, map.z_axis.z),
-        }
+        Self { x: self.dot_one(map.row(0)), y: self.dot_one(map.row(1)), z: self.dot_one(map.row(2)) }
     }
 
     /// Of each, the one where the answer is yes, the other where it is no.

@@ -89,6 +89,14 @@ pub struct Starts<N: Number> {
     pub off: Option<N>,
 }
 
+impl<N: Number> Starts<N> {
+    /// Whether crossings lie at the starts of their rays, or before.
+    #[inline(always)]
+    pub(super) fn before(&self, end: &Ends<N>, form: &Form) -> N::Mask {
+        end.t.is_at_most(start_of(end.error, form, self.off))
+    }
+}
+
 /// The first crossings of one convex primitive.
 #[derive(Clone, Copy, Debug)]
 pub struct Firsts<N: Number> {
@@ -105,11 +113,11 @@ pub struct Firsts<N: Number> {
 pub fn firsts_of_spans<N: Number>(spans: Spans<N>, form: &Form, starts: &Starts<N>) -> Firsts<N> {
     // A convex solid is not met again by a ray that leaves it.
     let any = spans.any & !(starts.here & !starts.inward);
-    let before = |end: &Ends<N>| end.t.is_at_most(start_of(end.error, form, starts.off));
-    let leaving = starts.here | before(&spans.enter);
+    let leaving = starts.here | starts.before(&spans.enter, form);
     let end = Ends::choose(leaving, spans.leave, spans.enter);
     // The start on this primitive is at 0 by construction.
-    let behind = (starts.here & end.t.is_at_most(end.t.same(0.0))) | (!starts.here & before(&end));
+    let behind =
+        (starts.here & end.t.is_at_most(end.t.same(0.0))) | (!starts.here & starts.before(&end, form));
     Firsts { end, entering: !leaving, any: any & !behind }
 }
 

@@ -7,7 +7,7 @@
 
 use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x8, mask64x8};
 
-use crate::math::{Bundle, Column, LANES, Mask, Number, ROWS, Rays};
+use crate::math::{Bundle, Column, LANES, Mask, Number, ROWS, Rays, row_of};
 
 use super::crossing::{Crossing, Reach, SAME_SLOPE, start_of};
 use super::expression::Link;
@@ -194,19 +194,18 @@ fn gather<S: Simd>(
     ) {
         (enter.ahead, leave.ahead) = (0, 0);
         for row in 0..ROWS {
-            let bits = |word: u64| mask64x8::from_bitmask(simd, word >> (row * LANES) & 0xFF);
             if (wanted >> (row * LANES)) as u8 == 0 {
                 continue;
             }
             let mut spans = spans(&bundle.load(simd, row));
-            let any = spans.any & bits(wanted) & !bits(here & !inward);
+            let any = spans.any & row_of(simd, wanted, row) & !row_of(simd, here & !inward, row);
             if !any.any() {
                 continue;
             }
             if here != 0 {
                 let zero = f64x8::splat(simd, 0.0);
                 let start = super::span::Ends { t: zero, error: zero, surface: zero };
-                spans.enter = super::span::Ends::choose(bits(inward), start, spans.enter);
+                spans.enter = super::span::Ends::choose(row_of(simd, inward, row), start, spans.enter);
             }
             // Far outside the reach only the state inside it matters: none for a span that ends before it or
             // starts behind it.
@@ -384,11 +383,10 @@ fn next_place<S: Simd>(
     place: &mut Place,
 ) -> [u64; 2] {
     let shift = row * LANES;
-    let bits = |word: u64| mask64x8::from_bitmask(simd, word >> shift & 0xFF);
-    let all = |x: f64| f64x8::splat(simd, x);
     let departure_off = departures.map(|d| d.off.load(simd, row));
-    let infinite = all(f64::INFINITY);
-    let (mut t, mut error, mut off, mut start) = (infinite, all(0.0), all(0.0), all(0.0));
+    let infinite = f64x8::splat(simd, f64::INFINITY);
+    let (mut t, mut error, mut off, mut start) =
+        (infinite, f64x8::splat(simd, 0.0), f64x8::splat(simd, 0.0), f64x8::splat(simd, 0.0));
     for (leaf, pair) in sides.iter().enumerate() {
         if (pair[0].ahead | pair[1].ahead) >> shift & 0xFF == 0 {
             continue;
@@ -396,27 +394,28 @@ fn next_place<S: Simd>(
         let form = &primitives[expression.leaves[leaf].primitive as usize].form;
         for side in pair {
             let their_t = side.t.load(simd, row);
-            let sooner = bits(side.ahead) & their_t.is_below(t);
+            let sooner = row_of(simd, side.ahead, row) & their_t.is_below(t);
             if sooner.any() {
                 let their_error = side.error.load(simd, row);
                 t = sooner.select(their_t, t);
                 error = sooner.select(their_error, error);
-                off = sooner.select(all(form.off()), off);
+                off = sooner.select(f64x8::splat(simd, form.off()), off);
                 start = sooner.select(start_of(their_error, form, departure_off), start);
             }
         }
     }
     place.t.store(row, t);
     place.start.store(row, start);
-    let open = bits(open);
-    let ended = open & (t.is_equal(infinite) | t.is_above(all(reach.to)));
+    let open = row_of(simd, open, row);
+    let ended = open & (t.is_equal(infinite) | t.is_above(f64x8::splat(simd, reach.to)));
     let limit = t + error;
     // In the order of their distances the place ends before the first that does not reach back to it.
     let mut end = infinite;
     for [enter, leave] in sides.iter() {
         for side in [enter, leave] {
             let their_t = side.t.load(simd, row);
-            let apart = bits(side.ahead) & (their_t - side.error.load(simd, row)).is_above(limit);
+            let apart =
+                row_of(simd, side.ahead, row) & (their_t - side.error.load(simd, row)).is_above(limit);
             end = (apart & their_t.is_below(end)).select(their_t, end);
         }
     }
@@ -428,16 +427,17 @@ fn next_place<S: Simd>(
                 0
             } else {
                 let (their_t, their_error) = (side.t.load(simd, row), side.error.load(simd, row));
-                let within = bits(side.ahead)
+                let within = row_of(simd, side.ahead, row)
                     & open
                     & !ended
                     & (their_t - their_error).is_at_most(limit)
                     & their_t.is_below(end);
-                let (a, b) = (off / error, all(own) / their_error);
+                let (a, b) = (off / error, f64x8::splat(simd, own) / their_error);
                 let same_slope = a.larger(b).is_at_most(a.smaller(b) * SAME_SLOPE);
-                let exact = error.is_equal(all(0.0)) | their_error.is_equal(all(0.0));
+                let exact =
+                    error.is_equal(f64x8::splat(simd, 0.0)) | their_error.is_equal(f64x8::splat(simd, 0.0));
                 let now = within & (same_slope | exact);
-                all_before = all_before & (!now | their_t.is_below(all(reach.from)));
+                all_before = all_before & (!now | their_t.is_below(f64x8::splat(simd, reach.from)));
                 u64::from(now.bits())
             };
             side.now = side.now & !(0xFF << shift) | now << shift;

@@ -225,12 +225,16 @@ impl Slab {
 /// Spans whose surfaces are axes, with the faces themselves: a ray comes in by the face that it comes against.
 #[inline(always)]
 fn with_sides<N: Number>(spans: Spans<N>, d: [N; 3]) -> Spans<N> {
-    let face = |end: Ends<N>, comes_in: bool| {
-        let on = |axis: f64| end.surface.is_equal(end.surface.same(axis));
-        let speed = on(0.0).choose(d[0], on(1.0).choose(d[1], d[2]));
-        let (below, above) = if comes_in { (0.0, 1.0) } else { (1.0, 0.0) };
-        let side = speed.is_above(speed.same(0.0)).choose(speed.same(below), speed.same(above));
-        Ends { surface: end.surface + end.surface + side, ..end }
-    };
-    Spans { enter: face(spans.enter, true), leave: face(spans.leave, false), ..spans }
+    let [enter, leave] = [facing(spans.enter, d, [0.0, 1.0]), facing(spans.leave, d, [1.0, 0.0])];
+    Spans { enter, leave, ..spans }
+}
+
+/// The face of an axis' pair that is crossed: one where the ray goes down the axis, the other where it goes up.
+#[inline(always)]
+fn facing<N: Number>(end: Ends<N>, d: [N; 3], [upward, downward]: [f64; 2]) -> Ends<N> {
+    let axis = end.surface;
+    let (is_x, is_y) = (axis.is_equal(axis.same(0.0)), axis.is_equal(axis.same(1.0)));
+    let speed = is_x.choose(d[0], is_y.choose(d[1], d[2]));
+    let side = speed.is_above(speed.same(0.0)).choose(axis.same(upward), axis.same(downward));
+    Ends { surface: axis + axis + side, ..end }
 }

@@ -85,12 +85,8 @@ impl Lens {
     pub fn directions<N: Number>(&self, x: N, y: N) -> Vector<N> {
         let across = (x * 2.0 / f64::from(self.dots.width) - 1.0) * self.tangents[0];
         let upward = (-(y * 2.0 / f64::from(self.dots.height)) + 1.0) * self.tangents[1];
-        let component = |forward: f64, right: f64, up: f64| across * right + forward + upward * up;
-        let d = Vector {
-            x: component(self.forward.x, self.right.x, self.up.x),
-            y: component(self.forward.y, self.right.y, self.up.y),
-            z: component(self.forward.z, self.right.z, self.up.z),
-        };
+        let like = Vector { x, y, z: x };
+        let d = like.same(self.right) * across + like.same(self.forward) + like.same(self.up) * upward;
         d * (x.same(1.0) / d.length())
     }
 

@@ -7,7 +7,7 @@
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 
 use crate::lattice::{Beam, Child, SLACK, Spread};
-use crate::math::{Bundle, DVec3, LANES, Mask, Number, ROWS, Rays};
+use crate::math::{Bundle, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
 use crate::solid::{
     Ball, Body, Firsts, Flat, Form, Found, Left, Reach, Spans, Starts, first_of_expressions,
     first_of_surface, firsts_of_spans,
@@ -252,11 +252,10 @@ fn offer_found<S: Simd>(simd: S, found: &Found, object: u32, nearest: &mut Neare
         #[inline(always)]
         || {
             for row in 0..ROWS {
-                let bits = |word: u64| mask64x8::from_bitmask(simd, word >> (row * LANES) & 0xFF);
                 let met = Offer {
-                    any: bits(found.any),
+                    any: row_of(simd, found.any, row),
                     t: found.t.load(simd, row),
-                    entering: bits(found.entering),
+                    entering: row_of(simd, found.entering, row),
                     object,
                     primitive: found.primitive.load(simd, row),
                     surface: found.surface.load(simd, row),

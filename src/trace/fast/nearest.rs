@@ -53,14 +53,10 @@ impl Nearest {
         if !nearer.any() {
             return;
         }
-        let put = |column: &mut Column, x: f64x8<S>| {
-            let old = column.load(simd, row);
-            column.store(row, nearer.select(x, old));
-        };
-        put(&mut self.t, t);
-        put(&mut self.object, f64x8::splat(simd, f64::from(met.object)));
-        put(&mut self.primitive, met.primitive);
-        put(&mut self.surface, met.surface);
+        self.t.put(simd, row, nearer, t);
+        self.object.put(simd, row, nearer, f64x8::splat(simd, f64::from(met.object)));
+        self.primitive.put(simd, row, nearer, met.primitive);
+        self.surface.put(simd, row, nearer, met.surface);
         let shift = row * LANES;
         let (nearer, entering) = (u64::from(nearer.bits()) << shift, u64::from(met.entering.bits()) << shift);
         self.entering = self.entering & !nearer | entering & nearer;

@@ -7,7 +7,7 @@
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 
 use crate::lattice::{Beam, Child, SLACK, Spread};
-use crate::math::{Bundle, Column, DVec3, LANES, Mask, Number, ROWS, Rays};
+use crate::math::{Bundle, Column, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
 use crate::solid::{
     Ball, Body, Departures, Firsts, Flat, Form, Left, Reach, Spans, Starts, first_of_expressions,
     first_of_surface, firsts_of_spans,
@@ -294,10 +294,9 @@ fn single<S: Simd>(simd: S, form: &Form, shaft: &mut Shaft, departures: &Departu
             if !spans.any.any() {
                 continue;
             }
-            let bits = |word: u64| mask64x8::from_bitmask(simd, word >> (row * LANES) & 0xFF);
             let here = departures.primitive.load(simd, row).is_equal(f64x8::splat(simd, f64::from(index)));
             let off = Some(departures.off.load(simd, row));
-            let starts = Starts { here, inward: bits(departures.inward), off };
+            let starts = Starts { here, inward: row_of(simd, departures.inward, row), off };
             let Firsts { end, any, .. } = firsts_of_spans(spans, form, &starts);
             let blocked = any & (end.t + end.error).is_below(shaft.distance.load(simd, row));
             shaft.blocked |= u64::from(blocked.bits()) << (row * LANES) & open;

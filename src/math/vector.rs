@@ -113,11 +113,7 @@ impl<N: Number> Vector<N> {
     /// Of each, the one where the answer is yes, the other where it is no.
     #[inline(always)]
     pub fn choose(mask: N::Mask, yes: Self, no: Self) -> Self {
-        Self {
-            x: mask.choose(yes.x, no.x),
-            y: mask.choose(yes.y, no.y),
-            z: mask.choose(yes.z, no.z),
-        }
+        Self { x: mask.choose(yes.x, no.x), y: mask.choose(yes.y, no.y), z: mask.choose(yes.z, no.z) }
     }
 
     /// Whether all three components of each answer yes.

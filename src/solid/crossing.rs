@@ -128,8 +128,7 @@ pub fn first_of_span(
         return None;
     }
     let spans = primitive.form.spans(&Rays::from(ray)).filter(|spans| spans.any)?;
-    let starts =
-        Starts { here: here.is_some(), inward: here.is_some(), off: departure.map(|d| d.off) };
+    let starts = Starts { here: here.is_some(), inward: here.is_some(), off: departure.map(|d| d.off) };
     let first = firsts_of_spans(spans, &primitive.form, &starts);
     let End { t, error, surface } = first.end.one();
     first.any.then_some(Crossing { t, error, primitive: index, surface, entering: first.entering })

@@ -59,7 +59,8 @@ impl Facets {
         for (surface, (face, off)) in self.faces.iter().zip(&self.off).enumerate() {
             let above = from_center.dot_one(face.normal) - face.offset;
             let d = rays.d.dot_one(face.normal);
-            let (t, error, surface) = (-above / d, like.same(*off) / d.magnitude(), like.same(surface as f64));
+            let (t, error, surface) =
+                (-above / d, like.same(*off) / d.magnitude(), like.same(surface as f64));
             let (against, along) = (d.is_below(like.same(-STILL)), d.is_above(like.same(STILL)));
             let enter = Ends { t: against.choose(t, before), error, surface };
             let leave = Ends { t: along.choose(t, behind), error, surface };

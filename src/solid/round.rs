@@ -330,8 +330,8 @@ fn side_spans<N: Number>(rays: &Centred<N>, middle: f64, slope: f64) -> Spans<N>
     let zero = rays.t.same(0.0);
     let (crosses, steeper) = (a.is_above(zero), a.is_below(zero));
     // A chord is none where the form at its middle, −discriminant / a at t = −b / a, may be 0.
-    let is_chord = discriminant.is_above(zero)
-        & discriminant.is_above(a * form_off(-b / a, rays.seeming * off));
+    let is_chord =
+        discriminant.is_above(zero) & discriminant.is_above(a * form_off(-b / a, rays.seeming * off));
     let is_number = discriminant.is_equal(discriminant);
     let met = is_number & (!crosses | is_chord);
     if !met.any() {

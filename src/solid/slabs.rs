@@ -43,7 +43,8 @@ impl AxisBox {
     pub fn spans<N: Number>(&self, rays: &Rays<N>) -> Spans<N> {
         let mut spans = Spans::line(rays.o.x);
         for axis in 0..3 {
-            let slab = Slab { lo: self.bounds.lo[axis], hi: self.bounds.hi[axis], off: self.off, still: STILL };
+            let slab =
+                Slab { lo: self.bounds.lo[axis], hi: self.bounds.hi[axis], off: self.off, still: STILL };
             slab.clip(&mut spans, rays.o.along(axis), rays.d.along(axis), axis);
             if !spans.any.any() {
                 return spans;

@@ -108,7 +108,9 @@ fn memory_is_little() {
 
 #[test]
 fn a_floor_is_set_apart_near_the_root() {
-    let mut boxes = cloud(10_000, 0.001);
+    let flat = DVec3::new(1.0, 1.0, 0.01);
+    let mut boxes: Vec<Bounds> =
+        cloud(10_000, 0.001).iter().map(|b| Bounds::new(b.lo * flat, b.hi * flat)).collect();
     boxes.push(Bounds::new(DVec3::ZERO, DVec3::new(1.0, 1.0, 0.001)));
     let of = over(&boxes);
     checked(&of, &boxes);
@@ -141,5 +143,38 @@ fn what_can_not_be_told_apart_is_halved() {
     for boxes in [same, nested, row, tiny, huge, endless] {
         let depth = checked(&over(&boxes), &boxes);
         assert!(depth < 100, "{depth}");
+    }
+}
+
+#[test]
+#[ignore]
+fn temp_speed() {
+    for (n, size) in [(100_000, 0.005), (1_000_000, 0.0), (1_000_000, 0.005), (1_000_000, 0.05)] {
+        let boxes = cloud(n, size);
+        for threads in [1, 2] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let mut least = f64::INFINITY;
+            let mut of = over(&boxes[..1]);
+            for _ in 0..4 {
+                let t = std::time::Instant::now();
+                of = pool.install(|| over(&boxes));
+                least = least.min(t.elapsed().as_secs_f64());
+            }
+            let area: f64 = of
+                .nodes()
+                .iter()
+                .map(|node| {
+                    let b = (0..node.len()).fold(Bounds::EMPTY, |a, s| a.join(&node.bounds(s)));
+                    let e = b.hi - b.lo;
+                    e.x * e.y + e.y * e.z + e.z * e.x
+                })
+                .sum();
+            println!(
+                "{n} {size} {threads}: {:.3} s, {:.2} M/s, {:.1} B each, area {area:.1}",
+                least,
+                n as f64 / least / 1e6,
+                of.memory() as f64 / n as f64
+            );
+        }
     }
 }

@@ -127,7 +127,7 @@ impl About {
 
     #[inline]
     fn add(&mut self, item: &Item) {
-        let [x, y, z] = [0, 1, 2].map(|axis| item.reach.center(axis));
+        let [x, y, z] = [item.reach.center(0), item.reach.center(1), item.reach.center(2)];
         self.reach.join(&item.reach);
         self.centers.join(&Reach([-x, -y, -z, x, y, z]));
         let edge = item.reach.longest_edge();

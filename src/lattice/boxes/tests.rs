@@ -147,7 +147,7 @@ fn what_can_not_be_told_apart_is_halved() {
 }
 
 #[test]
-#[ignore]
+#[ignore = "timing"]
 fn temp_speed() {
     for (n, size) in [(100_000, 0.005), (1_000_000, 0.0), (1_000_000, 0.005), (1_000_000, 0.05)] {
         let boxes = cloud(n, size);

@@ -10,7 +10,6 @@ use super::super::planes::Step;
 use super::{Boxes, Child, Node, WIDE};
 
 /// Boxes that may wait in place: at most seven more wait for each node on the way down, and two or three mostly.
-XX
 const WAITING: usize = 48;
 
 /// What a ray may enter.

@@ -9,7 +9,7 @@ use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::layout::Rect;
 use ratatui::widgets::Block;
-use ray13::frame::{Request, Studio};
+use ray13::frame::{Request, Studio, Wants};
 use ray13::glyph::{GlyphMode, Palette};
 use ray13::math::Size;
 use ray13::plan::Options;
@@ -30,6 +30,7 @@ fn request(studio: &Studio, area: Rect) -> Request {
         dots,
         dot_aspect: CELL_ASPECT * f64::from(per_cell.height) / f64::from(per_cell.width),
         options: Options::default(),
+        wants: Wants::CELLS,
         glyphs,
         palette: Palette::Mono, // `Palette::Dos` where there are colours
         tone: Tone::default(),
@@ -46,7 +47,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         let inside = block.inner(screen.area());
         screen.render_widget(block, screen.area());
         if inside.area() > 0 {
-            screen.render_widget(Picture(&studio.draw(&request(&studio, inside)).cells), inside);
+            let frame = studio.draw(&request(&studio, inside));
+            if let Some(cells) = &frame.cells {
+                screen.render_widget(Picture(cells), inside);
+            }
         }
     })?;
     print!("{}", terminal.backend());

@@ -6,7 +6,7 @@ use std::fs::File;
 use std::io::BufWriter;
 use std::path::Path;
 
-use ray13::frame::{Request, Studio};
+use ray13::frame::{Request, Studio, Wants};
 use ray13::glyph::{GlyphMode, Palette, appearance};
 use ray13::math::Size;
 use ray13::output::{self, Pixels};
@@ -39,11 +39,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         dots: Size::new(SCREEN.width * per_cell.width, SCREEN.height * per_cell.height),
         dot_aspect: glyphs.dot_aspect(cell_aspect),
         options: Options { samples: 2, ..Options::default() },
+        wants: Wants::CELLS,
         glyphs,
         palette: Palette::Dos,
         tone: Tone::Lightness,
     });
-    let screen = appearance(&frame.cells, PIXELS).map(|&light| Tone::Lightness.level(light).srgb());
+    let cells = frame.cells.ok_or("a frame has the characters that it was asked for")?;
+    let screen = appearance(&cells, PIXELS).map(|&light| Tone::Lightness.level(light).srgb());
     output::png(&Pixels::Gray(screen), &mut BufWriter::new(File::create(path)?))?;
     Ok(())
 }

@@ -5,11 +5,12 @@
 //! see `docs/flow-chart.md` and `docs/architecture.md`.
 //!
 //! A program reads a scene, makes it ready once ([`frame::Studio`]) and asks for pictures ([`frame::Request`]); a
-//! finished [`frame::Frame`] holds the light, depth, normal and object of every dot, and the character cells. As levels
+//! finished [`frame::Frame`] holds the light of every dot and, where they are wanted ([`frame::Wants`]), depth, normal,
+//! object and the character cells. As levels
 //! a picture is text that a test can hold:
 //!
 //! ```
-//! use ray13::frame::{Request, Studio};
+//! use ray13::frame::{Request, Studio, Wants};
 //! use ray13::glyph::{GlyphMode, Palette};
 //! use ray13::math::Size;
 //! use ray13::plan::Options;
@@ -23,6 +24,7 @@
 //!     dots: Size::new(12, 8),
 //!     dot_aspect: 1.0, // square dots
 //!     options: Options::default(),
+//!     wants: Wants::LIGHT,
 //!     glyphs: GlyphMode::Shade,
 //!     palette: Palette::Mono,
 //!     tone: Tone::Lightness,

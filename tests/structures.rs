@@ -66,10 +66,11 @@ fn cameras(scene: &Scene) -> Vec<(&'static str, Camera)> {
 fn assert_same(what: &str, a: &Frame, b: &Frame) {
     let differs = |place: usize| {
         // To the bit, so that −0 is not 0.
-        a.depth.values()[place].to_bits() != b.depth.values()[place].to_bits()
-            || a.object.values()[place] != b.object.values()[place]
-            || a.normal.values()[place].to_array().map(f64::to_bits)
-                != b.normal.values()[place].to_array().map(f64::to_bits)
+        a.depth.as_ref().unwrap().values()[place].to_bits()
+            != b.depth.as_ref().unwrap().values()[place].to_bits()
+            || a.object.as_ref().unwrap().values()[place] != b.object.as_ref().unwrap().values()[place]
+            || a.normal.as_ref().unwrap().values()[place].to_array().map(f64::to_bits)
+                != b.normal.as_ref().unwrap().values()[place].to_array().map(f64::to_bits)
     };
     let [levels_a, levels_b] = [a, b].map(|frame| frame.levels(Tone::default()).values().to_vec());
     let faults: Vec<usize> = (0..DOTS.area()).filter(|&p| differs(p) || levels_a[p] != levels_b[p]).collect();
@@ -79,7 +80,13 @@ fn assert_same(what: &str, a: &Frame, b: &Frame) {
         .map(|&p| {
             let dot = (p as u32 % DOTS.width, p as u32 / DOTS.width);
             let say = |f: &Frame, levels: &[Level]| {
-                format!("{} {} {} level {}", f.depth[dot], f.object[dot], f.normal[dot], levels[p].get())
+                format!(
+                    "{} {} {} level {}",
+                    f.depth.as_ref().unwrap()[dot],
+                    f.object.as_ref().unwrap()[dot],
+                    f.normal.as_ref().unwrap()[dot],
+                    levels[p].get()
+                )
             };
             format!("dot {dot:?}: {} against {}", say(a, &levels_a), say(b, &levels_b))
         })

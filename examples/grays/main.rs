@@ -6,9 +6,10 @@ mod measure;
 
 use std::io::{self, Write};
 use std::rc::Rc;
+use std::sync::Arc;
 
 use measure::{Picture, errors, times};
-use ray13::frame::{Request, Studio};
+use ray13::frame::{Request, Studio, Wants};
 use ray13::glyph::{ColorDepth, GlyphMode, Palette, compose};
 use ray13::math::{Grid, Size};
 use ray13::output;
@@ -140,7 +141,7 @@ fn small_pictures(out: &mut impl Write) -> io::Result<()> {
     for mode in GlyphMode::ALL {
         let frame = studio.draw(&request(studio, 0, SMALL, times(SMALL, mode.dots_per_cell()), mode));
         writeln!(out, "\n{}:", mode.name())?;
-        output::text(&frame.cells, out)?;
+        output::text(&frame.cells.expect("they were asked for"), out)?;
     }
     Ok(())
 }
@@ -172,7 +173,10 @@ fn studios() -> Vec<(String, Rc<Studio>)> {
 
 /// A view of a scene.
 fn seen(studio: Rc<Studio>, view: usize) -> Picture {
-    Picture::new(move |dots| studio.draw(&request(&studio, view, SCREEN, dots, GlyphMode::Ascii)).light)
+    Picture::new(move |dots| {
+        let frame = studio.draw(&request(&studio, view, SCREEN, dots, GlyphMode::Ascii));
+        Arc::unwrap_or_clone(frame.light)
+    })
 }
 
 /// A view on a screen of cells that are twice as high as wide.
@@ -183,6 +187,7 @@ fn request(studio: &Studio, view: usize, screen: Size, dots: Size, glyphs: Glyph
         dots,
         dot_aspect: aspect * f64::from(dots.height) / f64::from(dots.width),
         options: Options::default(),
+        wants: Wants::CELLS,
         glyphs,
         palette: Palette::Mono,
         tone: Tone::default(),

@@ -6,7 +6,7 @@ use super::keys::Action;
 use super::layout::Layout;
 use super::motion::{self, FLY_STEP, ORBIT_STEP, ZOOM_STEP};
 use super::{Painter, Settings};
-use crate::frame::Request;
+use crate::frame::{Request, Wants};
 use crate::glyph::{CELL_ASPECT, GlyphMode};
 use crate::math;
 use crate::plan::Shading;
@@ -140,6 +140,7 @@ impl Model {
             dots,
             dot_aspect: self.settings.glyphs.dot_aspect(self.cell_aspect),
             options: self.settings.options,
+            wants: Wants::CELLS,
             glyphs: self.settings.glyphs,
             palette: self.settings.palette,
             tone: self.settings.tone,

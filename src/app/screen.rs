@@ -44,8 +44,8 @@ pub fn draw(model: &Model, shown: Option<&Shown>, buffer: &mut Buffer) {
     }
     let picture = model.layout.picture;
     match shown {
-        Some(shown) => Picture(&shown.frame.cells).render(picture, buffer),
-        None => Line::from("tracing").centered().style(theme.dim).render(middle_row(picture), buffer),
+        Some(Shown { frame: Frame { cells: Some(cells), .. }, .. }) => Picture(cells).render(picture, buffer),
+        _ => Line::from("tracing").centered().style(theme.dim).render(middle_row(picture), buffer),
     }
     if model.help {
         help::draw(&theme, model.layout.screen, buffer);

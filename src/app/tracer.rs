@@ -94,7 +94,7 @@ mod tests {
     use std::sync::mpsc::{self, Receiver};
 
     use super::*;
-    use crate::frame::{Frame, Studio};
+    use crate::frame::{Frame, Studio, Wants};
     use crate::glyph::{GlyphMode, Palette};
     use crate::math::Size;
     use crate::plan::Options;
@@ -129,6 +129,7 @@ mod tests {
             dots: Size::new(width, 1),
             dot_aspect: 1.0,
             options: Options { threads: 1, ..Options::default() },
+            wants: Wants::CELLS,
             glyphs: GlyphMode::Shade,
             palette: Palette::Dos,
             tone: Tone::Lightness,
@@ -157,7 +158,7 @@ mod tests {
         finish.send(()).unwrap();
         for width in [1, 9] {
             let Event::Drawn(frame) = events.recv().unwrap() else { panic!("a picture") };
-            assert_eq!(frame.cells.size().width, width);
+            assert_eq!(frame.cells.expect("they were asked for").size().width, width);
         }
     }
 

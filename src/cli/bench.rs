@@ -8,7 +8,7 @@ use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 use serde_json::{Value, json};
 
-use crate::frame::{Frame, Request};
+use crate::frame::{Frame, Request, Studio, Wants};
 use crate::math::DVec3;
 use crate::widget::Picture;
 
@@ -30,19 +30,22 @@ pub fn run(arguments: &BenchArguments) -> Result<(), CliError> {
     input::say(&scene.notes);
     let read = reading.elapsed();
     let studio = input::studio(scene)?;
-    let request = arguments.picture.request(&studio, arguments.picture.palette())?;
+    // A size in dots is that of a picture without characters.
+    let wants = if arguments.picture.dots.is_some() { Wants::LIGHT } else { Wants::CELLS };
+    let request = arguments.picture.request(&studio, arguments.picture.palette(), wants)?;
 
     let mut frame = studio.draw(&request);
     let mut times = Vec::new();
     let start = Instant::now();
     while times.len() < FRAMES || start.elapsed() < LONG_ENOUGH {
-        frame = studio.draw(&request);
+        // The studio draws the next into its memory.
+        drop(frame);
+        frame = studio.draw_anew(&request);
         times.push(frame.total);
     }
     times.sort_unstable();
     let (least, median) = (times[0], times[times.len() / 2]);
-    let turned = studio.draw(&turned(&request));
-    let blank = Buffer::empty(screen(&frame).area);
+    let sent = Sent::new(&studio, &Request { wants: Wants::CELLS, ..request });
 
     let mut figures = stats::figures(&frame, &studio.built());
     let counts = &frame.counts;
@@ -53,11 +56,27 @@ pub fn run(arguments: &BenchArguments) -> Result<(), CliError> {
     put("frame_ms_median", json!(stats::ms(median)));
     put("read_ms", json!(stats::ms(read)));
     put("rays_per_second", json!((rays as f64 / median.as_secs_f64()).round()));
-    put("bytes_first_frame", json!(bytes_between(&blank, &screen(&frame))));
-    put("bytes_per_frame", json!(bytes_between(&screen(&frame), &screen(&turned))));
+    put("bytes_first_frame", json!(sent.first));
+    put("bytes_per_frame", json!(sent.next));
     put("peak_rss_bytes", json!(peak_memory()));
     let text = if arguments.json { format!("{}\n", Value::Object(figures)) } else { stats::lines(&figures) };
     print(text.as_bytes())
+}
+
+/// What a terminal is sent, in bytes.
+struct Sent {
+    /// For a picture on a blank screen.
+    first: usize,
+    /// For the same from a little farther round, in its place.
+    next: usize,
+}
+
+impl Sent {
+    fn new(studio: &Studio, request: &Request) -> Self {
+        let [shown, next] = [request, &turned(request)].map(|request| screen(&studio.draw(request)));
+        let blank = Buffer::empty(shown.area);
+        Self { first: bytes_between(&blank, &shown), next: bytes_between(&shown, &next) }
+    }
 }
 
 /// The same picture from a little farther round.
@@ -75,11 +94,12 @@ fn turned(request: &Request) -> Request {
 
 /// The picture as the screen holds it.
 fn screen(frame: &Frame) -> Buffer {
-    let size = frame.cells.size();
+    let Some(cells) = &frame.cells else { return Buffer::default() };
+    let size = cells.size();
     // ratatui counts columns in 16 bits; so does every terminal.
     let side = |n: u32| u16::try_from(n).unwrap_or(u16::MAX);
     let mut buffer = Buffer::empty(Rect::new(0, 0, side(size.width), side(size.height)));
-    Picture(&frame.cells).render(buffer.area, &mut buffer);
+    Picture(cells).render(buffer.area, &mut buffer);
     buffer
 }
 

@@ -2,7 +2,7 @@
 
 use clap::ValueEnum;
 
-use crate::frame::{Request, Studio, pcat};
+use crate::frame::{Request, Studio, Wants, pcat};
 use crate::glyph::{CELL_ASPECT, ColorDepth, GlyphMode, Palette};
 use crate::math::Size;
 use crate::plan::{Options, Shading, StructureChoice};
@@ -162,7 +162,7 @@ impl PictureArguments {
     }
 
     /// The request for one picture.
-    pub fn request(&self, studio: &Studio, palette: Palette) -> Result<Request, CliError> {
+    pub fn request(&self, studio: &Studio, palette: Palette, wants: Wants) -> Result<Request, CliError> {
         let glyphs = GlyphMode::from(self.glyphs);
         let per_cell = glyphs.dots_per_cell();
         let (dots, dot_aspect) = if let Some(dots) = self.dots {
@@ -182,7 +182,16 @@ impl PictureArguments {
         }
         let aspect = f64::from(dots.width) / f64::from(dots.height) * dot_aspect;
         let camera = self.camera(studio, aspect)?;
-        Ok(Request { camera, dots, dot_aspect, options: self.options(), glyphs, palette, tone: self.tone() })
+        Ok(Request {
+            camera,
+            dots,
+            dot_aspect,
+            options: self.options(),
+            wants,
+            glyphs,
+            palette,
+            tone: self.tone(),
+        })
     }
 }
 

@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 
+use crate::frame::Wants;
 use crate::plan::StagePlan;
 
 use super::arguments::PlanArguments;
@@ -13,7 +14,7 @@ pub fn run(arguments: &PlanArguments) -> Result<(), CliError> {
     let scene = input::read(&arguments.scene.file, arguments.scene.skip_unsupported)?;
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
-    let request = arguments.picture.request(&studio, arguments.picture.palette())?;
+    let request = arguments.picture.request(&studio, arguments.picture.palette(), Wants::CELLS)?;
     let stages = studio.explain(&request);
     let text = if arguments.json { format!("{}\n", value(&stages)) } else { table(&stages) };
     print(text.as_bytes())

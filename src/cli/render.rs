@@ -3,11 +3,12 @@
 use std::fs;
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Instant;
 
 use clap::ValueEnum;
 
-use crate::frame::{Frame, Request};
+use crate::frame::{Frame, Request, Wants};
 use crate::glyph::Palette;
 use crate::math::Grid;
 use crate::output::{self, Pixels};
@@ -26,7 +27,8 @@ pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
     let read = reading.elapsed();
-    let request = arguments.picture.request(&studio, palette(&arguments.picture, format))?;
+    let wants = wants(format, arguments.channel);
+    let request = arguments.picture.request(&studio, palette(&arguments.picture, format), wants)?;
     let mut frame = studio.draw(&request);
     frame.times[crate::stage::Stage::Objects] = read;
     if let Some(over) = &frame.over_budget {
@@ -50,7 +52,7 @@ pub fn still(file: &str, skip_unsupported: bool, picture: &PictureArguments) -> 
     let scene = input::read(file, skip_unsupported)?;
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
-    let request = picture.request(&studio, palette(picture, Format::Txt))?;
+    let request = picture.request(&studio, palette(picture, Format::Txt), Wants::CELLS)?;
     let frame = studio.draw(&request);
     print(&encoded(&frame, &request, Format::Txt, None)?)
 }
@@ -65,6 +67,17 @@ fn check(format: Format, channel: Option<Channel>) -> Result<(), CliError> {
         (_, Some(_)) => "this --channel needs --format pfm: the other formats hold the picture itself",
     };
     Err(CliError::Input(message.into()))
+}
+
+/// What the format shows of a picture.
+fn wants(format: Format, channel: Option<Channel>) -> Wants {
+    match (format, channel) {
+        (Format::Txt | Format::Ans, _) => Wants::CELLS,
+        (_, Some(Channel::Depth)) => Wants { depth: true, ..Wants::LIGHT },
+        (_, Some(Channel::Normal)) => Wants { normal: true, ..Wants::LIGHT },
+        (_, Some(Channel::Object)) => Wants { object: true, ..Wants::LIGHT },
+        (_, Some(Channel::Light) | None) => Wants::LIGHT,
+    }
 }
 
 /// Text has no colours to lose: its shades are ink.
@@ -101,8 +114,8 @@ fn encoded(
 ) -> Result<Vec<u8>, CliError> {
     let mut out = Vec::new();
     let done = match format {
-        Format::Txt => output::text(&frame.cells, &mut out),
-        Format::Ans => output::ansi(&frame.cells, &mut out),
+        Format::Txt => wanted(frame.cells.as_ref()).and_then(|cells| output::text(cells, &mut out)),
+        Format::Ans => wanted(frame.cells.as_ref()).and_then(|cells| output::ansi(cells, &mut out)),
         Format::Levels => output::levels(&frame.levels(request.tone), &mut out),
         Format::Png => {
             let drawn = output::png(&pixels(frame, request, channel), &mut out);
@@ -115,13 +128,23 @@ fn encoded(
                 Some(color) => output::pfm_vectors(color, &mut out),
                 None => output::pfm_gray(&frame.light, &mut out),
             },
-            Channel::Depth => output::pfm_gray(&frame.depth, &mut out),
-            Channel::Normal => output::pfm_vectors(&frame.normal, &mut out),
-            Channel::Object => output::pfm_gray(&frame.object.map(|&n| f64::from(n)), &mut out),
+            Channel::Depth => {
+                wanted(frame.depth.as_ref()).and_then(|depth| output::pfm_gray(depth, &mut out))
+            }
+            Channel::Normal => {
+                wanted(frame.normal.as_ref()).and_then(|normal| output::pfm_vectors(normal, &mut out))
+            }
+            Channel::Object => wanted(frame.object.as_ref())
+                .and_then(|object| output::pfm_gray(&object.map(|&n| f64::from(n)), &mut out)),
         },
     };
     done.map_err(|e| CliError::Output(format!("the picture could not be encoded: {e}")))?;
     Ok(out)
+}
+
+/// A grid that the request asked for.
+fn wanted<T>(grid: Option<&Arc<Grid<T>>>) -> io::Result<&Grid<T>> {
+    grid.map(Arc::as_ref).ok_or_else(|| io::Error::other("it lacks what it was drawn for"))
 }
 
 /// Colours where they are wanted, as the tone shows them or as they are; else grays.

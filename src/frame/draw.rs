@@ -1,18 +1,23 @@
 //! One picture, through all stages.
 
-use std::time::Instant;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 
-use crate::glyph::{self, Palette};
-use crate::math::{Bounds, DVec3, Grid, Ray, Size};
-use crate::plan::{Channels, Options, Plan};
-use crate::shade::{Channel, Memory, Shader, View};
-use crate::stage::{Counts, Meter, Probe, Silent, Stage, StageTimes, Stopwatch};
-use crate::trace::Exact;
-use crate::view::{Lens, Picture, TILE, Tile, settled, tiles};
+use crate::glyph::{self, Cell, Palette};
+use crate::lattice::Structure;
+use crate::math::{Bounds, DVec3, Grid};
+use crate::plan::{Channels, Plan};
+use crate::shade::{Channel, Shader};
+use crate::stage::{Counts, Meter, Silent, Stage, StageTimes, Stopwatch};
+use crate::trace::{Exact, Fast};
+use crate::view::{Lens, Picture, TILE, tiles};
 
-use super::{Frame, Request, Space, Studio};
+use super::blocks::Blocks;
+use super::gather::{PictureDots, TileDots};
+use super::points::{Points, Tracer};
+use super::{Frame, Request, Space, Studio, Wants};
 
 /// One tile in this many is timed stage by stage: reading the clock at every change of stage costs about as much
 /// as the stage. A prime, so that the timed tiles do not stand in columns.
@@ -20,43 +25,70 @@ const TIMED: u32 = 13;
 
 impl Studio {
     /// Draws one picture. The same request gives the same dots and cells, on any number of threads.
+    ///
+    /// The studio keeps the last picture, and shares its grids with the frame that it gave. Where a request differs
+    /// from it in nothing that dots depend on, no ray is traced: only characters are made anew, and these only where
+    /// glyphs, palette or tone have changed. Such a frame counts nothing and gives no time to the stages it left out.
     pub fn draw(&self, request: &Request) -> Frame {
+        let start = Instant::now();
+        self.finished(request, self.reused(request), start)
+    }
+
+    /// The same with all rays traced, whatever was drawn before: to measure it.
+    pub fn draw_anew(&self, request: &Request) -> Frame {
+        self.finished(request, None, Instant::now())
+    }
+
+    /// A picture of which some of the grids may be there already.
+    fn finished(&self, request: &Request, reused: Option<Frame>, start: Instant) -> Frame {
+        let cells_lack = |frame: &Frame| request.wants.cells && frame.cells.is_none();
+        let workers = match &reused {
+            Some(frame) if !cells_lack(frame) => None,
+            _ => self.workers(request.options.threads),
+        };
+        let work = || {
+            let mut frame = reused.unwrap_or_else(|| self.traced(request));
+            if cells_lack(&frame) {
+                let dithering = Instant::now();
+                frame.cells = Some(Arc::new(composed(&frame, request)));
+                frame.times[Stage::Dither] = dithering.elapsed();
+            }
+            frame
+        };
+        let mut frame = match workers {
+            Some(pool) => pool.install(work),
+            None => work(),
+        };
+        frame.total = start.elapsed();
+        self.keep(request, &frame);
+        frame.only(request)
+    }
+
+    /// The dots of a picture, without characters.
+    fn traced(&self, request: &Request) -> Frame {
         let start = Instant::now();
         let (lens, plan) = self.plan(request);
         let viewed = Instant::now();
         let cut_before = self.built().cutting;
-        let workers = self.workers(request.options.threads);
-        let cut = || self.structure(plan.structure);
-        let (structure, over_budget) = workers.as_ref().map_or_else(cut, |pool| pool.install(cut));
-        let engine = Exact::new(&self.assembly, structure);
+        let (structure, over_budget) = self.structure(plan.structure);
         let tracing = Instant::now();
-        let work = || match plan.channels {
-            Channels::Gray => self.trace::<f64>(&engine, &plan, &lens, request.dots),
-            Channels::Three => self.trace::<DVec3>(&engine, &plan, &lens, request.dots),
+        let mut dots = PictureDots::new(request, self.given_up());
+        let view = Viewed { studio: self, plan: &plan, lens: &lens, wants: request.wants };
+        let (counts, sampled) = match plan.channels {
+            Channels::Gray => view.trace::<f64>(structure, &mut dots),
+            Channels::Three => view.trace::<DVec3>(structure, &mut dots),
         };
-        let traced = workers.as_ref().map_or_else(work, |pool| pool.install(work));
         let trace = tracing.elapsed();
-
-        let Traced { light, color, depth, normal, object, counts, times } = traced;
-        let color = Some(color).filter(|_| request.wants_color());
-        let dithering = Instant::now();
-        let cells = match (&color, request.palette) {
-            (Some(color), Palette::Color(depth)) => {
-                glyph::compose_color(color, request.glyphs, depth, request.tone)
-            }
-            _ => glyph::compose(&light, request.glyphs, request.palette, request.tone),
-        };
-        let mut times = shared_out(&times, trace);
+        let mut times = shared_out(&sampled, trace);
         times[Stage::Lattice] = self.built().cutting.saturating_sub(cut_before);
         times[Stage::View] = viewed - start;
-        times[Stage::Dither] = dithering.elapsed();
         Frame {
-            light,
-            color,
-            depth,
-            normal,
-            object,
-            cells,
+            light: Arc::new(dots.light),
+            color: dots.color.map(Arc::new),
+            depth: dots.depth.map(Arc::new),
+            normal: dots.normal.map(Arc::new),
+            object: dots.object.map(Arc::new),
+            cells: None,
             counts,
             times,
             objects: self.assembly.objects.len(),
@@ -64,9 +96,9 @@ impl Studio {
             space: Space::of(&structure),
             over_budget,
             field: lens.field(),
-            threads: workers.map_or(1, |pool| pool.current_num_threads()),
+            threads: rayon::current_num_threads(),
             trace,
-            total: start.elapsed(),
+            total: Duration::ZERO,
         }
     }
 
@@ -74,34 +106,78 @@ impl Studio {
     pub(super) fn plan(&self, request: &Request) -> (Lens, Plan) {
         let picture = Picture { dots: request.dots, dot_aspect: request.dot_aspect };
         let lens = Lens::new(&request.camera, &picture);
-        let options = Options { color: request.wants_color(), ..request.options };
-        let plan = Plan::new(self.scene(), &self.assembly, &lens, &options);
+        let plan = Plan::new(self.scene(), &self.assembly, &lens, &request.planned());
         (lens, plan)
     }
+}
 
-    fn trace<C: Channel>(&self, engine: &Exact, plan: &Plan, lens: &Lens, dots: Size) -> Traced {
-        let shader = Shader::<_, C>::new(self.scene(), &self.assembly, plan, engine);
-        let way = farthest(self.assembly.datum.inward_near(lens.eye), &self.assembly.limit);
-        let sampler = Sampler { studio: self, shader: &shader, lens, way, samples: plan.samples };
-        let tiles = tiles(dots);
-        let drawn: Vec<Drawn> = tiles
-            .par_iter()
-            .map_init(
-                || shader.memory(),
-                |memory, tile| {
-                    if tile.number % TIMED == 0 {
-                        let mut meter = Meter::new(Stopwatch::start(Stage::Ray));
-                        let dots = sampler.tile(tile, memory, &mut meter);
-                        Drawn { dots, counts: meter.counts, times: Some(meter.probe.stop()) }
-                    } else {
-                        let mut meter = Meter::new(Silent);
-                        let dots = sampler.tile(tile, memory, &mut meter);
-                        Drawn { dots, counts: meter.counts, times: None }
-                    }
-                },
-            )
-            .collect();
-        Traced::gathered(dots, &tiles, &drawn)
+/// A picture that is to be traced.
+struct Viewed<'a> {
+    studio: &'a Studio,
+    plan: &'a Plan,
+    lens: &'a Lens,
+    wants: Wants,
+}
+
+impl Viewed<'_> {
+    /// Traces all dots, by the engine for how space is cut. Gives what was counted, and the times of the tiles that were
+    /// timed.
+    fn trace<C: Channel>(&self, structure: Structure, dots: &mut PictureDots) -> (Counts, StageTimes) {
+        let Self { studio, plan, lens, .. } = *self;
+        let (scene, assembly) = (studio.scene(), &studio.assembly);
+        let way = farthest(assembly.datum.inward_near(lens.eye), &assembly.limit);
+        if let Structure::Boxes(boxes, subs) = structure {
+            let engine = Fast::new(assembly, boxes, subs);
+            let shader = &Shader::<_, C>::new(scene, assembly, plan, &engine);
+            let sampler = Blocks { assembly, engine: &engine, shader, lens, way, samples: plan.samples };
+            self.trace_by(&sampler, dots)
+        } else {
+            let engine = Exact::new(assembly, structure);
+            let shader = &Shader::<_, C>::new(scene, assembly, plan, &engine);
+            self.trace_by(&Points { assembly, shader, lens, way, samples: plan.samples }, dots)
+        }
+    }
+
+    fn trace_by<C: Channel, T: Tracer<C>>(&self, tracer: &T, dots: &mut PictureDots) -> (Counts, StageTimes) {
+        let size = dots.light.size();
+        let bands = dots.bands();
+        // Of workers that have no tile in hand. Taken anew for each tile, since rayon would make more memories
+        // than it has threads.
+        let idle = Mutex::new(Vec::new());
+        let idle = || idle.lock().unwrap_or_else(PoisonError::into_inner);
+        let drawn = tiles(size).into_par_iter().map(|tile| {
+            let taken = idle().pop();
+            let (mut memory, mut dots) =
+                taken.unwrap_or_else(|| (tracer.memory(), TileDots::new(self.wants)));
+            dots.fit(&tile);
+            let measured = if tile.number % TIMED == 0 {
+                let mut meter = Meter::new(Stopwatch::start(Stage::Ray));
+                tracer.tile(&tile, &mut memory, &mut dots, &mut meter);
+                (meter.counts, meter.probe.stop())
+            } else {
+                let mut meter = Meter::new(Silent);
+                tracer.tile(&tile, &mut memory, &mut dots, &mut meter);
+                (meter.counts, StageTimes::default())
+            };
+            bands[(tile.corner[1] / TILE) as usize].take(size.width, &tile, &dots);
+            idle().push((memory, dots));
+            measured
+        });
+        drawn.reduce(Default::default, |mut all, one| {
+            all.0 += one.0;
+            all.1 += one.1;
+            all
+        })
+    }
+}
+
+/// The characters of a picture.
+fn composed(frame: &Frame, request: &Request) -> Grid<Cell> {
+    match (&frame.color, request.palette) {
+        (Some(color), Palette::Color(depth)) => {
+            glyph::compose_color(color, request.glyphs, depth, request.tone)
+        }
+        _ => glyph::compose(&frame.light, request.glyphs, request.palette, request.tone),
     }
 }
 
@@ -111,7 +187,7 @@ fn farthest(p: DVec3, b: &Bounds) -> f64 {
 }
 
 /// Shares the time of tracing out among the stages as the timed tiles spent theirs.
-fn shared_out(sampled: &StageTimes, trace: std::time::Duration) -> StageTimes {
+fn shared_out(sampled: &StageTimes, trace: Duration) -> StageTimes {
     let mut times = StageTimes::default();
     let all = sampled.total().as_secs_f64();
     if all > 0.0 {
@@ -120,120 +196,4 @@ fn shared_out(sampled: &StageTimes, trace: std::time::Duration) -> StageTimes {
         }
     }
     times
-}
-
-/// What one dot saw.
-#[derive(Clone, Copy, Debug)]
-struct Dot {
-    light: f64,
-    color: DVec3,
-    depth: f64,
-    normal: DVec3,
-    object: u32,
-}
-
-/// A finished tile.
-struct Drawn {
-    dots: Vec<Dot>,
-    counts: Counts,
-    times: Option<StageTimes>,
-}
-
-struct Sampler<'a, 'b, C> {
-    studio: &'a Studio,
-    shader: &'a Shader<'b, Exact<'b>, C>,
-    lens: &'a Lens,
-    /// To the farthest point of the world, in the assembly's unit.
-    way: f64,
-    samples: u32,
-}
-
-impl<'b, C: Channel> Sampler<'_, 'b, C> {
-    fn tile(&self, tile: &Tile, memory: &mut Memory<Exact<'b>>, meter: &mut Meter<impl Probe>) -> Vec<Dot> {
-        let mut dots = Vec::with_capacity((TILE * TILE) as usize);
-        for (i, j) in tile.dots() {
-            let (x, y) = (f64::from(i) + 0.5, f64::from(j) + 0.5);
-            let middle = self.sample(x, y, memory, meter);
-            let light = if self.samples == 1 {
-                middle.light
-            } else {
-                let step = 1.0 / f64::from(self.samples);
-                let mut sum = C::DARK;
-                for (a, b) in (0..self.samples).flat_map(|b| (0..self.samples).map(move |a| (a, b))) {
-                    let inside = |k: u32| (f64::from(k) + 0.5) * step - 0.5;
-                    sum = sum + self.sample(x + inside(a), y + inside(b), memory, meter).light;
-                }
-                sum * (step * step)
-            };
-            let assembly = &self.studio.assembly;
-            let (light, color) = (light.gray(), light.rgb());
-            dots.push(middle.seen.map_or(
-                Dot { light, color, depth: f64::INFINITY, normal: DVec3::ZERO, object: 0 },
-                |seen| Dot {
-                    light,
-                    color,
-                    // A distance, however large: only nothing is infinitely far away.
-                    depth: (seen.t * assembly.datum.unit).min(f64::MAX),
-                    normal: seen.normal,
-                    object: assembly.objects[seen.object as usize].number + 1,
-                },
-            ));
-        }
-        dots
-    }
-
-    fn sample(
-        &self,
-        x: f64,
-        y: f64,
-        memory: &mut Memory<Exact<'b>>,
-        meter: &mut Meter<impl Probe>,
-    ) -> View<C> {
-        meter.at(Stage::Ray);
-        let ray = self.studio.assembly.ray(&self.lens.ray(x, y));
-        let ray = Ray::new(ray.o, settled(ray.d, self.way));
-        let view = self.shader.view(&ray, memory, meter);
-        meter.at(Stage::Ray);
-        view
-    }
-}
-
-/// The dots of all tiles.
-struct Traced {
-    light: Grid<f64>,
-    color: Grid<DVec3>,
-    depth: Grid<f64>,
-    normal: Grid<DVec3>,
-    object: Grid<u32>,
-    counts: Counts,
-    /// Of the timed tiles.
-    times: StageTimes,
-}
-
-impl Traced {
-    fn gathered(size: Size, tiles: &[Tile], drawn: &[Drawn]) -> Self {
-        let mut all = Self {
-            light: Grid::filled(size, 0.0),
-            color: Grid::filled(size, DVec3::ZERO),
-            depth: Grid::filled(size, f64::INFINITY),
-            normal: Grid::filled(size, DVec3::ZERO),
-            object: Grid::filled(size, 0),
-            counts: Counts::default(),
-            times: StageTimes::default(),
-        };
-        for (tile, done) in tiles.iter().zip(drawn) {
-            all.counts += done.counts;
-            if let Some(times) = done.times {
-                all.times += times;
-            }
-            for (place, dot) in tile.dots().zip(&done.dots) {
-                all.light[place] = dot.light;
-                all.color[place] = dot.color;
-                all.depth[place] = dot.depth;
-                all.normal[place] = dot.normal;
-                all.object[place] = dot.object;
-            }
-        }
-        all
-    }
 }

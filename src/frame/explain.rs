@@ -67,9 +67,14 @@ fn characters(request: &Request) -> StagePlan {
         Palette::Color(_) => "any colour",
     };
     let glyphs = request.glyphs.name();
+    let needed = request.wants.cells;
+    if !needed {
+        let why = "no characters are wanted".to_owned();
+        return StagePlan { stage: Stage::Display, needed, why, terms: Vec::new() };
+    }
     let why = format!(
         "{glyphs} in {colors}, {} × {} dots to a cell → {columns} × {rows} cells",
         per_cell.width, per_cell.height
     );
-    StagePlan { stage: Stage::Display, needed: true, why, terms: Vec::new() }
+    StagePlan { stage: Stage::Display, needed, why, terms: Vec::new() }
 }

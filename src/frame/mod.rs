@@ -1,10 +1,14 @@
 //! All stages in order: a request in, a finished frame out, with what each stage counted.
 
+mod blocks;
 mod draw;
 mod explain;
+mod gather;
+mod kept;
 pub mod pcat;
+mod points;
 mod request;
 mod studio;
 
-pub use request::{Frame, Request, Space};
+pub use request::{Frame, Request, Space, Wants};
 pub use studio::{Built, Studio};

@@ -6,7 +6,7 @@ use crate::plan::{Options, Shading, StructureChoice};
 use crate::scene::{Camera, FieldSpan};
 use crate::tone::Tone;
 
-use super::Request;
+use super::{Request, Wants};
 
 /// Dots across and down: the nearest reading of the scan's "16⁴ × 188".
 pub const DOTS: Size = Size::new(164, 188);
@@ -40,6 +40,7 @@ pub fn request(camera: Camera) -> Request {
         dots: DOTS,
         dot_aspect: dot_aspect(),
         options: options(),
+        wants: Wants::CELLS,
         glyphs: GlyphMode::default(),
         palette: Palette::default(),
         tone: TONE,

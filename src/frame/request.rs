@@ -1,5 +1,6 @@
 //! A picture that is asked for, and the finished picture.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use crate::glyph::{Cell, GlyphMode, Palette};
@@ -21,12 +22,37 @@ pub struct Request {
     pub dot_aspect: f64,
     /// Shading model, shadows, structure, threads.
     pub options: Options,
+    /// What is wanted beside the light.
+    pub wants: Wants,
     /// Characters.
     pub glyphs: GlyphMode,
     /// Colours. [`Palette::Color`] has the light of each primary computed, whatever the options say.
     pub palette: Palette,
     /// Light to level.
     pub tone: Tone,
+}
+
+/// What is wanted of a picture beside the light of its dots. What is not wanted is not made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(clippy::struct_excessive_bools, reason = "one for each grid of a frame")]
+pub struct Wants {
+    /// [`Frame::cells`].
+    pub cells: bool,
+    /// [`Frame::depth`].
+    pub depth: bool,
+    /// [`Frame::normal`].
+    pub normal: bool,
+    /// [`Frame::object`].
+    pub object: bool,
+}
+
+impl Wants {
+    /// The light alone.
+    pub const LIGHT: Self = Self { cells: false, depth: false, normal: false, object: false };
+    /// The characters too.
+    pub const CELLS: Self = Self { cells: true, ..Self::LIGHT };
+    /// Everything that a frame can hold.
+    pub const ALL: Self = Self { cells: true, depth: true, normal: true, object: true };
 }
 
 impl Request {
@@ -36,26 +62,28 @@ impl Request {
     }
 }
 
-/// A finished picture. Grids of dots have the size that was asked for.
+/// A finished picture. Grids of dots have the size that was asked for; those that nobody asked for are absent. They are
+/// shared with the studio that drew them, which may give them out again.
 #[derive(Clone, Debug)]
 pub struct Frame {
     /// The light of each dot, a gray in linear light, 0 or more, not clamped.
-    pub light: Grid<f64>,
+    pub light: Arc<Grid<f64>>,
     /// The same by its three linear primaries (sRGB, Rec. 709), where colours were wanted.
-    pub color: Option<Grid<DVec3>>,
+    pub color: Option<Arc<Grid<DVec3>>>,
     /// The distance from the eye to what the middle of each dot sees, in the scene's unit; infinite where it
     /// sees nothing.
-    pub depth: Grid<f64>,
+    pub depth: Option<Arc<Grid<f64>>>,
     /// The normal there, turned to the eye's side, of length 1 in world axes; 0 where nothing is seen.
-    pub normal: Grid<DVec3>,
+    pub normal: Option<Arc<Grid<DVec3>>>,
     /// The number of the object there, from 1 in file order; 0 where nothing is seen.
-    pub object: Grid<u32>,
+    pub object: Option<Arc<Grid<u32>>>,
     /// The characters.
-    pub cells: Grid<Cell>,
-    /// What was counted.
+    pub cells: Option<Arc<Grid<Cell>>>,
+    /// What was counted while this frame was drawn: nothing where its light is that of the picture before.
     pub counts: Counts,
-    /// Where the time of this picture went: LATTICE only in the one that built it. The stages from RAY to SHADE share the time of tracing as a sample of the tiles
-    /// spent it.
+    /// Where the time of this frame went: LATTICE only in the one that built it, DITHER only where characters were
+    /// made, the stages from RAY to SHADE only where rays were traced. These share the time of tracing as a sample of
+    /// the tiles spent it.
     pub times: StageTimes,
     /// Objects in the lattice.
     pub objects: usize,
@@ -69,7 +97,7 @@ pub struct Frame {
     pub field: [f64; 2],
     /// Worker threads that traced.
     pub threads: usize,
-    /// Tracing alone.
+    /// Tracing alone; 0 where the light is that of the picture before.
     pub trace: Duration,
     /// From the request to the finished frame.
     pub total: Duration,
@@ -115,12 +143,12 @@ impl Frame {
     /// picture has been traced.
     pub fn blank(dots: Size, cells: Grid<Cell>) -> Self {
         Self {
-            light: Grid::filled(dots, 0.0),
+            light: Arc::new(Grid::filled(dots, 0.0)),
             color: None,
-            depth: Grid::filled(dots, f64::INFINITY),
-            normal: Grid::filled(dots, DVec3::ZERO),
-            object: Grid::filled(dots, 0),
-            cells,
+            depth: None,
+            normal: None,
+            object: None,
+            cells: Some(Arc::new(cells)),
             counts: Counts::default(),
             times: StageTimes::default(),
             objects: 0,
@@ -136,6 +164,6 @@ impl Frame {
 
     /// The level of each dot.
     pub fn levels(&self, tone: Tone) -> Grid<Level> {
-        self.light.map(|&light| tone.level(light))
+        Grid::from_fn_in_parallel(self.light.size(), |column, row| tone.level(self.light[(column, row)]))
     }
 }

@@ -10,6 +10,8 @@ use crate::scene::{Camera, Scene};
 use crate::solid::{Assembly, AssemblyError};
 use crate::view::framed;
 
+use super::kept::Kept;
+
 /// A scene made ready: its solids are put together once, its lattice is built when a picture first wants it, and
 /// all pictures share both.
 #[derive(Debug)]
@@ -23,6 +25,7 @@ pub struct Studio {
     subs: OnceLock<(SubLattices, Duration)>,
     /// The workers of the last picture, kept while the number of threads stays the same.
     workers: Mutex<Option<Workers>>,
+    pub(super) kept: Mutex<Option<Kept>>,
 }
 
 type Workers = (usize, Arc<rayon::ThreadPool>);
@@ -51,6 +54,7 @@ impl Studio {
             boxes: OnceLock::new(),
             subs: OnceLock::new(),
             workers: Mutex::new(None),
+            kept: Mutex::new(None),
         })
     }
 

@@ -55,6 +55,9 @@ impl Cell {
     /// The same for a terminal of that depth.
     #[must_use]
     pub fn at(self, depth: ColorDepth) -> Self {
-        Self { ink: self.ink.at(depth), paper: self.paper.at(depth), ..self }
+        let ink = self.ink.at(depth);
+        // Flat cells are the most: one search does for both.
+        let paper = if self.paper == self.ink { ink } else { self.paper.at(depth) };
+        Self { ink, paper, ..self }
     }
 }

@@ -33,10 +33,10 @@ pub fn compose(light: &Grid<f64>, mode: GlyphMode, palette: Palette, tone: Tone)
         return compose_color(&light.map(|&light| DVec3::splat(light)), mode, depth, tone);
     }
     let cells = match mode {
-        GlyphMode::Shade => Grid::from_fn(light.size(), |column, row| {
+        GlyphMode::Shade => Grid::from_fn_in_parallel(light.size(), |column, row| {
             shade(tone.level(light[(column, row)]), palette, column, row)
         }),
-        GlyphMode::Ascii => light.map(|&light| ascii(tone.level(light))),
+        GlyphMode::Ascii => mapped(light, |light| ascii(tone.level(light))),
         GlyphMode::Half => half(light, palette, tone),
         GlyphMode::Quadrant => quadrant(light, palette, tone),
         GlyphMode::Braille => braille(light, tone, |_, _| Paint::Terminal),
@@ -56,11 +56,11 @@ pub fn compose(light: &Grid<f64>, mode: GlyphMode, palette: Palette, tone: Tone)
 /// are no levels: `tone` changes luminance, nothing is rounded but to the terminal's depth. Where a cell can have one
 /// colour only beside the terminal's own (`ascii`, `braille`), its ink carries lightness and its colour the hue.
 pub fn compose_color(color: &Grid<DVec3>, mode: GlyphMode, depth: ColorDepth, tone: Tone) -> Grid<Cell> {
-    let light = || color.map(|&color| luminance(color));
+    let light = || mapped(color, luminance);
     let cells = match mode {
-        GlyphMode::Shade => color.map(|&color| Cell::flat(paint(tone.shown_color(color)))),
+        GlyphMode::Shade => mapped(color, |color| Cell::flat(paint(tone.shown_color(color)))),
         GlyphMode::Ascii => {
-            color.map(|&color| Cell { ink: hue(color), ..ascii(tone.level(luminance(color))) })
+            mapped(color, |color| Cell { ink: hue(color), ..ascii(tone.level(luminance(color))) })
         }
         GlyphMode::Half => half_in_color(color, tone),
         GlyphMode::Quadrant => quadrant_in_color(color, tone),
@@ -86,7 +86,12 @@ fn hue(color: DVec3) -> Paint {
 }
 
 fn at(depth: ColorDepth, cells: Grid<Cell>) -> Grid<Cell> {
-    if depth == ColorDepth::Direct { cells } else { cells.map(|cell| cell.at(depth)) }
+    if depth == ColorDepth::Direct { cells } else { mapped(&cells, |cell| cell.at(depth)) }
+}
+
+/// Each value mapped, by all threads.
+fn mapped<T: Copy + Sync, U: Copy + Send>(grid: &Grid<T>, f: impl Fn(T) -> U + Sync) -> Grid<U> {
+    Grid::from_fn_in_parallel(grid.size(), |column, row| f(grid[(column, row)]))
 }
 
 #[cfg(test)]

@@ -41,8 +41,9 @@ pub fn quadrant(light: &Grid<f64>, palette: Palette, tone: Tone) -> Grid<Cell> {
     match palette {
         Palette::Mono => inked(light.size(), QUARTERS, level),
         Palette::Dos => {
-            let dithered =
-                Grid::from_fn(light.size(), |x, y| attribute(level(x, y), x, y).light().unwrap_or_default());
+            let dithered = Grid::from_fn_in_parallel(light.size(), |x, y| {
+                attribute(level(x, y), x, y).light().unwrap_or_default()
+            });
             PairFit::new(QUADRANTS).compose_grays(&doubled(&dithered), &Grays::attributes(), Tone::default())
         }
         Palette::Gray(_) | Palette::Color(_) => {
@@ -59,12 +60,12 @@ pub fn quadrant_in_color(color: &Grid<DVec3>, tone: Tone) -> Grid<Cell> {
 /// 2 × 4 dots to a cell, with ink or without, and the cell's ink. Braille dots do not touch, so all of them together
 /// are far from white: as many twelfths of them are set as the level says, which keeps the order of the levels and
 /// even steps, not their light.
-pub fn braille(light: &Grid<f64>, tone: Tone, ink: impl Fn(u32, u32) -> Paint) -> Grid<Cell> {
+pub fn braille(light: &Grid<f64>, tone: Tone, ink: impl Fn(u32, u32) -> Paint + Sync) -> Grid<Cell> {
     let lit = |x, y| {
         let share = f64::from(tone.level(light[(x, y)]).get()) / f64::from(Level::MAX.get());
         share > INK_ONLY.threshold(x, y)
     };
-    Grid::from_fn(cells(light.size(), DOTS), |column, row| Cell {
+    Grid::from_fn_in_parallel(cells(light.size(), DOTS), |column, row| Cell {
         glyph: braille_of(mask(DOTS, column, row, lit)),
         ink: ink(column, row),
         paper: Paint::Terminal,
@@ -79,16 +80,16 @@ fn attribute(level: Level, x: u32, y: u32) -> Paint {
     ATTRIBUTES[usize::from(dark + u8::from(bright))]
 }
 
-fn halves(dots: Size, paint: impl Fn(u32, u32) -> Paint) -> Grid<Cell> {
-    Grid::from_fn(cells(dots, HALF), |column, row| {
+fn halves(dots: Size, paint: impl Fn(u32, u32) -> Paint + Sync) -> Grid<Cell> {
+    Grid::from_fn_in_parallel(cells(dots, HALF), |column, row| {
         Cell::pair(UPPER, paint(column, 2 * row), paint(column, 2 * row + 1))
     })
 }
 
 /// Full dots of the terminal's ink, as many as give the level's light.
-fn inked(dots: Size, per_cell: Size, level: impl Fn(u32, u32) -> Level) -> Grid<Cell> {
+fn inked(dots: Size, per_cell: Size, level: impl Fn(u32, u32) -> Level + Sync) -> Grid<Cell> {
     let lit = |x, y| level(x, y).light() > INK_ONLY.threshold(x, y);
-    Grid::from_fn(cells(dots, per_cell), |column, row| Cell {
+    Grid::from_fn_in_parallel(cells(dots, per_cell), |column, row| Cell {
         // All choices of halves and quadrants are characters.
         glyph: block_of(mask(per_cell, column, row, lit)).unwrap_or(' '),
         ink: Paint::Terminal,
@@ -117,9 +118,9 @@ fn cells(dots: Size, per_cell: Size) -> Size {
 }
 
 /// Each row of dots twice: 2 × 4 to a cell from 2 × 2.
-fn doubled<T: Copy>(dots: &Grid<T>) -> Grid<T> {
+fn doubled<T: Copy + Send + Sync>(dots: &Grid<T>) -> Grid<T> {
     let size = dots.size();
-    Grid::from_fn(Size::new(size.width, size.height * 2), |x, y| dots[(x, y / 2)])
+    Grid::from_fn_in_parallel(Size::new(size.width, size.height * 2), |x, y| dots[(x, y / 2)])
 }
 
 #[cfg(test)]

@@ -15,11 +15,14 @@ use super::paint::Paint;
 use super::shade::{shade, shade_light};
 use super::shape::{DOT_COUNT, DOTS, Shape};
 use crate::math::{Grid, Size};
-use crate::tone::{Level, Tone, lightness};
+use crate::tone::{Level, Tone, lightness, lightness_in_single};
 
 /// Candidates whose costs are computed side by side. Sums go along the dots, so that they are the same at any
 /// width of the machine's vectors.
 const LANES: usize = 8;
+
+/// Room for the candidates of the largest set: 13 levels and 9 partings in 4 × 3 pairs of grays.
+const BLOCKS_OF_LANES: usize = 16;
 
 /// What a candidate puts into the cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,6 +66,7 @@ impl BestFit {
                 }
             }
         }
+        assert!(table.len() <= BLOCKS_OF_LANES * LANES, "the sets of shapes and grays are fixed");
         let overlaps = overlaps();
         let lanes = table.chunks(LANES).map(|some| Lanes::new(some, &overlaps)).collect();
         Self { palette, shows: table.into_iter().map(|(show, _)| show).collect(), lanes }
@@ -71,7 +75,7 @@ impl BestFit {
     /// The cells nearest to `light`, of [`DOTS`] to a cell.
     pub fn compose(&self, light: &Grid<f64>, tone: Tone) -> Grid<Cell> {
         let cells = Size::new(light.size().width / DOTS.width, light.size().height / DOTS.height);
-        Grid::from_fn(cells, |column, row| {
+        Grid::from_fn_in_parallel(cells, |column, row| {
             let dots: Dots = std::array::from_fn(|dot| {
                 let (x, y) = (dot as u32 % DOTS.width, dot as u32 / DOTS.width);
                 tone.shown(light[(column * DOTS.width + x, row * DOTS.height + y)])
@@ -88,25 +92,19 @@ impl BestFit {
         if dots.iter().all(|dot| *dot == dots[0]) {
             return Show::Level(Level::nearest(dots[0]));
         }
-        let dots = dots.map(|light| lightness(light) as f32);
+        let dots = lightness_in_single(*dots);
         let mut least = [f32::INFINITY; LANES];
-        let mut at = [0; LANES];
-        for (block, lanes) in self.lanes.iter().enumerate() {
-            let costs = lanes.costs(&dots);
-            for lane in 0..LANES {
-                let better = costs[lane] < least[lane];
-                least[lane] = if better { costs[lane] } else { least[lane] };
-                at[lane] = if better { block as u32 } else { at[lane] };
+        let mut costs = [[f32::INFINITY; LANES]; BLOCKS_OF_LANES];
+        for (costs, lanes) in costs.iter_mut().zip(&self.lanes) {
+            *costs = lanes.costs(&dots);
+            for (least, &cost) in least.iter_mut().zip(&*costs) {
+                *least = if cost < *least { cost } else { *least };
             }
         }
-        let mut best = (f32::INFINITY, 0);
-        for lane in 0..LANES {
-            let index = at[lane] as usize * LANES + lane;
-            if least[lane] < best.0 || (least[lane] == best.0 && index < best.1) {
-                best = (least[lane], index);
-            }
-        }
-        self.shows[best.1]
+        let least = least.into_iter().fold(f32::INFINITY, f32::min);
+        // Of equals the first. NaN, which no stage gives, is nowhere the least.
+        let best = costs.as_flattened().iter().position(|&cost| cost == least).unwrap_or(0);
+        self.shows.get(best).copied().unwrap_or(self.shows[0])
     }
 }
 

@@ -36,6 +36,20 @@ pub enum ColorDepth {
 
 /// The bytes of a primary in xterm's cube.
 const CUBE: [u8; 6] = [0, 95, 135, 175, 215, 255];
+/// The step of the cube nearest to each byte; of two that are equally near the lower.
+const NEAREST_STEPS: [u8; 256] = {
+    let mut steps = [0; 256];
+    let mut byte = 0;
+    let mut step = 0;
+    while byte < steps.len() {
+        if step + 1 < CUBE.len() && 2 * byte > CUBE[step] as usize + CUBE[step + 1] as usize {
+            step += 1;
+        }
+        steps[byte] = step as u8;
+        byte += 1;
+    }
+    steps
+};
 /// Where the cube begins, and behind it the grays: 8, 18 … 238.
 const CUBE_START: u8 = 16;
 const RAMP_START: u8 = 232;
@@ -93,8 +107,7 @@ fn bytes_of(index: u8) -> [u8; 3] {
 }
 
 fn nearest_index(bytes: [u8; 3]) -> u8 {
-    let step = |byte: u8| (0..6_u8).min_by_key(|&k| CUBE[usize::from(k)].abs_diff(byte)).unwrap_or(0);
-    let [r, g, b] = bytes.map(step);
+    let [r, g, b] = bytes.map(|byte| NEAREST_STEPS[usize::from(byte)]);
     let in_cube = CUBE_START + 36 * r + 6 * g + b;
     let away = |index: u8| {
         let differences = bytes_of(index).into_iter().zip(bytes).map(|(a, b)| u32::from(a.abs_diff(b)));

@@ -12,7 +12,7 @@ use super::eye::{Dots, overlaps};
 use super::paint::Paint;
 use super::shape::{DOT_COUNT, DOTS, HALVES, Shape};
 use crate::math::{DVec3, Grid, Size};
-use crate::tone::{Level, Tone, color_of_lab, lab_of_color, lightness, srgb_of_light};
+use crate::tone::{Level, Tone, color_of_lab, labs_of_colors, lightness, lightnesses, srgb_of_light};
 
 /// One way to part the dots.
 #[derive(Clone, Copy, Debug)]
@@ -78,13 +78,13 @@ impl PairFit {
     /// The cells of two grays out of `grays` nearest to `light`, of [`DOTS`] to a cell.
     pub fn compose_grays(&self, light: &Grid<f64>, grays: &Grays, tone: Tone) -> Grid<Cell> {
         // NaN counts as no light.
-        cells(&light.map(|&light| tone.shown(light).max(0.0)), |dots| self.two_grays(&dots, grays))
+        cells(light, |dots| self.two_grays(&dots.map(|light| tone.shown(light).max(0.0)), grays))
     }
 
     /// The cells of two colours nearest to `color`, of [`DOTS`] to a cell.
     pub fn compose_colors(&self, color: &Grid<DVec3>, tone: Tone) -> Grid<Cell> {
         let shown = |color: DVec3| tone.shown_color(color).max(DVec3::ZERO);
-        cells(&color.map(|&color| shown(color)), |dots| self.two_colors(&dots))
+        cells(color, |dots| self.two_colors(&dots.map(shown)))
     }
 
     fn two_grays(&self, dots: &Dots, grays: &Grays) -> Cell {
@@ -92,7 +92,7 @@ impl PairFit {
         if dots.iter().all(|dot| *dot == dots[0]) {
             return Cell::flat(grays.of_level(Level::nearest(dots[0])));
         }
-        let (shape, [[ink, paper]]) = self.best([dots.map(lightness)]);
+        let (shape, [[ink, paper]]) = self.best([lightnesses(*dots)]);
         Cell::pair(shape, grays.nearest(ink), grays.nearest(paper))
     }
 
@@ -100,8 +100,7 @@ impl PairFit {
         if dots.iter().all(|dot| *dot == dots[0]) {
             return Cell::flat(paint(dots[0]));
         }
-        let labs = dots.map(lab_of_color);
-        let (shape, best) = self.best::<3>(std::array::from_fn(|axis| labs.map(|lab| lab[axis])));
+        let (shape, best) = self.best(labs_of_colors(*dots));
         let [ink, paper] = [0, 1].map(|side| paint(color_of_lab(best.map(|axis| axis[side]))));
         Cell::pair(shape, ink, paper)
     }
@@ -127,9 +126,9 @@ pub fn paint(color: DVec3) -> Paint {
 }
 
 /// A cell for each [`DOTS`] of a picture.
-fn cells<T: Copy>(dots: &Grid<T>, mut cell: impl FnMut([T; DOT_COUNT]) -> Cell) -> Grid<Cell> {
+fn cells<T: Copy + Sync>(dots: &Grid<T>, cell: impl Fn([T; DOT_COUNT]) -> Cell + Sync) -> Grid<Cell> {
     let size = Size::new(dots.size().width / DOTS.width, dots.size().height / DOTS.height);
-    Grid::from_fn(size, |column, row| {
+    Grid::from_fn_in_parallel(size, |column, row| {
         cell(std::array::from_fn(|dot| {
             let (x, y) = (dot as u32 % DOTS.width, dot as u32 / DOTS.width);
             dots[(column * DOTS.width + x, row * DOTS.height + y)]

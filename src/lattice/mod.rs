@@ -5,15 +5,19 @@
 //! → object pointers) is [`Lattice::objects_in`]; the object list is [`crate::solid::Assembly::objects`], each
 //! composite one with its [`SubLattice`]; the sub-object list is [`crate::solid::Assembly::primitives`].
 
+mod beam;
 mod boxes;
 mod clip;
+mod fan;
 mod planes;
 mod structure;
 mod sub;
 mod tree;
 
+pub use beam::{Beam, Met, Spread, WAY, highest, lowest};
 pub use boxes::{Boxes, Child, Node, WIDE};
 pub use clip::{Outcode, entry};
+pub use fan::{FAN, Fan, FanMet};
 pub use planes::{Planes, SLACK, Step, slack};
 pub use structure::Structure;
 pub use sub::{SubLattice, SubLattices};

@@ -2,6 +2,12 @@
 
 use std::ops::{Index, IndexMut};
 
+use rayon::prelude::*;
+
+/// Values that a thread computes at least before another is asked to help: some tens of microseconds of the cheapest,
+/// several times what it costs to wake a thread.
+const SHARE: usize = 1024;
+
 /// A width and a height, in dots or in cells.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Size {
@@ -80,6 +86,24 @@ impl<T> Grid<T> {
     fn place(&self, (column, row): (u32, u32)) -> usize {
         debug_assert!(column < self.size.width && row < self.size.height);
         row as usize * self.size.width as usize + column as usize
+    }
+}
+
+impl<T: Copy + Send> Grid<T> {
+    /// The same as [`Grid::from_fn`], with large grids shared out by rows among the threads of the caller's rayon pool.
+    pub fn from_fn_in_parallel(size: Size, value: impl Fn(u32, u32) -> T + Sync) -> Self {
+        if size.area() < 2 * SHARE {
+            return Self::from_fn(size, value);
+        }
+        let width = size.width as usize;
+        let mut grid = Self::filled(size, value(0, 0));
+        let rows = grid.values.par_chunks_mut(width).enumerate().with_min_len(SHARE.div_ceil(width));
+        rows.for_each(|(row, places)| {
+            for (column, place) in (0..).zip(places) {
+                *place = value(column, row as u32);
+            }
+        });
+        grid
     }
 }
 

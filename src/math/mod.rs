@@ -2,6 +2,7 @@
 //! trigonometry come from `libm`, so that every platform computes the same bits.
 
 mod bounds;
+mod bundle;
 mod exact;
 mod grid;
 mod number;
@@ -10,6 +11,7 @@ mod ray;
 mod vector;
 
 pub use bounds::Bounds;
+pub use bundle::{BUNDLE, Bundle, Column, Columns, ROWS};
 pub use exact::{product_rest, two_sum};
 pub use glam::{DAffine3, DMat3, DVec2, DVec3};
 pub use grid::{Grid, Size};

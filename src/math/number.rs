@@ -1,8 +1,8 @@
 //! One formula for one ray and for eight: a number that is an `f64`, or eight of them side by side.
 //!
 //! Every operation is one of IEEE 754's that is rounded correctly, so that each of the eight has the bits that it
-//! would have alone, at every SIMD width. No fused and no approximate operation is among them, and no minimum, whose
-//! answer to not-a-number differs between processors.
+//! would have alone, at every SIMD width. No approximate operation is among them, and no minimum, whose answer to
+//! not-a-number differs between processors.
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
@@ -39,6 +39,9 @@ pub trait Number:
     /// The absolute value with the sign of another number.
     #[must_use]
     fn signed_as(self, sign: Self) -> Self;
+    /// `self · factor + term`, rounded once: in software where the processor has no such operation.
+    #[must_use]
+    fn fused(self, factor: Self, term: Self) -> Self;
     /// `self < other`; false for not-a-number, as are all comparisons.
     fn is_below(self, other: Self) -> Self::Mask;
     /// `self ≤ other`.
@@ -92,6 +95,10 @@ impl Number for f64 {
     #[inline(always)]
     fn signed_as(self, sign: Self) -> Self {
         self.copysign(sign)
+    }
+    #[inline(always)]
+    fn fused(self, factor: Self, term: Self) -> Self {
+        libm::fma(self, factor, term)
     }
     #[inline(always)]
     fn is_below(self, other: Self) -> bool {
@@ -148,6 +155,10 @@ impl<S: Simd> Number for f64x8<S> {
     #[inline(always)]
     fn signed_as(self, sign: Self) -> Self {
         self.copysign(sign)
+    }
+    #[inline(always)]
+    fn fused(self, factor: Self, term: Self) -> Self {
+        self.mul_add_precise(factor, term)
     }
     #[inline(always)]
     fn is_below(self, other: Self) -> mask64x8<S> {

@@ -2,11 +2,14 @@
 
 mod channel;
 mod direction;
+mod lit;
 mod media;
 mod path;
 mod shadow;
 mod surface;
+mod tile;
 
 pub use channel::{Channel, luminance};
 pub use path::{Kind, Leg};
 pub use surface::{Memory, Seen, Shader, View};
+pub use tile::{Sight, TileShading};

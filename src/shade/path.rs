@@ -1,13 +1,13 @@
 //! Mirror and Snell rays: eq. (4) (Whitted: An improved illumination model for shaded display, CACM 1980).
 
 use crate::math::{DVec3, Ray};
-use crate::solid::Departure;
+use crate::solid::{Crossing, Departure};
 use crate::stage::{Meter, Probe, Stage};
 use crate::trace::{Engine, Hit};
 
 use super::channel::Channel;
 use super::direction::{mirrored, refracted};
-use super::media::{Change, Filling, List, Passage};
+use super::media::{Change, Filling, List, Media, Passage};
 use super::surface::{Finish, Memory, Met, Shader};
 
 /// Why a ray goes where it goes.
@@ -107,9 +107,14 @@ impl<E: Engine, C: Channel> Shader<'_, E, C> {
     }
 
     /// The glass that a ray which goes on through the last hit goes through, and what is behind it.
-    fn change(&self, inside: &List, memory: &mut Memory<E>) -> Change {
+    pub(super) fn change(&self, inside: &List, memory: &mut Memory<E>) -> Change {
         let Memory { engine, media, .. } = memory;
-        let passages = self.engine.together(engine).iter().filter_map(|&(object, crossing)| {
+        self.change_at(inside, self.engine.together(engine), media)
+    }
+
+    /// The glass that a ray which goes on through surfaces that lie in one place goes through, and what is behind it.
+    pub(super) fn change_at(&self, inside: &List, together: &[(u32, Crossing)], media: &mut Media) -> Change {
+        let passages = together.iter().filter_map(|&(object, crossing)| {
             let finish = self.finish_of(crossing.primitive);
             let filling = Filling { object, index: finish.index };
             let solid = !self.is_surface(crossing.primitive);
@@ -118,18 +123,18 @@ impl<E: Engine, C: Channel> Shader<'_, E, C> {
         media.change(inside, passages)
     }
 
-    /// The light of a surface that sends rays on: its own, and `kr·S + kt·T`. The last ray traced is that which met
-    /// the surface.
+    /// The light of a surface that sends rays on: its `own`, and `kr·S + kt·T`. `change` is what its glass changes.
     pub(super) fn sending_surface(
         &self,
         sent: &Sent,
         met: &Met,
+        change: Change,
+        own: C,
         memory: &mut Memory<E>,
         meter: &mut Meter<impl Probe>,
     ) -> C {
         let finish = self.finish(&met.hit);
-        let change = self.change(&sent.inside, memory);
-        let mut light = self.own_light(sent, met, memory, meter);
+        let mut light = own;
         let onward = Onward::new(sent.ray.d, met.normal, finish, change.before, change.behind);
         let mut arriving = |(d, share): (DVec3, f64), side: DVec3, inside: &List| {
             let next = sent.on(met, d, share, inside.clone());

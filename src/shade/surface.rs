@@ -15,7 +15,7 @@ use super::path::Sent;
 
 /// A light nearer than this, in the assembly's unit, is at the point itself: 2⁻⁵⁰⁰, whose square does not
 /// underflow. A hit's own place is not known so well by far.
-const NEAREST: f64 = f64::from_bits((1023 - 500) << 52);
+pub(super) const NEAREST: f64 = f64::from_bits((1023 - 500) << 52);
 
 /// Shades hits of one picture.
 #[derive(Debug)]
@@ -23,12 +23,12 @@ pub struct Shader<'a, E, C> {
     pub(super) engine: &'a E,
     pub(super) assembly: &'a Assembly,
     finishes: Vec<Finish<C>>,
-    lamps: Vec<Lamp<C>>,
+    pub(super) lamps: Vec<Lamp<C>>,
     pub(super) ambient: C,
     pub(super) background: C,
     /// The constant of the depth term, in the scene's unit.
     depth: Option<f64>,
-    shadows: bool,
+    pub(super) shadows: bool,
     /// Whether light can come through anything.
     pub(super) glass: bool,
     pub(super) generations: u32,
@@ -49,10 +49,10 @@ pub struct Memory<E: Engine> {
 /// A material, ready for the channels and the terms that are computed: the shares of all others are 0.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Finish<C> {
-    color: C,
-    kd: f64,
-    ks: f64,
-    n: f64,
+    pub color: C,
+    pub kd: f64,
+    pub ks: f64,
+    pub n: f64,
     pub kr: f64,
     pub kt: f64,
     pub index: f64,
@@ -71,9 +71,9 @@ pub(super) struct Met {
 
 /// A light in the assembly's coordinates.
 #[derive(Clone, Copy, Debug)]
-struct Lamp<C> {
-    at: DVec3,
-    light: C,
+pub(super) struct Lamp<C> {
+    pub at: DVec3,
+    pub light: C,
 }
 
 /// What a ray from the eye saw.
@@ -94,6 +94,26 @@ pub struct Seen {
     pub object: u32,
     /// The normal, turned to the eye's side, length 1.
     pub normal: DVec3,
+}
+
+/// The way from a surface to a lamp that it faces.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Towards {
+    /// The direction, of length 1.
+    pub d: DVec3,
+    pub distance: f64,
+    /// `L·N`, above 0.
+    pub facing: f64,
+}
+
+impl Towards {
+    /// The cosine of the angle between the mirrored light and the way to the eye, at most 1.
+    #[inline]
+    pub fn mirrored_cosine(&self, normal: DVec3, seen_along: DVec3) -> f64 {
+        let mirrored = 2.0 * self.facing * normal - self.d;
+        // Rounding may put it above 1, and n may be large enough to make anything of that.
+        (-mirrored.dot(seen_along)).min(1.0)
+    }
 }
 
 impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
@@ -169,59 +189,69 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
     ) -> C {
         let finish = self.finish(&met.hit);
         if finish.kr > 0.0 || finish.kt > 0.0 {
-            self.sending_surface(sent, met, memory, meter)
+            let change = self.change(&sent.inside, memory);
+            let own = self.own_light(sent, met, memory, meter);
+            self.sending_surface(sent, met, change, own, memory, meter)
         } else {
             self.own_light(sent, met, memory, meter)
         }
     }
 
     /// `Ia·C + Σ Ip · V · (kd·C·(L·N) + ks·cosⁿθ) / (R + k)`.
-    pub(super) fn own_light(
-        &self,
-        sent: &Sent,
-        met: &Met,
-        memory: &mut Memory<E>,
-        meter: &mut Meter<impl Probe>,
-    ) -> C {
+    fn own_light(&self, sent: &Sent, met: &Met, memory: &mut Memory<E>, meter: &mut Meter<impl Probe>) -> C {
         let finish = self.finish(&met.hit);
         let (p, normal) = (met.p, met.normal);
         let departure = self.departure(&met.hit, p, normal);
         let mut sum = C::DARK;
-        for lamp in &self.lamps {
-            let way = lamp.at - p;
-            let distance = way.length();
-            // A light at the very point has no direction; it lights nothing there.
-            if distance < NEAREST {
-                continue;
-            }
-            let to_light = settled(way / distance, WITHIN);
-            let facing = to_light.dot(normal);
-            if facing <= 0.0 {
-                continue;
-            }
-            let mut share = finish.color * (finish.kd * facing);
-            if finish.ks > 0.0 {
-                let mirrored = 2.0 * facing * normal - to_light;
-                // Rounding may put it above 1, and n may be large enough to make anything of that.
-                let cos = (-mirrored.dot(sent.ray.d)).min(1.0);
-                if cos > 0.0 {
-                    share = share + C::from_rgb(DVec3::ONE) * (finish.ks * libm::pow(cos, finish.n));
-                }
-            }
+        for lamp in 0..self.lamps.len() {
+            let Some(towards) = self.towards(lamp, p, normal) else { continue };
+            let mut share = self.share(finish, towards.facing, towards.mirrored_cosine(normal, sent.ray.d));
             if self.shadows && (finish.kd > 0.0 || finish.ks > 0.0) {
-                let visible = self.visibility(&Ray::new(p, to_light), departure, distance, memory, meter);
+                let ray = Ray::new(p, towards.d);
+                let visible = self.visibility(&ray, departure, towards.distance, memory, meter);
                 if visible == 0.0 {
                     continue;
                 }
                 share = share * visible;
             }
-            sum = (sum + lamp.light * share).limited();
+            sum = (sum + self.lamps[lamp].light * share).limited();
         }
-        if let Some(k) = self.depth {
-            let way = (sent.travelled + met.hit.t) * self.assembly.datum.unit;
-            sum = (sum / (way + k)).limited();
+        self.gathered(sum, met, sent.travelled + met.hit.t)
+    }
+
+    /// The way from a surface to a lamp; `None` where the lamp is behind the surface.
+    #[inline]
+    pub(super) fn towards(&self, lamp: usize, p: DVec3, normal: DVec3) -> Option<Towards> {
+        let way = self.lamps[lamp].at - p;
+        let distance = way.length();
+        // A light at the very point has no direction; it lights nothing there.
+        if distance < NEAREST {
+            return None;
         }
-        (self.ambient * finish.color + sum).limited()
+        let d = settled(way / distance, WITHIN);
+        let facing = d.dot(normal);
+        (facing > 0.0).then_some(Towards { d, distance, facing })
+    }
+
+    /// `kd·C·(L·N) + ks·cosⁿθ`: the share of a light that a surface sends to where it is seen from.
+    #[inline]
+    pub(super) fn share(&self, finish: &Finish<C>, facing: f64, cosine: f64) -> C {
+        let share = finish.color * (finish.kd * facing);
+        if finish.ks > 0.0 && cosine > 0.0 {
+            share + C::from_rgb(DVec3::ONE) * (finish.ks * libm::pow(cosine, finish.n))
+        } else {
+            share
+        }
+    }
+
+    /// The light of a surface, from the sum over all lamps and the whole way from the eye.
+    #[inline]
+    pub(super) fn gathered(&self, sum: C, met: &Met, way: f64) -> C {
+        let sum = match self.depth {
+            Some(k) => (sum / (way * self.assembly.datum.unit + k)).limited(),
+            None => sum,
+        };
+        (self.ambient * self.finish(&met.hit).color + sum).limited()
     }
 
     /// The material of the surface that was hit.

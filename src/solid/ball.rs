@@ -68,6 +68,12 @@ impl Ball {
         self.off
     }
 
+    /// The most that the `error` of any of its ends can be: half a chord whose square is below `2·r·off` is off by no more
+    /// than the root of that, and one above it by less than half of that root.
+    pub fn most_error(&self) -> f64 {
+        self.off + (2.0 * self.radius * self.off).sqrt()
+    }
+
     /// The share of its errors that our own rounding may have made.
     pub fn seeming(&self) -> f64 {
         (SEEN / self.off).min(1.0)

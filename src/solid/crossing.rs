@@ -193,7 +193,7 @@ pub fn first_of_expression(
 /// Where surfaces coincide they have one slope, but for what their maps lost, which counts where a ray all but skims them.
 /// What is crossed steeply on a way that skims a face has a sine farther from the face's than this, unless the face's
 /// crossing is known within 256 times `off`, too little to be seen.
-const SAME_SLOPE: f64 = 256.0;
+pub(super) const SAME_SLOPE: f64 = 256.0;
 
 /// Brings those of the sorted events that are one place with the first of them to the front, and counts them; the
 /// others keep their order.

@@ -70,7 +70,11 @@ impl Facets {
                 if points_down(face.normal) { above.is_above(zero) } else { above.is_at_least(zero) };
             spans.any = spans.any & (against | along | !outside);
         }
-        spans.if_any(self.seeming, |surface| surface)
+        spans.if_any(
+            self.seeming,
+            #[inline(always)]
+            |surface| surface,
+        )
     }
 
     /// How far a point of it may be off its place, by its map and by our own rounding.

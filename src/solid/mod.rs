@@ -5,6 +5,7 @@ mod across;
 mod assembly;
 mod ball;
 mod crossing;
+mod crossings;
 mod expression;
 mod face;
 mod facets;
@@ -12,6 +13,7 @@ mod inside;
 mod mesh;
 mod patch;
 mod primitive;
+mod prune;
 mod round;
 mod slabs;
 mod span;
@@ -22,8 +24,13 @@ mod tests;
 mod tube;
 
 pub use assembly::{Assembly, AssemblyError, Body, Datum, Object};
-pub use crossing::{Crossing, Reach, Scratch, first_of_expression, first_of_span};
+pub use ball::Ball;
+pub use crossing::{
+    Crossing, Firsts, Reach, Scratch, Starts, first_of_expression, first_of_span, firsts_of_spans,
+};
+pub use crossings::{BundleScratch, Departures, Found, first_of_expressions};
 pub use expression::{Child, Expression, Leaf, Pruned, Tree};
 pub use primitive::{Cover, Form, Primitive};
+pub use prune::{Flat, Left, Pruning, Remains};
 pub use span::{Departure, End, Ends, LIMIT, ROUNDING, Span, Spans, WORLD};
 pub use surface::first_of_surface;

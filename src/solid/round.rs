@@ -302,7 +302,11 @@ fn frustum_spans<N: Number>(rays: &Centred<N>, middle: f64, slope: f64) -> Spans
         Ends { t: rays.t + side.enter.t, ..side.enter },
         Ends { t: rays.t + side.leave.t, ..side.leave },
     );
-    spans.if_any(rays.seeming, |surface| surface.smaller(bottom))
+    spans.if_any(
+        rays.seeming,
+        #[inline(always)]
+        |surface| surface.smaller(bottom),
+    )
 }
 
 /// The lines against `x² + y² ≤ ρ²`, `ρ = middle + slope · z ≥ 0`: where each is inside, counted from its point closest

@@ -50,7 +50,11 @@ impl AxisBox {
                 return spans;
             }
         }
-        let spans = spans.if_any(self.seeming(), |axis| axis);
+        let spans = spans.if_any(
+            self.seeming(),
+            #[inline(always)]
+            |axis| axis,
+        );
         with_sides(spans, [rays.d.x, rays.d.y, rays.d.z])
     }
 
@@ -110,7 +114,8 @@ impl SkewBox {
     pub fn spans<N: Number>(&self, rays: &Rays<N>) -> Spans<N> {
         let from_center = rays.o - self.place.center;
         let mut spans = Spans::line(rays.o.x);
-        let speeds = self.rows.map(|row| rays.d.dot_one(row));
+        let speeds =
+            [rays.d.dot_one(self.rows[0]), rays.d.dot_one(self.rows[1]), rays.d.dot_one(self.rows[2])];
         for axis in 0..3 {
             let slab = Slab { lo: -1.0, hi: 1.0, off: self.off[axis], still: self.still[axis] };
             slab.clip(&mut spans, from_center.dot_one(self.rows[axis]), speeds[axis], axis);
@@ -118,7 +123,14 @@ impl SkewBox {
                 return spans;
             }
         }
-        with_sides(spans.if_any(self.seeming, |axis| axis), speeds)
+        with_sides(
+            spans.if_any(
+                self.seeming,
+                #[inline(always)]
+                |axis| axis,
+            ),
+            speeds,
+        )
     }
 
     /// How far a point of it may be off its place, by its map and by our own rounding.

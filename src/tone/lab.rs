@@ -1,6 +1,6 @@
 //! CIE 1976 L*a*b*: colours at distances that the eye sees, with the lightness of the 13 levels as its first axis.
 
-use super::lightness::{light_of_lightness, lightness};
+use super::lightness::{light_of_lightness, lightnesses};
 use crate::math::{DMat3, DVec3};
 
 /// Linear sRGB (IEC 61966-2-1) to CIE XYZ, each row divided by its sum, which is white's: so white is exactly 1, 1, 1.
@@ -31,9 +31,22 @@ const RGB: DMat3 = DMat3::from_cols_array(&[
 
 /// L*, a* and b* of three linear primaries, 0 to 1.
 pub fn lab_of_color(color: DVec3) -> [f64; 3] {
+    labs_of_colors([color]).map(|axis| axis[0])
+}
+
+/// [`lab_of_color`] of several at once, axis by axis: all L*, all a*, all b*.
+pub fn labs_of_colors<const N: usize>(colors: [DVec3; N]) -> [[f64; N]; 3] {
+    let mut shares = [[0.0; N]; 3];
+    for (k, color) in colors.into_iter().enumerate() {
+        let share = XYZ * color;
+        for axis in 0..3 {
+            shares[axis][k] = share[axis];
+        }
+    }
     // The cube roots of the definition, each written as the lightness of its share.
-    let [x, y, z] = (XYZ * color).to_array().map(lightness);
-    [y, 500.0 / 116.0 * (x - y), 200.0 / 116.0 * (y - z)]
+    let [x, y, z] = shares.map(lightnesses);
+    let weighed = |weight: f64, a: &[f64; N], b: &[f64; N]| std::array::from_fn(|k| weight * (a[k] - b[k]));
+    [y, weighed(500.0 / 116.0, &x, &y), weighed(200.0 / 116.0, &y, &z)]
 }
 
 /// The three linear primaries of L*, a* and b*, clamped to 0 to 1.
@@ -44,6 +57,7 @@ pub fn color_of_lab([l, a, b]: [f64; 3]) -> DVec3 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::lightness::lightness;
     use super::*;
     use proptest::prelude::*;
 

@@ -1,7 +1,5 @@
 //! The 13 gray levels: three steps between each two neighbours of the text attributes' four grays.
 
-use super::lightness::srgb_of_light;
-
 /// The linear light of the four grays of DOS text attributes, sRGB bytes 0x00, 0x55, 0xAA and 0xFF.
 pub const GRAYS: [f64; 4] = [0.0, 0.090_841_711_183_407_7, 0.401_977_779_832_195_8, 1.0];
 
@@ -40,6 +38,31 @@ pub(super) const BORDERS: [f64; 12] = [
     0.923_230_656_574_289_9,
 ];
 
+/// The sRGB byte of each level; a test computes them.
+const BYTES: [u8; 13] = [0, 42, 60, 74, 85, 114, 136, 154, 170, 196, 218, 237, 255];
+
+/// How many equal parts light is cut into to find its level: so many that no two borders share one, and a power of
+/// two, so that a part is found without rounding.
+const PARTS: usize = 64;
+
+/// The level of the darkest light in each part.
+const DARKEST: [u8; PARTS] = {
+    let mut levels = [0; PARTS];
+    let mut part = 0;
+    while part < PARTS {
+        let light = part as f64 / PARTS as f64;
+        while (levels[part] as usize) < BORDERS.len() && BORDERS[levels[part] as usize] <= light {
+            levels[part] += 1;
+        }
+        assert!(
+            levels[part] as usize + 1 >= BORDERS.len()
+                || BORDERS[levels[part] as usize + 1] > light + 1.0 / PARTS as f64
+        );
+        part += 1;
+    }
+    levels
+};
+
 /// A gray level, 0 (black) to 12 (white).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Level(u8);
@@ -62,7 +85,11 @@ impl Level {
 
     /// The level nearest to `light` in CIE L*; the lighter one midway; level 0 for NaN.
     pub fn nearest(light: f64) -> Self {
-        Self(BORDERS.iter().map(|&border| u8::from(light >= border)).sum())
+        // Negative light and NaN become part 0.
+        let darkest = DARKEST[((light * PARTS as f64) as usize).min(PARTS - 1)];
+        // Above the last border there is none: no light reaches NaN.
+        let border = BORDERS.get(usize::from(darkest)).copied().unwrap_or(f64::NAN);
+        Self(darkest + u8::from(light >= border))
     }
 
     /// The number, 0 to 12.
@@ -76,8 +103,8 @@ impl Level {
     }
 
     /// Its gray in a picture file, an sRGB byte.
-    pub fn srgb(self) -> u8 {
-        srgb_of_light(self.light())
+    pub const fn srgb(self) -> u8 {
+        BYTES[self.0 as usize]
     }
 
     /// One character: `0` to `9`, `A`, `B`, `C`.
@@ -88,7 +115,7 @@ impl Level {
 
 #[cfg(test)]
 mod tests {
-    use super::super::lightness::{light_of_lightness, light_of_srgb, lightness};
+    use super::super::lightness::{light_of_lightness, light_of_srgb, lightness, srgb_of_light};
     use super::*;
 
     #[test]
@@ -121,8 +148,21 @@ mod tests {
 
     #[test]
     fn the_bytes_of_the_levels() {
-        let bytes: Vec<u8> = Level::all().map(Level::srgb).collect();
-        assert_eq!(bytes, [0, 42, 60, 74, 85, 114, 136, 154, 170, 196, 218, 237, 255]);
+        for level in Level::all() {
+            assert_eq!(level.srgb(), srgb_of_light(level.light()));
+        }
+    }
+
+    #[test]
+    fn the_nearest_level_counts_the_borders_below() {
+        let counted = |light: f64| BORDERS.iter().filter(|&&border| light >= border).count();
+        let parts = (0..=4 * PARTS).map(|k| k as f64 / (4 * PARTS) as f64);
+        let nan = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0, 7.0];
+        for light in BORDERS.into_iter().chain(parts).chain(nan) {
+            for light in [light.next_down(), light, light.next_up()] {
+                assert_eq!(usize::from(Level::nearest(light).get()), counted(light), "{light}");
+            }
+        }
     }
 
     #[test]

@@ -4,10 +4,13 @@ mod lab;
 mod level;
 mod lightness;
 mod matrix;
+mod root;
 
-pub use lab::{color_of_lab, lab_of_color};
+pub use lab::{color_of_lab, lab_of_color, labs_of_colors};
 pub use level::{GRAYS, Level};
-pub use lightness::{light_of_lightness, light_of_srgb, lightness, srgb_of_light};
+pub use lightness::{
+    light_of_lightness, light_of_srgb, lightness, lightness_in_single, lightnesses, srgb_of_light,
+};
 pub use matrix::{FOUR_GRAYS, INK_ONLY, Matrix};
 
 use crate::math::DVec3;

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use crate::lattice::{self, SLACK, Structure, slack};
-use crate::math::{Bounds, DVec3, Ray};
+use crate::math::{Bounds, DVec3, Mask, Number, Ray, Rays, Vector};
 use crate::solid::{
     self, Assembly, Body, Crossing, Departure, LIMIT, Reach, first_of_expression, first_of_span,
     first_of_surface,
@@ -256,13 +256,24 @@ impl Engine for Exact<'_> {
 /// fused multiply-add, in software where the processor has none, gives the same bits everywhere. The length of the way
 /// is itself rounded, which moves the start along the ray; what is left of that is gone over again.
 fn moved_nearer(ray: &Ray) -> (Ray, [f64; 2]) {
-    let far = -ray.o.dot(ray.d) - LIMIT;
-    if far.is_nan() || far <= FAR {
-        return (*ray, [0.0; 2]);
+    let (near, way) = all_moved_nearer(&Rays::from(ray));
+    let vector = |v: Vector<f64>| DVec3::new(v.x, v.y, v.z);
+    (Ray::new(vector(near.o), vector(near.d)), way)
+}
+
+/// [`moved_nearer`], for one ray or for several.
+#[inline(always)]
+pub(super) fn all_moved_nearer<N: Number>(rays: &Rays<N>) -> (Rays<N>, [N; 2]) {
+    let zero = rays.o.x.same(0.0);
+    let far = -rays.o.dot(rays.d) - LIMIT;
+    let is_far = far.is_above(zero.same(FAR));
+    if !is_far.any() {
+        return (*rays, [zero; 2]);
     }
-    let fused = |d: f64, o: f64| libm::fma(far, d, o);
-    let start = DVec3::new(fused(ray.d.x, ray.o.x), fused(ray.d.y, ray.o.y), fused(ray.d.z, ray.o.z));
-    let left = -start.dot(ray.d) - LIMIT;
-    let start = start + left * ray.d;
-    (Ray::new(start, ray.d), [far, left])
+    let Rays { o, d } = *rays;
+    let start = Vector { x: far.fused(d.x, o.x), y: far.fused(d.y, o.y), z: far.fused(d.z, o.z) };
+    let left = -start.dot(d) - LIMIT;
+    let start = start + d * left;
+    let o = Vector::choose(is_far, start, o);
+    (Rays { o, d }, [is_far.choose(far, zero), is_far.choose(left, zero)])
 }

@@ -2,8 +2,10 @@
 //! [`Engine::next`]) and whether light comes through ([`Engine::blocked`]); [`Exact`] is the reference.
 
 mod exact;
+mod fast;
 
 pub use exact::{Exact, Memory};
+pub use fast::{Fast, Nearest, Shaft, TileMemory};
 
 use crate::math::{DVec3, Ray};
 use crate::solid::{Crossing, Departure};

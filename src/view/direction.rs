@@ -1,6 +1,6 @@
 //! Directions without components that are rounding only.
 
-use crate::math::DVec3;
+use crate::math::{DVec3, Mask, Number, Vector};
 
 /// What rounding leaves of a component that is 0: a direction is the sum of a few products of numbers up to 1, eight
 /// roundings at most.
@@ -15,7 +15,21 @@ const NOISE: f64 = 4.0 * f64::EPSILON;
 #[inline]
 #[must_use]
 pub fn settled(d: DVec3, way: f64) -> DVec3 {
-    DVec3::select(d.abs().cmplt(DVec3::splat(NOISE / way.max(1.0))), DVec3::ZERO, d)
+    let d = all_settled(Vector::from(d), way);
+    DVec3::new(d.x, d.y, d.z)
+}
+
+/// [`settled`], for one direction or for several.
+#[inline(always)]
+#[must_use]
+pub fn all_settled<N: Number>(d: Vector<N>, way: f64) -> Vector<N> {
+    let least = d.x.same(NOISE / way.max(1.0));
+    let zero = d.x.same(0.0);
+    Vector {
+        x: d.x.magnitude().is_below(least).choose(zero, d.x),
+        y: d.y.magnitude().is_below(least).choose(zero, d.y),
+        z: d.z.magnitude().is_below(least).choose(zero, d.z),
+    }
 }
 
 #[cfg(test)]

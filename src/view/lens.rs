@@ -1,6 +1,6 @@
 //! The picture geometry: which way each dot looks.
 
-use crate::math::{DVec3, Ray, Size};
+use crate::math::{DVec3, Number, Ray, Size, Vector};
 use crate::scene::{Camera, FieldSpan};
 
 /// The largest tangent of half an angle. From 1e16 on the angle is 180° within rounding; this leaves room for the
@@ -76,10 +76,22 @@ impl Lens {
     /// `i..i + 1`, `j..j + 1`, and its middle is at (i + ½, j + ½).
     #[inline]
     pub fn ray(&self, x: f64, y: f64) -> Ray {
-        let across = (2.0 * x / f64::from(self.dots.width) - 1.0) * self.tangents[0];
-        let upward = (1.0 - 2.0 * y / f64::from(self.dots.height)) * self.tangents[1];
-        let d = self.forward + across * self.right + upward * self.up;
-        Ray::new(self.eye, d.normalize())
+        let d = self.directions(x, y);
+        Ray::new(self.eye, DVec3::new(d.x, d.y, d.z))
+    }
+
+    /// The directions, of length 1, through one point of the picture or through several, as for [`Lens::ray`].
+    #[inline(always)]
+    pub fn directions<N: Number>(&self, x: N, y: N) -> Vector<N> {
+        let across = (x * 2.0 / f64::from(self.dots.width) - 1.0) * self.tangents[0];
+        let upward = (-(y * 2.0 / f64::from(self.dots.height)) + 1.0) * self.tangents[1];
+        let component = |forward: f64, right: f64, up: f64| across * right + forward + upward * up;
+        let d = Vector {
+            x: component(self.forward.x, self.right.x, self.up.x),
+            y: component(self.forward.y, self.right.y, self.up.y),
+            z: component(self.forward.z, self.right.z, self.up.z),
+        };
+        d * (x.same(1.0) / d.length())
     }
 
     /// The full angles of the field across and down, in degrees.

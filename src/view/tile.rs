@@ -4,7 +4,7 @@ use crate::math::Size;
 
 /// Dots along each side of a tile: large enough that a thread seldom asks for work, small enough that many
 /// threads end together.
-pub const TILE: u32 = 16;
+pub const TILE: u32 = 32;
 
 /// A rectangle of dots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -121,7 +121,9 @@ impl FlowChart {
                     busy: counts.primary_hits > 0,
                 },
             ),
-            Stage::Dither => Line { count: "13".to_owned(), busy: rays > 0 },
+            Stage::Dither => {
+                Line { count: "13".to_owned(), busy: rays > 0 || !self.times[Stage::Dither].is_zero() }
+            }
             Stage::Display => {
                 self.bytes.map_or_else(Line::idle, |bytes| Line { count: figures::bytes(bytes), busy: true })
             }

@@ -2,7 +2,7 @@
 //!
 //! ```
 //! use ratatui_core::{buffer::Buffer, layout::Rect, widgets::Widget};
-//! use ray13::frame::{Request, Studio};
+//! use ray13::frame::{Request, Studio, Wants};
 //! use ray13::glyph::{GlyphMode, Palette};
 //! use ray13::math::Size;
 //! use ray13::plan::Options;
@@ -16,6 +16,7 @@
 //!     dots: Size::new(20, 10),
 //!     dot_aspect: 0.5, // one dot per cell, and a cell is half as wide as it is high
 //!     options: Options::default(),
+//!     wants: Wants::CELLS,
 //!     glyphs: GlyphMode::Shade,
 //!     palette: Palette::Dos,
 //!     tone: Tone::Lightness,
@@ -23,7 +24,9 @@
 //!
 //! let mut buffer = Buffer::empty(Rect::new(0, 0, 46, 11));
 //! FlowChart::new(&frame).render(Rect::new(0, 0, 25, 11), &mut buffer);
-//! Picture(&frame.cells).render(Rect::new(26, 0, 20, 10), &mut buffer);
+//! if let Some(cells) = &frame.cells {
+//!     Picture(cells).render(Rect::new(26, 0, 20, 10), &mut buffer);
+//! }
 //! assert_eq!(buffer[(3, 0)].symbol(), "O"); // of " 1 OBJECTS"
 //! # Ok::<(), ray13::solid::AssemblyError>(())
 //! ```

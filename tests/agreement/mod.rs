@@ -46,8 +46,11 @@ pub fn compare(studio: &Studio, oracle: &Oracle, camera: &Camera, dots: Size) ->
         let expected = oracle.hit(camera.eye, toward);
         let faults = comparison.faults.len();
         for (structure, frame) in &frames {
-            let depth = frame.depth.values()[place];
-            let (object, normal) = (frame.object.values()[place], frame.normal.values()[place]);
+            let depth = frame.depth.as_ref().unwrap().values()[place];
+            let (object, normal) = (
+                frame.object.as_ref().unwrap().values()[place],
+                frame.normal.as_ref().unwrap().values()[place],
+            );
             if !agrees(depth, object, normal, expected) {
                 let dot = (place as u32 % dots.width, place as u32 / dots.width);
                 comparison.faults.push(format!(

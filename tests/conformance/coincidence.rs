@@ -42,7 +42,7 @@ fn seen<S: Subject>(scene: &Scene, size: f64, center: DVec3, chance: &mut Chance
 }
 
 fn hits(frame: &Frame) -> usize {
-    frame.depth.values().iter().filter(|t| t.is_finite()).count()
+    frame.depth.as_ref().unwrap().values().iter().filter(|t| t.is_finite()).count()
 }
 
 /// So many maps, and after them their inverses in the other order: the product is the identity but for rounding.
@@ -120,7 +120,8 @@ pub fn a_solid_and_itself_is_the_solid<S: Subject>() {
         for operator in ["union", "intersection"] {
             let text = format!("{operator}() {{ {solid} {maps} {solid} }}");
             let pair = draw(&text);
-            let (alone, pair) = (alone.depth.values(), pair.depth.values());
+            let (alone, pair) =
+                (alone.depth.as_ref().unwrap().values(), pair.depth.as_ref().unwrap().values());
             let differs = |(a, b): (&f64, &f64)| {
                 a.is_finite() != b.is_finite() || (a.is_finite() && (a - b).abs() > 1e-12 * a)
             };

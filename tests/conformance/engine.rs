@@ -1,7 +1,7 @@
 //! What the suite asks of an engine, a batch of rays at a time, in the scene's own unit; and the exact engine's
 //! answers.
 
-use ray13::frame::{Frame, Request, Studio};
+use ray13::frame::{Frame, Request, Studio, Wants};
 use ray13::glyph::{GlyphMode, Palette};
 use ray13::lattice::{Boxes, Lattice, Structure, SubLattices, Tree};
 use ray13::math::{DVec3, Placement, Ray, Size};
@@ -202,6 +202,7 @@ impl Subject for ExactEngine {
             dots,
             dot_aspect: 1.0,
             options: Options { structure, ..Options::default() },
+            wants: Wants::ALL,
             glyphs: GlyphMode::default(),
             palette: Palette::default(),
             tone: Tone::default(),

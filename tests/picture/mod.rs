@@ -56,11 +56,11 @@ impl Seen {
     pub fn lit_hits(&self) -> impl Iterator<Item = (DVec3, DVec3, f64)> {
         let directions = directions(&self.camera, self.frame.light.size());
         directions.into_iter().enumerate().filter_map(|(place, toward)| {
-            let depth = self.frame.depth.values()[place];
+            let depth = self.frame.depth.as_ref().unwrap().values()[place];
             let point = self.camera.eye + toward * depth;
-            depth
-                .is_finite()
-                .then(|| (point, self.frame.normal.values()[place], self.frame.light.values()[place]))
+            depth.is_finite().then(|| {
+                (point, self.frame.normal.as_ref().unwrap().values()[place], self.frame.light.values()[place])
+            })
         })
     }
 }

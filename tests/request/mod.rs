@@ -1,6 +1,6 @@
 //! A plain request for a picture.
 
-use ray13::frame::Request;
+use ray13::frame::{Request, Wants};
 use ray13::glyph::{GlyphMode, Palette};
 use ray13::math::Size;
 use ray13::plan::Options;
@@ -14,6 +14,7 @@ pub fn request(camera: Camera, dots: Size) -> Request {
         dots,
         dot_aspect: 1.0,
         options: Options::default(),
+        wants: Wants::ALL,
         glyphs: GlyphMode::default(),
         palette: Palette::default(),
         tone: Tone::default(),

@@ -51,7 +51,10 @@ impl Pictures {
                     let what = |f: &Frame| {
                         format!(
                             "{} {:e} {} {}",
-                            f.object[place], f.depth[place], f.normal[place], f.light[place]
+                            f.object.as_ref().unwrap()[place],
+                            f.depth.as_ref().unwrap()[place],
+                            f.normal.as_ref().unwrap()[place],
+                            f.light[place]
                         )
                     };
                     return Err(format!(
@@ -71,14 +74,23 @@ impl Pictures {
 /// All that a dot holds, to the bit.
 fn seen(frame: &Frame, place: (u32, u32)) -> [u64; 9] {
     let color = frame.color.as_ref().map_or(DVec3::ZERO, |color| color[place]);
-    let normal = frame.normal[place];
-    [color.x, color.y, color.z, normal.x, normal.y, normal.z, frame.light[place], frame.depth[place]]
-        .map(f64::to_bits)
-        .into_iter()
-        .chain([u64::from(frame.object[place])])
-        .collect::<Vec<_>>()
-        .try_into()
-        .expect("nine numbers")
+    let normal = frame.normal.as_ref().unwrap()[place];
+    [
+        color.x,
+        color.y,
+        color.z,
+        normal.x,
+        normal.y,
+        normal.z,
+        frame.light[place],
+        frame.depth.as_ref().unwrap()[place],
+    ]
+    .map(f64::to_bits)
+    .into_iter()
+    .chain([u64::from(frame.object.as_ref().unwrap()[place])])
+    .collect::<Vec<_>>()
+    .try_into()
+    .expect("nine numbers")
 }
 
 /// The first value that no picture may hold.
@@ -86,8 +98,8 @@ fn fault(frame: &Frame) -> Option<String> {
     let size = frame.light.size();
     let is_light = |light: f64| light.is_finite() && light >= 0.0;
     for place in (0..size.height).flat_map(|j| (0..size.width).map(move |i| (i, j))) {
-        let (light, depth) = (frame.light[place], frame.depth[place]);
-        let (normal, object) = (frame.normal[place], frame.object[place]);
+        let (light, depth) = (frame.light[place], frame.depth.as_ref().unwrap()[place]);
+        let (normal, object) = (frame.normal.as_ref().unwrap()[place], frame.object.as_ref().unwrap()[place]);
         let color = frame.color.as_ref().map_or(DVec3::ZERO, |color| color[place]);
         let say =
             |what: &str| Some(format!("dot {place:?} has {what} {light} {color} {depth} {normal} {object}"));

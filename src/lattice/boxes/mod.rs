@@ -7,7 +7,7 @@
 mod build;
 mod walk;
 
-use fearless_simd::Level;
+use fearless_simd::{Level, Simd, SimdBase, f64x8};
 
 use crate::math::{Bounds, DVec3};
 use crate::solid::Assembly;
@@ -61,6 +61,31 @@ impl Node {
     #[inline]
     pub fn is_empty(&self) -> bool {
         self.len == 0
+    }
+
+    /// The lower and the upper sides of its boxes, by axis.
+    #[inline(always)]
+    pub fn sides<S: Simd>(&self, simd: S) -> ([f64x8<S>; 3], [f64x8<S>; 3]) {
+        let [lx, ly, lz] = &self.lo;
+        let [hx, hy, hz] = &self.hi;
+        (
+            [f64x8::from_slice(simd, lx), f64x8::from_slice(simd, ly), f64x8::from_slice(simd, lz)],
+            [f64x8::from_slice(simd, hx), f64x8::from_slice(simd, hy), f64x8::from_slice(simd, hz)],
+        )
+    }
+
+    /// The lower and the upper corner of a slot's box.
+    #[inline(always)]
+    pub fn corners(&self, slot: usize) -> ([f64; 3], [f64; 3]) {
+        let [lx, ly, lz] = &self.lo;
+        let [hx, hy, hz] = &self.hi;
+        ([lx[slot], ly[slot], lz[slot]], [hx[slot], hy[slot], hz[slot]])
+    }
+
+    /// A bit for each slot in which a node stands.
+    #[inline]
+    pub fn inner(&self) -> u8 {
+        self.inner
     }
 
     /// What stands in a slot, `slot < WIDE`; `None` where it is empty.

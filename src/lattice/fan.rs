@@ -1,0 +1,93 @@
+//! The frustums of a tile's bundles, sixteen side by side: which of them may meet one box.
+
+use fearless_simd::{Simd, SimdBase, SimdMask, f32x16};
+
+use super::beam::Beam;
+
+/// Frustums in a fan.
+pub const FAN: usize = 16;
+
+/// What half the digits lose of a dot product with a plane's normal, as a share of what the normal's components add up
+/// to: six products and five sums of rounded numbers, for points within 2 of the origin on each axis, and the offset:
+/// 14 roundings of numbers up to 2, rounded up to 32 · 2⁻²⁴.
+const LOST: f64 = 32.0 / 16_777_216.0;
+
+/// One plane of each frustum: the parts of its normal that look at the upper and at the lower sides of a box.
+#[derive(Clone, Debug)]
+#[repr(C, align(64))]
+struct Planes {
+    up: [[f32; FAN]; 3],
+    down: [[f32; FAN]; 3],
+    offset: [f32; FAN],
+}
+
+/// Frustums side by side.
+#[derive(Clone, Debug)]
+pub struct Fan {
+    planes: [Planes; 6],
+    /// A point is no nearer to the start of any ray than what it lies behind the last plane, and this.
+    start: [f32; FAN],
+}
+
+/// Which frustums of a fan may meet a box, a bit for each, and how near it is at least to the start of any ray of each.
+#[derive(Clone, Copy, Debug)]
+pub struct FanMet {
+    /// The first is the lowest bit.
+    pub frustums: u16,
+    /// At least so far away, for each.
+    pub near: [f32; FAN],
+}
+
+impl Fan {
+    /// No frustum at all.
+    pub fn new() -> Self {
+        let planes = Planes { up: [[0.0; FAN]; 3], down: [[0.0; FAN]; 3], offset: [f32::INFINITY; FAN] };
+        Self { planes: std::array::from_fn(|_| planes.clone()), start: [0.0; FAN] }
+    }
+
+    /// Sets the frustums, up to [`FAN`] of them; those that are left over meet nothing.
+    pub fn set(&mut self, beams: &[Beam]) {
+        for lane in 0..FAN {
+            let Some(beam) = beams.get(lane) else {
+                self.planes[0].offset[lane] = f32::INFINITY;
+                continue;
+            };
+            let (planes, start) = beam.planes();
+            let backward = planes[5].0;
+            for (k, (normal, offset)) in planes.into_iter().enumerate() {
+                let to = &mut self.planes[k];
+                for axis in 0..3 {
+                    let x = normal[axis] as f32;
+                    to.up[axis][lane] = if x > 0.0 { x } else { 0.0 };
+                    to.down[axis][lane] = if x > 0.0 { 0.0 } else { x };
+                }
+                to.offset[lane] = (offset - LOST * normal.abs().element_sum()) as f32;
+            }
+            self.start[lane] = (start + LOST * backward.abs().element_sum()) as f32;
+        }
+    }
+
+    /// Which of the frustums may meet a box.
+    #[inline(always)]
+    pub fn meets<S: Simd>(&self, simd: S, lo: [f64; 3], hi: [f64; 3]) -> FanMet {
+        // Rounded to the nearest; that is among what is lost.
+        let (lx, hx) = (f32x16::splat(simd, lo[0] as f32), f32x16::splat(simd, hi[0] as f32));
+        let (ly, hy) = (f32x16::splat(simd, lo[1] as f32), f32x16::splat(simd, hi[1] as f32));
+        let (lz, hz) = (f32x16::splat(simd, lo[2] as f32), f32x16::splat(simd, hi[2] as f32));
+        let mut met = u64::from(u16::MAX);
+        let mut last = lx;
+        for planes in &self.planes {
+            let foremost = f32x16::from_slice(simd, &planes.up[0]) * hx
+                + f32x16::from_slice(simd, &planes.down[0]) * lx
+                + f32x16::from_slice(simd, &planes.up[1]) * hy
+                + f32x16::from_slice(simd, &planes.down[1]) * ly
+                + f32x16::from_slice(simd, &planes.up[2]) * hz
+                + f32x16::from_slice(simd, &planes.down[2]) * lz;
+            let behind = foremost.simd_lt(f32x16::from_slice(simd, &planes.offset));
+            met &= (!behind).to_bitmask();
+            last = foremost;
+        }
+        let near = -last - f32x16::from_slice(simd, &self.start);
+        FanMet { frustums: met as u16, near: near.to_array() }
+    }
+}

@@ -1,0 +1,520 @@
+//! Stage 8, CSG, for a bundle of rays: the first place along each where an expression changes.
+//!
+//! It does what [`super::crossing`] does for one ray, and finds the same bits: the crossings of all primitives, those
+//! that are one place with the first of them toggled together, until the expression's value changes. Instead of a
+//! sorted list there is a bit for each ray: of a crossing that is yet to come, of a primitive that the place is inside,
+//! of an operator that is true there. So an operator is one operation on a word for all rays.
+
+use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x8, mask64x8};
+
+use crate::math::{Bundle, Column, LANES, Mask, Number, ROWS, Rays};
+
+use super::crossing::{Crossing, Reach, SAME_SLOPE, start_of};
+use super::expression::Link;
+use super::primitive::{Form, Primitive};
+use super::prune::Flat;
+use super::span::{Departure, Spans};
+
+/// The surfaces that the rays of a bundle start on: [`super::Departure`] of each.
+#[derive(Clone, Debug)]
+pub struct Departures {
+    /// The index of the primitive.
+    pub primitive: Column,
+    /// Which rays go to the inside of it, a bit for each.
+    pub inward: u64,
+    /// How far it may be off its place.
+    pub off: Column,
+}
+
+impl Departures {
+    /// From nowhere.
+    pub const NONE: Self = Self { primitive: Column::filled(-1.0), inward: 0, off: Column::filled(0.0) };
+
+    /// Sets the surface that one ray starts on; it goes to the outside unless it did to the inside before.
+    pub fn set(&mut self, lane: usize, departure: &Departure) {
+        self.primitive.0[lane] = f64::from(departure.primitive);
+        self.off.0[lane] = departure.off;
+        self.inward = self.inward & !(1 << lane) | u64::from(departure.inward) << lane;
+    }
+
+    /// The surface that one ray starts on; of a primitive whose surfaces need no telling apart.
+    pub fn get(&self, lane: usize) -> Departure {
+        Departure {
+            primitive: self.primitive.0[lane] as u32,
+            surface: 0,
+            inward: self.inward >> lane & 1 == 1,
+            off: self.off.0[lane],
+        }
+    }
+
+    /// Which rays start on a primitive, and which of these go to its inside.
+    #[inline(always)]
+    pub fn here<S: Simd>(&self, simd: S, primitive: u32) -> (u64, u64) {
+        let index = f64x8::splat(simd, f64::from(primitive));
+        let here = (0..ROWS).fold(0, |bits, row| {
+            bits | u64::from(self.primitive.load(simd, row).is_equal(index).bits()) << (row * LANES)
+        });
+        (here, here & self.inward)
+    }
+}
+
+/// The first crossings of a bundle.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// Which rays have one, a bit for each: of the others the numbers mean nothing.
+    pub any: u64,
+    /// Which rays are to be asked one by one: theirs is a place where no primitive alone makes the change.
+    pub unsure: u64,
+    /// Which rays go into the solid there.
+    pub entering: u64,
+    /// Where, and how far that may be off.
+    pub t: Column,
+    /// How far `t` may be off.
+    pub error: Column,
+    /// The primitive whose surface it is, by its index.
+    pub primitive: Column,
+    /// The face of that primitive.
+    pub surface: Column,
+}
+
+impl Found {
+    /// None.
+    pub const NONE: Self = Self {
+        any: 0,
+        unsure: 0,
+        entering: 0,
+        t: Column::filled(f64::INFINITY),
+        error: Column::filled(0.0),
+        primitive: Column::filled(0.0),
+        surface: Column::filled(0.0),
+    };
+
+    /// Sets the crossing of one ray.
+    pub fn set(&mut self, lane: usize, crossing: &Crossing) {
+        self.any |= 1 << lane;
+        self.entering |= u64::from(crossing.entering) << lane;
+        self.t.0[lane] = crossing.t;
+        self.error.0[lane] = crossing.error;
+        self.primitive.0[lane] = f64::from(crossing.primitive);
+        self.surface.0[lane] = f64::from(crossing.surface);
+    }
+}
+
+/// One end of the spans in one primitive.
+#[derive(Clone, Debug)]
+struct Side {
+    t: Column,
+    error: Column,
+    surface: Column,
+    /// The rays that are yet to cross here.
+    ahead: u64,
+    /// The rays that cross here in the place that is looked at.
+    now: u64,
+}
+
+impl Side {
+    const NONE: Self = Self {
+        t: Column::filled(0.0),
+        error: Column::filled(0.0),
+        surface: Column::filled(0.0),
+        ahead: 0,
+        now: 0,
+    };
+}
+
+/// Memory that is used again for every bundle.
+#[derive(Clone, Debug, Default)]
+pub struct BundleScratch {
+    /// By leaf: where rays come in, and where they go out.
+    sides: Vec<[Side; 2]>,
+    /// By leaf: the rays that are inside; and those that the place toggles.
+    inside: Vec<u64>,
+    flipped: Vec<u64>,
+    /// By operator: the rays for which it is true, before the place and behind it.
+    before: Vec<u64>,
+    behind: Vec<u64>,
+}
+
+/// The first crossings of an expression of convex primitives within `reach`, for the rays of `wanted`.
+///
+/// Rays whose expression has a primitive that is not convex are unsure, all of them.
+pub fn first_of_expressions<S: Simd>(
+    simd: S,
+    bundle: &Bundle,
+    wanted: u64,
+    expression: Flat,
+    primitives: &[Primitive],
+    departures: Option<&Departures>,
+    reach: Reach,
+    scratch: &mut BundleScratch,
+    found: &mut Found,
+) {
+    (found.any, found.unsure, found.entering) = (0, 0, 0);
+    let form = |leaf: usize| &primitives[expression.leaves[leaf].primitive as usize].form;
+    let leaves = expression.leaves.len();
+    if (0..leaves).any(|leaf| !form(leaf).is_convex()) {
+        found.unsure = wanted;
+        return;
+    }
+    if scratch.sides.len() < leaves {
+        scratch.sides.resize(leaves, [Side::NONE, Side::NONE]);
+    }
+    let mut some = 0;
+    for leaf in 0..leaves {
+        let primitive = expression.leaves[leaf].primitive;
+        let here = departures.map_or((0, 0), |d| d.here(simd, primitive));
+        gather(simd, bundle, wanted, form(leaf), here, reach, &mut scratch.sides[leaf]);
+        some |= scratch.sides[leaf][0].ahead;
+    }
+    if some != 0 {
+        simd.vectorize(
+            #[inline(always)]
+            || decide(simd, some, expression, primitives, departures, reach, scratch, found),
+        );
+    }
+}
+
+/// The spans of a bundle in one primitive, as far as they can matter.
+fn gather<S: Simd>(
+    simd: S,
+    bundle: &Bundle,
+    wanted: u64,
+    form: &Form,
+    here: (u64, u64),
+    reach: Reach,
+    sides: &mut [Side; 2],
+) {
+    /// Compiled for each form by itself.
+    #[inline(always)]
+    fn rows<S: Simd>(
+        simd: S,
+        (bundle, wanted, (here, inward), reach): (&Bundle, u64, (u64, u64), Reach),
+        [enter, leave]: &mut [Side; 2],
+        spans: impl Fn(&Rays<f64x8<S>>) -> Spans<f64x8<S>>,
+    ) {
+        (enter.ahead, leave.ahead) = (0, 0);
+        for row in 0..ROWS {
+            let bits = |word: u64| mask64x8::from_bitmask(simd, word >> (row * LANES) & 0xFF);
+            if (wanted >> (row * LANES)) as u8 == 0 {
+                continue;
+            }
+            let mut spans = spans(&bundle.load(simd, row));
+            let any = spans.any & bits(wanted) & !bits(here & !inward);
+            if !any.any() {
+                continue;
+            }
+            if here != 0 {
+                let zero = f64x8::splat(simd, 0.0);
+                let start = super::span::Ends { t: zero, error: zero, surface: zero };
+                spans.enter = super::span::Ends::choose(bits(inward), start, spans.enter);
+            }
+            // Far outside the reach only the state inside it matters: none for a span that ends before it or
+            // starts behind it.
+            let ends_before = (spans.leave.t + spans.leave.error).is_below(spans.leave.t.same(reach.from));
+            let starts_behind = (spans.enter.t - spans.enter.error).is_above(spans.leave.t.same(reach.to));
+            let any = any & !ends_before & !starts_behind & spans.enter.t.is_below(spans.leave.t);
+            for (side, end) in [(&mut *enter, spans.enter), (&mut *leave, spans.leave)] {
+                side.ahead |= u64::from(any.bits()) << (row * LANES);
+                side.t.store(row, end.t);
+                side.error.store(row, end.error);
+                side.surface.store(row, end.surface);
+            }
+        }
+    }
+    let about = (bundle, wanted, here, reach);
+    match form {
+        Form::Ball(ball) => {
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    rows(
+                        simd,
+                        about,
+                        sides,
+                        #[inline(always)]
+                        |rays| ball.spans(rays),
+                    )
+                },
+            );
+        }
+        Form::AxisBox(slabs) => {
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    rows(
+                        simd,
+                        about,
+                        sides,
+                        #[inline(always)]
+                        |rays| slabs.spans(rays),
+                    )
+                },
+            );
+        }
+        Form::SkewBox(slabs) => {
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    rows(
+                        simd,
+                        about,
+                        sides,
+                        #[inline(always)]
+                        |rays| slabs.spans(rays),
+                    )
+                },
+            );
+        }
+        Form::Round(round) => {
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    rows(
+                        simd,
+                        about,
+                        sides,
+                        #[inline(always)]
+                        |rays| round.spans(rays),
+                    )
+                },
+            );
+        }
+        Form::Facets(facets) => {
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    rows(
+                        simd,
+                        about,
+                        sides,
+                        #[inline(always)]
+                        |rays| facets.spans(rays),
+                    )
+                },
+            );
+        }
+        Form::Mesh(_) | Form::Face(_) | Form::Patch(_) | Form::Tube(_) => {
+            (sides[0].ahead, sides[1].ahead) = (0, 0);
+        }
+    }
+}
+
+/// The place on each ray that is looked at: its first crossing.
+struct Place {
+    t: Column,
+    /// Up to which distance it lies at the start of the ray.
+    start: Column,
+}
+
+#[inline(always)]
+fn decide<S: Simd>(
+    simd: S,
+    mut open: u64,
+    expression: Flat,
+    primitives: &[Primitive],
+    departures: Option<&Departures>,
+    reach: Reach,
+    scratch: &mut BundleScratch,
+    found: &mut Found,
+) {
+    let leaves = expression.leaves.len();
+    let BundleScratch { sides, inside, flipped, before, behind } = scratch;
+    let sides = &mut sides[..leaves];
+    inside.clear();
+    inside.resize(leaves, 0);
+    flipped.resize(leaves, 0);
+    evaluate(expression, inside, before);
+    let mut place = Place { t: Column::filled(0.0), start: Column::filled(0.0) };
+    while open != 0 {
+        let mut done = 0;
+        let mut early = 0;
+        for row in 0..ROWS {
+            if (open >> (row * LANES)) as u8 != 0 {
+                let at = (simd, row, open);
+                let [ended, earlier] =
+                    next_place(at, sides, expression, primitives, departures, reach, &mut place);
+                done |= ended;
+                early |= earlier;
+            }
+        }
+        open &= !done;
+        for (leaf, [enter, leave]) in sides.iter_mut().enumerate() {
+            flipped[leaf] = (enter.now ^ leave.now) & open;
+            inside[leaf] ^= flipped[leaf];
+            enter.ahead &= !enter.now;
+            leave.ahead &= !leave.now;
+        }
+        let value = |nodes: &[u64], inside: &[u64]| nodes.first().map_or_else(|| inside[0], |&root| root);
+        evaluate(expression, inside, behind);
+        let now = value(behind, inside);
+        // Of an expression that is one primitive, what is inside has just been toggled.
+        let changed = if before.is_empty() { flipped[0] } else { before[0] ^ now };
+        let shown = changed & open & !early;
+        if shown != 0 {
+            let mut left = shown;
+            for leaf in 0..leaves {
+                let why = left & decides(expression, leaf, inside, flipped, before, behind);
+                if why != 0 {
+                    left &= !why;
+                    let [enter, leave] = &sides[leaf];
+                    for (side, lanes) in [(enter, why & enter.now), (leave, why & !enter.now)] {
+                        take(simd, side, lanes, expression.leaves[leaf].primitive, found);
+                    }
+                }
+            }
+            found.unsure |= left;
+            found.any |= shown & !left;
+            found.entering |= shown & now;
+            open &= !shown;
+        }
+        std::mem::swap(before, behind);
+    }
+}
+
+/// The first crossing that is yet to come on each ray of a row, and all that are one place with it. Answers which rays
+/// have none within reach, and whose place is passed over: it lies at the start of the ray, or before the reach.
+#[inline(always)]
+fn next_place<S: Simd>(
+    (simd, row, open): (S, usize, u64),
+    sides: &mut [[Side; 2]],
+    expression: Flat,
+    primitives: &[Primitive],
+    departures: Option<&Departures>,
+    reach: Reach,
+    place: &mut Place,
+) -> [u64; 2] {
+    let shift = row * LANES;
+    let bits = |word: u64| mask64x8::from_bitmask(simd, word >> shift & 0xFF);
+    let all = |x: f64| f64x8::splat(simd, x);
+    let departure_off = departures.map(|d| d.off.load(simd, row));
+    let infinite = all(f64::INFINITY);
+    let (mut t, mut error, mut off, mut start) = (infinite, all(0.0), all(0.0), all(0.0));
+    for (leaf, pair) in sides.iter().enumerate() {
+        if (pair[0].ahead | pair[1].ahead) >> shift & 0xFF == 0 {
+            continue;
+        }
+        let form = &primitives[expression.leaves[leaf].primitive as usize].form;
+        for side in pair {
+            let their_t = side.t.load(simd, row);
+            let sooner = bits(side.ahead) & their_t.is_below(t);
+            if sooner.any() {
+                let their_error = side.error.load(simd, row);
+                t = sooner.select(their_t, t);
+                error = sooner.select(their_error, error);
+                off = sooner.select(all(form.off()), off);
+                start = sooner.select(start_of(their_error, form, departure_off), start);
+            }
+        }
+    }
+    place.t.store(row, t);
+    place.start.store(row, start);
+    let open = bits(open);
+    let ended = open & (t.is_equal(infinite) | t.is_above(all(reach.to)));
+    let limit = t + error;
+    // In the order of their distances the place ends before the first that does not reach back to it.
+    let mut end = infinite;
+    for [enter, leave] in sides.iter() {
+        for side in [enter, leave] {
+            let their_t = side.t.load(simd, row);
+            let apart = bits(side.ahead) & (their_t - side.error.load(simd, row)).is_above(limit);
+            end = (apart & their_t.is_below(end)).select(their_t, end);
+        }
+    }
+    let mut all_before = open;
+    for (leaf, pair) in sides.iter_mut().enumerate() {
+        let own = primitives[expression.leaves[leaf].primitive as usize].form.off();
+        for side in pair {
+            let now = if (side.ahead >> shift & 0xFF) == 0 {
+                0
+            } else {
+                let (their_t, their_error) = (side.t.load(simd, row), side.error.load(simd, row));
+                let within = bits(side.ahead)
+                    & open
+                    & !ended
+                    & (their_t - their_error).is_at_most(limit)
+                    & their_t.is_below(end);
+                let (a, b) = (off / error, all(own) / their_error);
+                let same_slope = a.larger(b).is_at_most(a.smaller(b) * SAME_SLOPE);
+                let exact = error.is_equal(all(0.0)) | their_error.is_equal(all(0.0));
+                let now = within & (same_slope | exact);
+                all_before = all_before & (!now | their_t.is_below(all(reach.from)));
+                u64::from(now.bits())
+            };
+            side.now = side.now & !(0xFF << shift) | now << shift;
+        }
+    }
+    let early = open & (t.is_at_most(start) | all_before);
+    [ended, early].map(|mask| u64::from(mask.bits()) << shift)
+}
+
+/// The value of each operator, a bit for each ray.
+#[inline(always)]
+fn evaluate(expression: Flat, inside: &[u64], values: &mut Vec<u64>) {
+    values.clear();
+    // More than one child is asked for where all are.
+    values.extend(expression.nodes.iter().map(|node| if node.threshold == 1 { 0 } else { u64::MAX }));
+    let put = |values: &mut Vec<u64>, link: Link, value: u64| {
+        let value = if link.negated { !value } else { value };
+        let above = &mut values[link.node as usize];
+        if expression.nodes[link.node as usize].threshold == 1 {
+            *above |= value;
+        } else {
+            *above &= value;
+        }
+    };
+    for (leaf, &value) in expression.leaves.iter().zip(inside) {
+        if leaf.parent.node != Link::ROOT {
+            put(values, leaf.parent, value);
+        }
+    }
+    for place in (1..expression.nodes.len()).rev() {
+        put(values, expression.nodes[place].parent, values[place]);
+    }
+}
+
+/// The rays for which a leaf is a reason of the change: it and every operator above it have changed, each in the
+/// direction in which its child pushed.
+#[inline(always)]
+fn decides(
+    expression: Flat,
+    leaf: usize,
+    inside: &[u64],
+    flipped: &[u64],
+    before: &[u64],
+    behind: &[u64],
+) -> u64 {
+    let (mut rays, mut now) = (flipped[leaf], inside[leaf]);
+    let mut link = expression.leaves[leaf].parent;
+    while link.node != Link::ROOT && rays != 0 {
+        let place = link.node as usize;
+        let pushed = if link.negated { !now } else { now };
+        rays &= (before[place] ^ behind[place]) & !(behind[place] ^ pushed);
+        now = behind[place];
+        link = expression.nodes[place].parent;
+    }
+    rays
+}
+
+/// The crossing of some rays with one side is the one that is asked for.
+#[inline(always)]
+fn take<S: Simd>(simd: S, side: &Side, lanes: u64, primitive: u32, found: &mut Found) {
+    if lanes == 0 {
+        return;
+    }
+    for row in 0..ROWS {
+        let bits = lanes >> (row * LANES) & 0xFF;
+        if bits == 0 {
+            continue;
+        }
+        let mask: mask64x8<S> = mask64x8::from_bitmask(simd, bits);
+        let pairs =
+            [(&side.t, &mut found.t), (&side.error, &mut found.error), (&side.surface, &mut found.surface)];
+        for (from, to) in pairs {
+            let chosen = mask.select(from.load(simd, row), to.load(simd, row));
+            to.store(row, chosen);
+        }
+        let primitive =
+            mask.select(f64x8::splat(simd, f64::from(primitive)), found.primitive.load(simd, row));
+        found.primitive.store(row, primitive);
+    }
+}

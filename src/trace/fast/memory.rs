@@ -1,0 +1,49 @@
+//! Memory of one worker.
+
+use crate::lattice::{Beam, Fan};
+use crate::solid::{BundleScratch, Found, Pruning, Remains};
+use crate::stage::Counts;
+
+use super::thin::Thin;
+
+/// What tracing a tile needs, used again for every tile.
+#[derive(Debug)]
+pub struct TileMemory {
+    /// By bundle: its own frustum, and how far its rays have still to look.
+    pub(super) beams: Vec<Beam>,
+    pub(super) far: Vec<f64>,
+    pub(super) thin: Vec<Thin>,
+    pub(super) fan: Fan,
+    /// Nodes to be walked, and how near they are at least.
+    pub(super) stack: Vec<(f64, u32)>,
+    pub(super) scratch: BundleScratch,
+    pub(super) found: Box<Found>,
+    pub(super) pruning: Pruning,
+    /// Pruned expressions that are not in use.
+    pub(super) remains: Vec<Remains>,
+    pub(super) counts: Counts,
+}
+
+impl TileMemory {
+    /// What was counted since it was last taken.
+    pub fn counts_mut(&mut self) -> &mut Counts {
+        &mut self.counts
+    }
+}
+
+impl Default for TileMemory {
+    fn default() -> Self {
+        Self {
+            beams: Vec::new(),
+            far: Vec::new(),
+            thin: Vec::new(),
+            fan: Fan::new(),
+            stack: Vec::new(),
+            scratch: BundleScratch::default(),
+            found: Box::new(Found::NONE),
+            pruning: Pruning::default(),
+            remains: Vec::new(),
+            counts: Counts::default(),
+        }
+    }
+}

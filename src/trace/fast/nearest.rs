@@ -1,0 +1,97 @@
+//! The nearest hits of a bundle, as far as they are known.
+
+use fearless_simd::{Select, Simd, SimdBase, f64x8, mask64x8};
+
+use crate::math::{Bundle, Column, LANES, Mask, Number, ROWS};
+
+/// What each ray of a bundle met first.
+#[derive(Clone, Debug)]
+pub struct Nearest {
+    /// Where; infinite where nothing was met.
+    pub t: Column,
+    /// Where it met what comes next, another object's surface.
+    pub second: Column,
+    /// The object, by its index in the assembly.
+    pub object: Column,
+    /// The primitive, by its index in the assembly.
+    pub primitive: Column,
+    /// The face of the primitive.
+    pub surface: Column,
+    /// Which rays go into the object there, a bit for each.
+    pub entering: u64,
+    /// Which rays are to be asked one by one.
+    pub unsure: u64,
+}
+
+impl Nearest {
+    /// Nothing was met yet.
+    pub const NOTHING: Self = Self {
+        t: Column::filled(f64::INFINITY),
+        second: Column::filled(f64::INFINITY),
+        object: Column::filled(0.0),
+        primitive: Column::filled(0.0),
+        surface: Column::filled(0.0),
+        entering: 0,
+        unsure: 0,
+    };
+
+    /// Forgets all.
+    #[inline(always)]
+    pub fn clear(&mut self) {
+        self.t = Column::filled(f64::INFINITY);
+        self.second = Column::filled(f64::INFINITY);
+        (self.entering, self.unsure) = (0, 0);
+    }
+
+    /// Crossings of some rays of a row with an object.
+    #[inline(always)]
+    pub fn offer<S: Simd>(&mut self, simd: S, row: usize, met: &Offer<S>) {
+        let (best, second) = (self.t.load(simd, row), self.second.load(simd, row));
+        let t = met.any.select(met.t, f64x8::splat(simd, f64::INFINITY));
+        self.second.store(row, t.larger(best).smaller(second));
+        let nearer = t.is_below(best);
+        if !nearer.any() {
+            return;
+        }
+        let put = |column: &mut Column, x: f64x8<S>| {
+            let old = column.load(simd, row);
+            column.store(row, nearer.select(x, old));
+        };
+        put(&mut self.t, t);
+        put(&mut self.object, f64x8::splat(simd, f64::from(met.object)));
+        put(&mut self.primitive, met.primitive);
+        put(&mut self.surface, met.surface);
+        let shift = row * LANES;
+        let (nearer, entering) = (u64::from(nearer.bits()) << shift, u64::from(met.entering.bits()) << shift);
+        self.entering = self.entering & !nearer | entering & nearer;
+    }
+
+    /// The greatest distance at which any of the rays may still meet something.
+    #[inline(always)]
+    pub fn farthest<S: Simd>(&self, simd: S, bundle: &Bundle) -> f64 {
+        let mut most = f64x8::splat(simd, f64::NEG_INFINITY);
+        for row in 0..ROWS {
+            if bundle.live_in(row) != 0 {
+                most = self.t.load(simd, row).larger(most);
+            }
+        }
+        most.to_array().into_iter().fold(f64::NEG_INFINITY, |most, t| if t > most { t } else { most })
+    }
+}
+
+/// Crossings of a row with one object.
+#[derive(Clone, Copy, Debug)]
+pub struct Offer<S: Simd> {
+    /// Which rays have one.
+    pub any: mask64x8<S>,
+    /// Where.
+    pub t: f64x8<S>,
+    /// Whether the ray goes into the object there.
+    pub entering: mask64x8<S>,
+    /// The object.
+    pub object: u32,
+    /// The primitive.
+    pub primitive: f64x8<S>,
+    /// The face.
+    pub surface: f64x8<S>,
+}

@@ -1,0 +1,366 @@
+//! What stands between the lit points of a tile and one light.
+//!
+//! The rays towards a light run together, so that the frustum around them, with its apex at the light, is a shaft. It
+//! walks the boxes as the frustum of the rays from the eye does; which of two things stands in the way does not matter,
+//! and a ray that is blocked asks no more.
+
+use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
+
+use crate::lattice::{Beam, Child, SLACK, Spread};
+use crate::math::{Bundle, Column, DVec3, LANES, Mask, Number, ROWS, Rays};
+use crate::solid::{
+    Ball, Body, Departures, Firsts, Flat, Form, Left, Reach, Spans, Starts, first_of_expressions,
+    first_of_surface, firsts_of_spans,
+};
+use crate::stage::{Meter, Silent};
+
+use super::Fast;
+use super::first::{FEW, HALVINGS};
+use super::memory::TileMemory;
+use super::thin::Thin;
+use super::walk::{bounds_between, push_nearest_last, through, touching};
+
+/// Rays towards a light.
+#[derive(Clone, Debug)]
+pub struct Shaft {
+    /// The rays; those that are live ask.
+    pub rays: Bundle,
+    /// How far away the light is.
+    pub distance: Column,
+    /// Which of the rays are blocked.
+    pub blocked: u64,
+    /// Which are to be asked one by one.
+    pub unsure: u64,
+}
+
+impl Shaft {
+    /// No rays.
+    pub const EMPTY: Self =
+        Self { rays: Bundle::EMPTY, distance: Column::filled(0.0), blocked: 0, unsure: 0 };
+
+    /// Gives those that do not ask the numbers of the first that does ([`Bundle::close`]).
+    pub fn close(&mut self) {
+        self.rays.close();
+        if self.rays.live != 0 {
+            let first = self.distance.0[self.rays.live.trailing_zeros() as usize];
+            for (lane, distance) in self.distance.0.iter_mut().enumerate() {
+                if self.rays.live >> lane & 1 == 0 {
+                    *distance = first;
+                }
+            }
+        }
+    }
+
+    /// The rays that are neither blocked nor unsure.
+    #[inline(always)]
+    fn open(&self) -> u64 {
+        self.rays.live & !(self.blocked | self.unsure)
+    }
+}
+
+impl Fast<'_> {
+    /// Finds which rays towards a light are blocked. `departures` has the surfaces that they leave.
+    #[inline(always)]
+    pub(super) fn blocked_of_tile<S: Simd>(
+        &self,
+        simd: S,
+        shafts: &mut [Shaft],
+        departures: &[Departures],
+        memory: &mut TileMemory,
+    ) {
+        let bundles = || shafts.iter().map(|shaft| (&shaft.rays, Some(&shaft.distance)));
+        let whole = Beam::around(simd, bundles(), Spread::Together);
+        memory.beams.clear();
+        for one in bundles() {
+            memory.beams.push(Beam::around(simd, std::iter::once(one), Spread::Together));
+        }
+        memory.fan.set(&memory.beams);
+        let mut open = 0_u16;
+        for (k, shaft) in shafts.iter().enumerate() {
+            open |= u16::from(shaft.open() != 0) << k;
+        }
+        if open == 0 {
+            return;
+        }
+        memory.thin.resize(shafts.len(), Thin::EMPTY);
+        for (thin, shaft) in memory.thin.iter_mut().zip(&*shafts) {
+            thin.set(&shaft.rays);
+        }
+        memory.stack.clear();
+        memory.stack.push((f64::NEG_INFINITY, 0));
+        while let Some((_, node)) = memory.stack.pop() {
+            let node = &self.boxes.nodes()[node as usize];
+            memory.counts.cells_visited += 1;
+            let (lo, hi) = node.sides(simd);
+            let met = whole.meets_boxes(simd, &lo, &hi);
+            let mut objects = met.boxes & !node.inner();
+            while objects != 0 {
+                let slot = objects.trailing_zeros() as usize;
+                objects &= objects - 1;
+                let Some(Child::Object(object)) = node.child(slot) else { continue };
+                let (lo, hi) = node.corners(slot);
+                let mut left = memory.fan.meets(simd, lo, hi).frustums & open;
+                while left != 0 {
+                    let k = left.trailing_zeros() as usize;
+                    left &= left - 1;
+                    self.object_in_shaft(simd, object, &mut shafts[k], &departures[k], memory, k);
+                    if shafts[k].open() == 0 {
+                        open &= !(1 << k);
+                    }
+                }
+                if open == 0 {
+                    return;
+                }
+            }
+            push_nearest_last(&mut memory.stack, node, &met);
+        }
+    }
+
+    /// A ball in the way of a light.
+    #[inline(always)]
+    fn ball_in_shaft<S: Simd>(
+        &self,
+        simd: S,
+        (ball, form): (&Ball, &Form),
+        thin: &Thin,
+        shaft: &mut Shaft,
+        departures: &Departures,
+        index: u32,
+    ) {
+        let near = thin.near(simd, ball.center, ball.radius) & shaft.open();
+        if near == 0 {
+            return;
+        }
+        let error = ball.most_error();
+        let start = f64x8::splat(simd, error * (1.0 + self.assembly.off / ball.off()));
+        let index = f64x8::splat(simd, f64::from(index));
+        for row in 0..ROWS {
+            let bits = (near >> (row * LANES)) as u8;
+            if bits == 0 {
+                continue;
+            }
+            let spans = ball.spans(&shaft.rays.load(simd, row));
+            let met: mask64x8<S> = spans.any & mask64x8::from_bitmask(simd, u64::from(bits));
+            if !met.any() {
+                continue;
+            }
+            let here = departures.primitive.load(simd, row).is_equal(index);
+            let distance = shaft.distance.load(simd, row);
+            let (enter, leave) = (spans.enter.t, spans.leave.t);
+            // A ball ahead, well before the light; one behind, or beyond the light.
+            let sure = met & !here & enter.is_above(start) & (enter + error).is_below(distance);
+            let beside = !here & (leave.is_below(-start) | (enter - error).is_above(distance));
+            let mut blocked = sure;
+            if (met & !sure & !beside).any() {
+                let inward = mask64x8::from_bitmask(simd, departures.inward >> (row * LANES) & 0xFF);
+                let off = Some(departures.off.load(simd, row));
+                let Firsts { end, any, .. } = firsts_of_spans(spans, form, &Starts { here, inward, off });
+                blocked = any & (end.t + end.error).is_below(distance);
+            }
+            shaft.blocked |= (u64::from(blocked.bits()) << (row * LANES)) & near;
+        }
+    }
+
+    fn object_in_shaft<S: Simd>(
+        &self,
+        simd: S,
+        object: u32,
+        shaft: &mut Shaft,
+        departures: &Departures,
+        memory: &mut TileMemory,
+        k: usize,
+    ) {
+        let primitives = &self.assembly.primitives;
+        let own = &self.assembly.objects[object as usize];
+        match &own.body {
+            Body::Single(index) => {
+                memory.counts.primitive_tests += 1;
+                let form = &primitives[*index as usize].form;
+                if let Form::Ball(ball) = form {
+                    let thin = &memory.thin[k];
+                    simd.vectorize(
+                        #[inline(always)]
+                        || self.ball_in_shaft(simd, (ball, form), thin, shaft, departures, *index),
+                    );
+                } else {
+                    single(simd, form, shaft, departures, *index);
+                }
+            }
+            Body::Surface(index) => {
+                memory.counts.primitive_tests += 1;
+                let bounds = own.bounds.padded(DVec3::splat(self.slack));
+                let mut rest = touching(simd, &shaft.rays, &bounds) & shaft.open();
+                while rest != 0 {
+                    let lane = rest.trailing_zeros() as usize;
+                    rest &= rest - 1;
+                    let (ray, departure) = (shaft.rays.ray(lane), departures.get(lane));
+                    let (primitive, mut meter) = (&primitives[*index as usize], Meter::new(Silent));
+                    let met = first_of_surface(&ray, primitive, *index, Some(departure), &mut meter);
+                    let blocks = met.is_some_and(|c| c.t + c.error < shaft.distance.0[lane]);
+                    shaft.blocked |= u64::from(blocks) << lane;
+                }
+            }
+            Body::Composite { whole, .. } => {
+                let bounds = own.bounds.padded(DVec3::splat(self.slack));
+                let Some((open, from, to)) = through(simd, &shaft.rays, &bounds) else { return };
+                let to = to.min(shaft.distance.0.iter().copied().fold(0.0, f64::max));
+                let open = open & shaft.open();
+                let mut slicing = Slicing { fast: self, simd, shaft, departures, open };
+                slicing.slice(Flat::from(&**whole), (from, to), HALVINGS, memory);
+            }
+        }
+    }
+}
+
+/// Whose way is cut into slices.
+struct Slicing<'a, S> {
+    fast: &'a Fast<'a>,
+    simd: S,
+    shaft: &'a mut Shaft,
+    departures: &'a Departures,
+    /// The rays that have not met the object yet.
+    open: u64,
+}
+
+impl<S: Simd> Slicing<'_, S> {
+    fn slice(&mut self, expression: Flat, (from, to): (f64, f64), halvings: u32, memory: &mut TileMemory) {
+        if self.open == 0 || from > to {
+            return;
+        }
+        let primitives = &self.fast.assembly.primitives;
+        // As for the rays from the eye.
+        let margin = DVec3::splat(2.0 * self.fast.slack);
+        let b = bounds_between(self.simd, &self.shaft.rays, from, to).padded(margin);
+        let mut remains = memory.remains.pop().unwrap_or_default();
+        if expression.pruned(primitives, &b, &mut memory.pruning, &mut remains) == Left::Some {
+            let left = Flat::from(&remains);
+            if left.leaves.len() <= FEW || halvings == 0 {
+                self.ask(left, (from, to), memory);
+            } else {
+                let middle = 0.5 * (from + to);
+                self.slice(left, (from, middle), halvings - 1, memory);
+                self.slice(left, (middle, to), halvings - 1, memory);
+            }
+        }
+        memory.remains.push(remains);
+    }
+
+    fn ask(&mut self, expression: Flat, (from, to): (f64, f64), memory: &mut TileMemory) {
+        let (simd, shaft) = (self.simd, &mut *self.shaft);
+        let reach = Reach { from: from - SLACK, to: to + SLACK };
+        let primitives = &self.fast.assembly.primitives;
+        memory.counts.primitive_tests += expression.leaves.len() as u64;
+        memory.counts.csg_evaluations += 1;
+        let TileMemory { scratch, found, .. } = memory;
+        let departures = Some(self.departures);
+        first_of_expressions(
+            simd,
+            &shaft.rays,
+            self.open,
+            expression,
+            primitives,
+            departures,
+            reach,
+            scratch,
+            found,
+        );
+        shaft.unsure |= found.unsure;
+        self.open &= !(found.unsure | found.any);
+        let mut met = found.any;
+        while met != 0 {
+            let lane = met.trailing_zeros() as usize;
+            met &= met - 1;
+            let blocks = found.t.0[lane] + found.error.0[lane] < shaft.distance.0[lane];
+            shaft.blocked |= u64::from(blocks) << lane;
+        }
+    }
+}
+
+/// One convex primitive that is an object.
+fn single<S: Simd>(simd: S, form: &Form, shaft: &mut Shaft, departures: &Departures, index: u32) {
+    #[inline(always)]
+    fn rows<S: Simd>(
+        simd: S,
+        (form, departures, index): (&Form, &Departures, u32),
+        shaft: &mut Shaft,
+        spans: impl Fn(&Rays<f64x8<S>>) -> Spans<f64x8<S>>,
+    ) {
+        let open = shaft.open();
+        for row in 0..ROWS {
+            if (open >> (row * LANES)) as u8 == 0 {
+                continue;
+            }
+            let spans = spans(&shaft.rays.load(simd, row));
+            if !spans.any.any() {
+                continue;
+            }
+            let bits = |word: u64| mask64x8::from_bitmask(simd, word >> (row * LANES) & 0xFF);
+            let here = departures.primitive.load(simd, row).is_equal(f64x8::splat(simd, f64::from(index)));
+            let off = Some(departures.off.load(simd, row));
+            let starts = Starts { here, inward: bits(departures.inward), off };
+            let Firsts { end, any, .. } = firsts_of_spans(spans, form, &starts);
+            let blocked = any & (end.t + end.error).is_below(shaft.distance.load(simd, row));
+            shaft.blocked |= u64::from(blocked.bits()) << (row * LANES) & open;
+        }
+    }
+    let about = (form, departures, index);
+    match form {
+        Form::AxisBox(slabs) => {
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    rows(
+                        simd,
+                        about,
+                        shaft,
+                        #[inline(always)]
+                        |rays| slabs.spans(rays),
+                    )
+                },
+            );
+        }
+        Form::SkewBox(slabs) => {
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    rows(
+                        simd,
+                        about,
+                        shaft,
+                        #[inline(always)]
+                        |rays| slabs.spans(rays),
+                    )
+                },
+            );
+        }
+        Form::Round(round) => {
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    rows(
+                        simd,
+                        about,
+                        shaft,
+                        #[inline(always)]
+                        |rays| round.spans(rays),
+                    )
+                },
+            );
+        }
+        Form::Facets(facets) => {
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    rows(
+                        simd,
+                        about,
+                        shaft,
+                        #[inline(always)]
+                        |rays| facets.spans(rays),
+                    )
+                },
+            );
+        }
+        Form::Ball(_) | Form::Mesh(_) | Form::Face(_) | Form::Patch(_) | Form::Tube(_) => {}
+    }
+}

@@ -1,0 +1,49 @@
+//! Rays from the eye in bundles: blocks of eight by eight dots.
+
+use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
+
+use crate::math::{Bundle, Columns, DVec3, Number, ROWS, Size, Vector};
+
+use super::direction::all_settled;
+use super::lens::Lens;
+
+/// Dots along each side of a block: together as many as a bundle has rays.
+pub const BLOCK: u32 = 8;
+
+/// A block of dots, row by row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Block {
+    /// Its leftmost column and top row.
+    pub corner: [u32; 2],
+    /// Its columns and rows that are in the picture, up to [`BLOCK`].
+    pub size: Size,
+}
+
+impl Block {
+    /// Which rays of its bundle are there.
+    pub fn live(&self) -> u64 {
+        let row = (1_u64 << self.size.width) - 1;
+        (0..self.size.height).fold(0, |live, j| live | row << (j * BLOCK))
+    }
+
+    /// The rays through a point of each dot, `off` from its middle in dots. `eye` is where they start, and `way` how far
+    /// they may go, in the assembly's coordinates ([`super::settled`]).
+    pub fn rays(&self, lens: &Lens, off: [f64; 2], eye: DVec3, way: f64, level: Level) -> Bundle {
+        let mut bundle = Bundle { live: self.live(), ..Bundle::EMPTY };
+        dispatch!(level, simd => self.fill(simd, lens, off, eye, way, &mut bundle));
+        bundle.close();
+        bundle
+    }
+
+    #[inline(always)]
+    fn fill<S: Simd>(&self, simd: S, lens: &Lens, off: [f64; 2], eye: DVec3, way: f64, bundle: &mut Bundle) {
+        let columns = f64x8::load_array(simd, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
+        for row in 0..ROWS {
+            let x = columns + f64::from(self.corner[0]) + 0.5 + off[0];
+            let y = columns.same(f64::from(self.corner[1] + row as u32) + 0.5 + off[1]);
+            let d = all_settled(lens.directions(x, y), way);
+            bundle.o.store(row, Vector { x, y, z: x }.same(eye));
+            bundle.d.store(row, d);
+        }
+    }
+}

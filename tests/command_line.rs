@@ -568,7 +568,7 @@ mod a_plan {
     fn leaves_out_what_a_ball_does_not_require() {
         let (_, file) = scene("plan_ball", BALL);
         let row = plan(&file, &[]);
-        says(&row("lattice"), false, "1 object, none composite → no structure");
+        says(&row("lattice"), false, "1 object of 1 primitive → no structure");
         says(&row("cell"), false, "no structure");
         says(&row("csg"), false, "no CSG");
         says(&row("clip"), true, "outside the world");
@@ -587,8 +587,8 @@ mod a_plan {
         let shining = "world(k = 1); light(at = [5, -9, 9], color = [1, 0, 0]);\n\
             material(kr = 0.9) difference() { cube(2); sphere(1); }\n";
         let (_, file) = scene("plan_shining", shining);
-        let row = plan(&file, &[]);
-        says(&row("lattice"), true, "lattice");
+        let row = plan(&file, &["--structure", "lattice"]);
+        says(&row("lattice"), true, "a lattice is wanted");
         says(&row("sub-lattices"), true, "1 object");
         says(&row("csg"), true, "the only object is made of several primitives");
         says(&row("depth"), true, "k = 1");
@@ -597,7 +597,7 @@ mod a_plan {
         let balls: String = (0..17).map(|i| format!("translate([{}, 0, 0]) sphere(1);\n", 3 * i)).collect();
         let (_, file) = scene("plan_balls", &balls);
         let row = plan(&file, &[]);
-        says(&row("lattice"), true, "17 objects: a lattice could have 35937 cells → tree");
+        says(&row("lattice"), true, "17 objects of 17 primitives → boxes, eight side by side: 3 nodes");
     }
 
     /// What the plan leaves out is not counted in the picture, what it takes in is.

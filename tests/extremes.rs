@@ -33,7 +33,8 @@ fn drawn(text: &str, eye: DVec3, target: DVec3) -> Frame {
 #[track_caller]
 fn drawn_by(scene: Scene, camera: &Camera, dots: Size) -> Frame {
     let studio = Studio::new(scene).unwrap();
-    let choices = [StructureChoice::None, StructureChoice::Lattice, StructureChoice::Tree];
+    let choices =
+        [StructureChoice::None, StructureChoice::Lattice, StructureChoice::Tree, StructureChoice::Boxes];
     let [frame, others @ ..] = choices.map(|structure| {
         let mut request = request(camera.clone(), dots);
         request.options.structure = structure;

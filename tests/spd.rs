@@ -109,6 +109,7 @@ fn every_structure_shows_the_same_balls() {
         };
         let whole = draw(StructureChoice::None);
         assert!(same(&whole, &draw(StructureChoice::Tree)), "{name}: tree");
+        assert!(same(&whole, &draw(StructureChoice::Boxes)), "{name}: boxes");
         // Where the lattice passes its budget, it says so and a tree takes its place.
         let lattice = draw(StructureChoice::Lattice);
         assert!(same(&whole, &lattice), "{name}: lattice");

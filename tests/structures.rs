@@ -109,7 +109,12 @@ fn the_lattice_changes_no_dot() {
             };
             let without = draw(StructureChoice::None);
             assert_eq!(without.space, Space::Whole, "{name}: the choice is not followed");
-            for (choice, what) in [(StructureChoice::Lattice, "lattice"), (StructureChoice::Tree, "tree")] {
+            let structures = [
+                (StructureChoice::Lattice, "lattice"),
+                (StructureChoice::Tree, "tree"),
+                (StructureChoice::Boxes, "boxes"),
+            ];
+            for (choice, what) in structures {
                 let with = draw(choice);
                 assert_eq!(with.space.name(), what, "{name}: the choice is not followed");
                 assert_same(&format!("{name}, {view}, {what}"), &without, &with);

@@ -6,7 +6,7 @@ use crate::solid::{Assembly, Body, Form, Tree};
 use crate::stage::Stage;
 use crate::view::Lens;
 
-use super::{Channels, LATTICE_OBJECTS, Plan, Shading, StructureChoice};
+use super::{Channels, Plan, Shading, StructureChoice};
 
 /// What a plan says of one stage.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -54,11 +54,9 @@ pub struct Reasons {
 pub(super) enum Cut {
     /// The person wants it so.
     Asked,
-    /// There is nothing to tell apart but one primitive or two.
-    Alone,
-    /// There are few enough objects for a lattice.
+    /// There is so little to tell apart that a structure would only add its own steps.
     Few,
-    /// There are too many.
+    /// There is more.
     Many,
 }
 
@@ -135,13 +133,11 @@ impl Plan {
     fn cut_words(&self, kinds: &Kinds) -> String {
         let objects = count(kinds.objects, "object");
         match (self.reasons.cut, self.structure) {
-            (Cut::Alone, _) => format!("{objects}, none composite → no structure"),
-            (Cut::Few, _) => format!("{objects}, not more than {LATTICE_OBJECTS} → lattice"),
+            (Cut::Few, _) => {
+                format!("{objects} of {} → no structure", count(kinds.primitives, "primitive"))
+            }
             (Cut::Many, _) => {
-                // Two planes to an object, and one cell less than planes, along each axis.
-                let side = 2.0 * kinds.objects as f64 - 1.0;
-                let cells = number(side * side * side);
-                format!("{objects}: a lattice could have {cells} cells → tree")
+                format!("{objects} of {} → boxes, eight side by side", count(kinds.primitives, "primitive"))
             }
             (Cut::Asked, StructureChoice::None) => "no structure is wanted".into(),
             (Cut::Asked, StructureChoice::Tree) => format!("{objects}, a tree is wanted"),
@@ -289,9 +285,4 @@ fn of_all(some: usize, all: usize) -> String {
 
 fn count(n: usize, what: &str) -> String {
     format!("{n} {what}{}", if n == 1 { "" } else { "s" })
-}
-
-/// A number as a person writes it: whole below a million, by its power of ten above.
-fn number(n: f64) -> String {
-    if n < 1e6 { format!("{n}") } else { format!("{n:.1e}") }
 }

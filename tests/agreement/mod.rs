@@ -28,8 +28,8 @@ const NORMAL: f64 = 1e-6;
 
 /// Draws one picture by every structure, all alike to the bit, and works it out again.
 pub fn compare(studio: &Studio, oracle: &Oracle, camera: &Camera, dots: Size) -> Comparison {
-    const EVERY: [StructureChoice; 3] =
-        [StructureChoice::None, StructureChoice::Lattice, StructureChoice::Tree];
+    const EVERY: [StructureChoice; 4] =
+        [StructureChoice::None, StructureChoice::Lattice, StructureChoice::Tree, StructureChoice::Boxes];
     let frames = EVERY.map(|structure| {
         let mut request = request(camera.clone(), dots);
         request.options.structure = structure;

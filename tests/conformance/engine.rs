@@ -3,7 +3,7 @@
 
 use ray13::frame::{Frame, Request, Studio, Wants};
 use ray13::glyph::{GlyphMode, Palette};
-use ray13::lattice::{Lattice, Structure, SubLattices, Tree};
+use ray13::lattice::{Boxes, Lattice, Structure, SubLattices, Tree};
 use ray13::math::{DVec3, Placement, Ray, Size};
 use ray13::plan::{Options, StructureChoice};
 use ray13::scene::{Camera, Primitive, Scene};
@@ -18,10 +18,11 @@ pub enum Cut {
     None,
     Lattice,
     Tree,
+    Boxes,
 }
 
 impl Cut {
-    pub const ALL: [Self; 3] = [Self::None, Self::Lattice, Self::Tree];
+    pub const ALL: [Self; 4] = [Self::None, Self::Lattice, Self::Tree, Self::Boxes];
 }
 
 /// What a ray met. Lengths are the scene's.
@@ -94,6 +95,7 @@ pub struct ExactEngine {
     cut: Cut,
     lattice: Option<Lattice>,
     tree: Tree,
+    boxes: Boxes,
     subs: SubLattices,
 }
 
@@ -102,6 +104,7 @@ impl ExactEngine {
         match (self.cut, &self.lattice) {
             (Cut::None, _) => Structure::None,
             (Cut::Lattice, Some(lattice)) => Structure::Lattice(lattice, &self.subs),
+            (Cut::Boxes, _) => Structure::Boxes(&self.boxes, &self.subs),
             _ => Structure::Tree(&self.tree, &self.subs),
         }
     }
@@ -134,8 +137,8 @@ impl Subject for ExactEngine {
     fn new(scene: &Scene, cut: Cut) -> Self {
         let assembly = Assembly::new(scene).unwrap();
         let (lattice, tree) = (Lattice::new(&assembly).ok(), Tree::new(&assembly));
-        let subs = SubLattices::new(&assembly);
-        Self { assembly, cut, lattice, tree, subs }
+        let (boxes, subs) = (Boxes::new(&assembly), SubLattices::new(&assembly));
+        Self { assembly, cut, lattice, tree, boxes, subs }
     }
 
     fn first(&self, rays: &[Ray]) -> Vec<Option<Found>> {
@@ -192,6 +195,7 @@ impl Subject for ExactEngine {
             Cut::None => StructureChoice::None,
             Cut::Lattice => StructureChoice::Lattice,
             Cut::Tree => StructureChoice::Tree,
+            Cut::Boxes => StructureChoice::Boxes,
         };
         Studio::new(scene.clone()).unwrap().draw(&Request {
             camera: camera.clone(),

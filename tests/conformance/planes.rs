@@ -73,7 +73,7 @@ pub fn one_of_two_abutting_boxes_claims_a_ray<S: Subject>() {
         let rays: Vec<Ray> = (0..20).map(|_| along_planes(&lines, chance)).collect();
         let all = scene(boxes.clone());
         let first = S::new(&all, Cut::None).first(&rays);
-        for cut in [Cut::Lattice, Cut::Tree] {
+        for cut in [Cut::Lattice, Cut::Tree, Cut::Boxes] {
             assert_eq!(first, S::new(&all, cut).first(&rays), "case {case}, {cut:?}");
         }
         // Each box asked alone: the chords must follow each other from one end of the grid to the other.

@@ -10,7 +10,7 @@ use crate::request::request;
 
 /// A picture by every structure.
 pub struct Pictures {
-    frames: [Frame; 3],
+    frames: [Frame; 4],
     camera: Camera,
 }
 
@@ -24,7 +24,8 @@ impl Pictures {
         shading: Shading,
         color: bool,
     ) -> Result<Self, String> {
-        let choices = [StructureChoice::None, StructureChoice::Lattice, StructureChoice::Tree];
+        let choices =
+            [StructureChoice::None, StructureChoice::Lattice, StructureChoice::Tree, StructureChoice::Boxes];
         let frames = choices.map(|structure| {
             let mut request = request(camera.clone(), dots);
             request.options.structure = structure;

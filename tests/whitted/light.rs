@@ -161,11 +161,12 @@ fn of_the_same_scene_is_the_same_in_every_structure() {
         let text = ray13::scene::embedded().iter().find(|s| s.name == name).unwrap().text;
         let studio = Studio::new(scene(text)).unwrap();
         let frames =
-            [StructureChoice::None, StructureChoice::Lattice, StructureChoice::Tree].map(|structure| {
-                let mut request = request(studio.camera(0, 1.6), Size::new(64, 40));
-                request.options.structure = structure;
-                studio.draw(&request)
-            });
+            [StructureChoice::None, StructureChoice::Lattice, StructureChoice::Tree, StructureChoice::Boxes]
+                .map(|structure| {
+                    let mut request = request(studio.camera(0, 1.6), Size::new(64, 40));
+                    request.options.structure = structure;
+                    studio.draw(&request)
+                });
         for frame in &frames[1..] {
             assert!(frame.light == frames[0].light, "{name}");
             assert_eq!(frame.counts.secondary_rays, frames[0].counts.secondary_rays);

@@ -18,7 +18,7 @@ const SETTLED: usize = 4096;
 
 /// Up to this many objects centres are binned along every axis, past it along the axis where they reach farthest: of
 /// very many that is the best nearly always.
-const EVERY_AXIS: usize = 16_384;
+const EVERY_AXIS: usize = 1024;
 
 /// The most bins of centres. Twice as many change the cost by less than a hundredth.
 const BINS: usize = 16;
@@ -29,24 +29,71 @@ const POWERS: usize = 3;
 /// Past this depth parts are halved by number, so that no input makes the hierarchy deeper than that and 32.
 const DEEPEST: u32 = 64;
 
+/// A box as how far it reaches: along −x, −y, −z, x, y and z. Two are joined by one operation on all six.
+#[derive(Clone, Copy)]
+struct Reach([f64; 6]);
+
+impl Reach {
+    const NOTHING: Self = Self([f64::NEG_INFINITY; 6]);
+
+    fn new(b: &Bounds) -> Self {
+        Self([-b.lo.x, -b.lo.y, -b.lo.z, b.hi.x, b.hi.y, b.hi.z])
+    }
+
+    fn bounds(&self) -> Bounds {
+        let [x, y, z, ..] = self.0;
+        Bounds::new(-DVec3::new(x, y, z), DVec3::from_slice(&self.0[3..]))
+    }
+
+    #[inline]
+    fn join(&mut self, other: &Self) {
+        for (own, other) in self.0.iter_mut().zip(other.0) {
+            *own = if other > *own { other } else { *own };
+        }
+    }
+
+    #[inline]
+    fn edge(&self, axis: usize) -> f64 {
+        self.0[axis] + self.0[axis + 3]
+    }
+
+    #[inline]
+    fn longest_edge(&self) -> f64 {
+        let longer = |a: f64, b: f64| if a > b { a } else { b };
+        longer(longer(self.edge(0), self.edge(1)), self.edge(2))
+    }
+
+    /// The axis of the longest edge.
+    fn longest(&self) -> usize {
+        DVec3::new(self.edge(0), self.edge(1), self.edge(2)).max_position()
+    }
+
+    /// Twice the centre.
+    #[inline]
+    fn center(&self, axis: usize) -> f64 {
+        self.0[axis + 3] - self.0[axis]
+    }
+
+    /// Half the surface, where it is not empty.
+    #[inline]
+    fn area(&self) -> f64 {
+        let [x, y, z] = [self.edge(0), self.edge(1), self.edge(2)];
+        x * y + y * z + z * x
+    }
+}
+
 /// A box on its way down.
 #[derive(Clone, Copy)]
 struct Item {
-    bounds: Bounds,
+    reach: Reach,
     object: u32,
-}
-
-impl Item {
-    /// Twice the centre.
-    fn center(&self) -> DVec3 {
-        self.bounds.lo + self.bounds.hi
-    }
 }
 
 /// The nodes over these boxes, numbered as they come; the root is the first. The number of threads changes nothing
 /// about them.
 pub fn built(boxes: impl Iterator<Item = Bounds>) -> Vec<Node> {
-    let mut items: Vec<Item> = (0..).zip(boxes).map(|(object, bounds)| Item { bounds, object }).collect();
+    let mut items: Vec<Item> =
+        (0..).zip(boxes).map(|(object, b)| Item { reach: Reach::new(&b), object }).collect();
     let mut nodes = Vec::new();
     if items.is_empty() {
         nodes.push(Node::EMPTY);
@@ -60,15 +107,15 @@ pub fn built(boxes: impl Iterator<Item = Bounds>) -> Vec<Node> {
 /// What is known of a range of items.
 #[derive(Clone, Copy)]
 struct About {
-    bounds: Bounds,
-    /// The box of the centres, twice.
-    centers: Bounds,
+    reach: Reach,
+    /// How far the centres reach, twice.
+    centers: Reach,
     /// The longest edge of any of them.
     longest: f64,
 }
 
 impl About {
-    const NOTHING: Self = Self { bounds: Bounds::EMPTY, centers: Bounds::EMPTY, longest: 0.0 };
+    const NOTHING: Self = Self { reach: Reach::NOTHING, centers: Reach::NOTHING, longest: 0.0 };
 
     fn all(items: &[Item]) -> Self {
         let mut about = Self::NOTHING;
@@ -80,33 +127,19 @@ impl About {
 
     #[inline]
     fn add(&mut self, item: &Item) {
-        let center = item.center();
-        self.bounds = self.bounds.join(&item.bounds);
-        self.centers = self.centers.join(&Bounds::new(center, center));
-        let edge = longest_edge(&item.bounds);
+        let [x, y, z] = [item.reach.center(0), item.reach.center(1), item.reach.center(2)];
+        self.reach.join(&item.reach);
+        self.centers.join(&Reach([-x, -y, -z, x, y, z]));
+        let edge = item.reach.longest_edge();
         if edge > self.longest {
             self.longest = edge;
         }
     }
 }
 
-#[inline]
-fn longest_edge(b: &Bounds) -> f64 {
-    let size = b.hi - b.lo;
-    let longer = if size.x > size.y { size.x } else { size.y };
-    if longer > size.z { longer } else { size.z }
-}
-
-/// Half the surface of a box that is not empty.
-#[inline]
-fn area(b: &Bounds) -> f64 {
-    let size = b.hi - b.lo;
-    size.x * size.y + size.y * size.z + size.z * size.x
-}
-
 /// A part of the objects.
 struct Grown<'a> {
-    bounds: Bounds,
+    reach: Reach,
     /// The area of the nodes that it takes where it may fill up to 1, 2, … slots.
     cost: [f64; WIDE],
     /// How many of so many slots its first half fills; 0 where it is not opened.
@@ -126,9 +159,9 @@ enum Kind<'a> {
 fn grown<'a>(items: &'a mut [Item], about: &About, depth: u32) -> Grown<'a> {
     let count = items.len();
     if count <= FEW {
-        let whole = area(&about.bounds);
+        let whole = about.reach.area();
         let cost = std::array::from_fn(|slots| if slots + 1 >= count { 0.0 } else { whole });
-        return Grown { bounds: about.bounds, cost, first: [0; WIDE], kind: Kind::Few(items) };
+        return Grown { reach: about.reach, cost, first: [0; WIDE], kind: Kind::Few(items) };
     }
     let (middle, lower, upper) = parted(items, about, depth);
     let (low, high) = items.split_at_mut(middle);
@@ -137,7 +170,7 @@ fn grown<'a>(items: &'a mut [Item], about: &About, depth: u32) -> Grown<'a> {
     } else {
         (grown(low, &lower, depth + 1), grown(high, &upper, depth + 1))
     };
-    joined(about.bounds, low, high)
+    joined(about.reach, low, high)
 }
 
 /// The same; a part of up to [`SETTLED`] objects is nodes at once.
@@ -150,11 +183,11 @@ fn settled<'a>(items: &'a mut [Item], about: &About, depth: u32) -> Grown<'a> {
     let mut nodes = Vec::with_capacity(count / FEW);
     lay(&part, &mut nodes);
     let whole = part.cost[0];
-    Grown { bounds: about.bounds, cost: [whole; WIDE], first: [0; WIDE], kind: Kind::Settled(nodes) }
+    Grown { reach: about.reach, cost: [whole; WIDE], first: [0; WIDE], kind: Kind::Settled(nodes) }
 }
 
 /// Two halves as one part, with the cheapest way to share any number of slots.
-fn joined<'a>(bounds: Bounds, low: Grown<'a>, high: Grown<'a>) -> Grown<'a> {
+fn joined<'a>(reach: Reach, low: Grown<'a>, high: Grown<'a>) -> Grown<'a> {
     let mut cost = [0.0; WIDE];
     let mut first = [0; WIDE];
     for slots in (2..=WIDE).rev() {
@@ -169,13 +202,13 @@ fn joined<'a>(bounds: Bounds, low: Grown<'a>, high: Grown<'a>) -> Grown<'a> {
         (cost[slots - 1], first[slots - 1]) = (best, share);
     }
     // One slot: a node of its own, which has all slots. It may be cheaper than a few slots of its parent.
-    cost[0] = cost[WIDE - 1] + area(&bounds);
+    cost[0] = cost[WIDE - 1] + reach.area();
     for slots in 1..WIDE - 1 {
         if cost[0] < cost[slots] {
             (cost[slots], first[slots]) = (cost[0], 0);
         }
     }
-    Grown { bounds, cost, first, kind: Kind::Halves(Box::new([low, high])) }
+    Grown { reach, cost, first, kind: Kind::Halves(Box::new([low, high])) }
 }
 
 /// What fills a slot.
@@ -187,7 +220,7 @@ enum Filling<'a> {
 
 #[derive(Clone, Copy)]
 struct Slot<'a> {
-    bounds: Bounds,
+    reach: Reach,
     filling: Filling<'a>,
 }
 
@@ -198,8 +231,8 @@ struct Slots<'a> {
 }
 
 impl<'a> Slots<'a> {
-    fn push(&mut self, bounds: Bounds, filling: Filling<'a>) {
-        self.filled[self.len] = Some(Slot { bounds, filling });
+    fn push(&mut self, reach: Reach, filling: Filling<'a>) {
+        self.filled[self.len] = Some(Slot { reach, filling });
         self.len += 1;
     }
 
@@ -208,7 +241,7 @@ impl<'a> Slots<'a> {
         match &part.kind {
             Kind::Few(items) if items.len() <= most => {
                 for item in *items {
-                    self.push(item.bounds, Filling::Object(item.object));
+                    self.push(item.reach, Filling::Object(item.object));
                 }
             }
             Kind::Halves(halves) if most > 1 && part.first[most - 1] > 0 => {
@@ -216,7 +249,7 @@ impl<'a> Slots<'a> {
                 self.take(&halves[0], first);
                 self.take(&halves[1], most - first);
             }
-            _ => self.push(part.bounds, Filling::Part(part)),
+            _ => self.push(part.reach, Filling::Part(part)),
         }
     }
 }
@@ -237,9 +270,8 @@ fn lay(part: &Grown, nodes: &mut Vec<Node>) {
     }
     let mut slots = Slots { filled: [None; WIDE], len: 0 };
     slots.take(part, WIDE);
-    let size = part.bounds.hi - part.bounds.lo;
-    let axis = size.max_position();
-    let center = |slot: &Option<Slot>| slot.map_or(0.0, |s| s.bounds.lo[axis] + s.bounds.hi[axis]);
+    let axis = part.reach.longest();
+    let center = |slot: &Option<Slot>| slot.map_or(0.0, |s| s.reach.center(axis));
     let filled = &mut slots.filled[..slots.len];
     filled.sort_by(|a, b| center(a).total_cmp(&center(b)));
     nodes.push(Node::EMPTY);
@@ -252,7 +284,7 @@ fn lay(part: &Grown, nodes: &mut Vec<Node>) {
                 Child::Node(child)
             }
         };
-        nodes[index].push(&slot.bounds, child);
+        nodes[index].push(&slot.reach.bounds(), child);
     }
 }
 
@@ -261,20 +293,16 @@ fn lay(part: &Grown, nodes: &mut Vec<Node>) {
 fn parted(items: &mut [Item], about: &About, depth: u32) -> (usize, About, About) {
     let split = if depth < DEEPEST { cheapest(items, about) } else { None };
     if let Some(split) = split {
-        let (mut lower, mut upper) = (About::NOTHING, About::NOTHING);
+        // Without a branch, which no processor could foretell.
+        let mut both = [About::NOTHING; 2];
         let mut middle = 0;
-        let mut end = items.len();
-        while middle < end {
-            let item = items[middle];
-            if split.is_low(&item) {
-                lower.add(&item);
-                middle += 1;
-            } else {
-                upper.add(&item);
-                end -= 1;
-                items.swap(middle, end);
-            }
+        for place in 0..items.len() {
+            let low = split.is_low(&items[place]);
+            both[usize::from(low)].add(&items[place]);
+            items.swap(place, middle);
+            middle += usize::from(low);
         }
+        let [upper, lower] = both;
         if middle > 0 && middle < items.len() {
             return (middle, lower, upper);
         }
@@ -304,15 +332,14 @@ impl Scale {
     #[inline]
     fn bin(&self, item: &Item) -> usize {
         match self.key {
-            // Not-a-number becomes 0.
+            // Not-a-number becomes 0. Converting to 32 bits is faster than to 64.
             Key::Center(axis) => {
-                let center = item.bounds.lo[axis] + item.bounds.hi[axis];
-                (((center - self.low) * self.per_bin) as usize).min(self.last)
+                (((item.reach.center(axis) - self.low) * self.per_bin) as u32 as usize).min(self.last)
             }
             // Bins by powers of four, from the longest down.
             Key::Size => {
                 let mut edge = self.low;
-                let own = longest_edge(&item.bounds);
+                let own = item.reach.longest_edge();
                 let mut bin = 0;
                 while bin < self.last && own < edge * 0.25 {
                     edge *= 0.25;
@@ -341,65 +368,78 @@ impl Split {
 
 #[derive(Clone, Copy)]
 struct Bin {
-    bounds: Bounds,
+    reach: Reach,
     count: u32,
 }
 
 impl Bin {
-    const NOTHING: Self = Self { bounds: Bounds::EMPTY, count: 0 };
+    const NOTHING: Self = Self { reach: Reach::NOTHING, count: 0 };
 
     #[inline]
-    fn add(&mut self, bounds: &Bounds, count: u32) {
-        self.bounds = self.bounds.join(bounds);
+    fn add(&mut self, reach: &Reach, count: u32) {
+        self.reach.join(reach);
         self.count += count;
     }
 
     fn cost(&self) -> f64 {
-        f64::from(self.count.div_ceil(FEW as u32)) * area(&self.bounds)
+        f64::from(self.count.div_ceil(FEW as u32)) * self.reach.area()
     }
 }
 
 /// The split of the least cost, each part's full nodes times its area; `None` where no key tells the items apart.
 fn cheapest(items: &[Item], about: &About) -> Option<Split> {
-    let reach = about.centers.hi - about.centers.lo;
     // Few items need few bins: there is hardly more than one to a bin.
-    let bins = (items.len() / 2).min(BINS);
-    let last = bins - 1;
-    let longest = reach.max_position();
-    let whole = about.bounds.hi - about.bounds.lo;
+    let last = (items.len() / 2).min(BINS) - 1;
+    let along = |axis: usize| {
+        let (low, reach) = (-about.centers.0[axis], about.centers.edge(axis));
+        // Where all centres are one, so is their bin.
+        let per_bin = if reach > 0.0 { (last + 1) as f64 / reach } else { 0.0 };
+        Scale { key: Key::Center(axis), low, per_bin, last }
+    };
     let mut best: Option<(f64, Split)> = None;
-    let mut look = |scale: Scale| {
-        if let Some((cost, last)) = swept(items, &scale)
+    let mut look = |scale: Scale, bins: &[Bin]| {
+        if let Some((cost, last)) = swept(bins)
             && best.is_none_or(|(least, _)| cost < least)
         {
             best = Some((cost, Split { scale, last }));
         }
     };
-    for axis in 0..3 {
-        if reach[axis] > 0.0 && (axis == longest || items.len() <= EVERY_AXIS) {
-            let per_bin = bins as f64 / reach[axis];
-            look(Scale { key: Key::Center(axis), low: about.centers.lo[axis], per_bin, last });
+    if items.len() <= EVERY_AXIS {
+        let scales = [0, 1, 2].map(along);
+        for (scale, bins) in scales.into_iter().zip(&binned(items, &scales)) {
+            look(scale, &bins[..=last]);
         }
+    } else {
+        let scale = along(about.centers.longest());
+        look(scale, &binned(items, &[scale])[0][..=last]);
     }
     // Only what is as long as a good part of the range is worth to be set apart.
-    if about.longest > 0.25 * whole.max_element() {
-        look(Scale { key: Key::Size, low: about.longest, per_bin: 1.0, last: POWERS });
+    if about.longest > 0.5 * about.reach.longest_edge() {
+        let scale = Scale { key: Key::Size, low: about.longest, per_bin: 1.0, last: POWERS };
+        look(scale, &binned(items, &[scale])[0][..=POWERS]);
     }
     best.map(|(_, split)| split)
 }
 
-/// The cheapest place to split along a scale: its cost, and the last bin of the lower part.
-fn swept(items: &[Item], scale: &Scale) -> Option<(f64, usize)> {
-    let mut bins = [Bin::NOTHING; BINS];
+/// The bins of several scales at once.
+#[inline]
+fn binned<const N: usize>(items: &[Item], scales: &[Scale; N]) -> [[Bin; BINS]; N] {
+    let mut bins = [[Bin::NOTHING; BINS]; N];
     for item in items {
-        bins[scale.bin(item)].add(&item.bounds, 1);
+        for (scale, bins) in scales.iter().zip(&mut bins) {
+            bins[scale.bin(item)].add(&item.reach, 1);
+        }
     }
-    let bins = &bins[..=scale.last];
+    bins
+}
+
+/// The cheapest place to split: its cost, and the last bin of the lower part.
+fn swept(bins: &[Bin]) -> Option<(f64, usize)> {
     let mut above = [f64::INFINITY; BINS];
     let mut upper = Bin::NOTHING;
     for place in (1..bins.len()).rev() {
         if bins[place].count > 0 {
-            upper.add(&bins[place].bounds, bins[place].count);
+            upper.add(&bins[place].reach, bins[place].count);
         }
         above[place] = if upper.count > 0 { upper.cost() } else { f64::INFINITY };
     }
@@ -409,7 +449,7 @@ fn swept(items: &[Item], scale: &Scale) -> Option<(f64, usize)> {
         if bins[place].count == 0 {
             continue;
         }
-        lower.add(&bins[place].bounds, bins[place].count);
+        lower.add(&bins[place].reach, bins[place].count);
         let cost = lower.cost() + above[place + 1];
         if cost < best.map_or(f64::INFINITY, |(least, _)| least) {
             best = Some((cost, place));

@@ -1,4 +1,10 @@
+//! What the hierarchy holds, and what rays find in it.
+
+use std::ops::ControlFlow;
+
+use super::super::planes::Step;
 use super::*;
+use crate::math::Ray;
 
 /// Numbers in 0..1 that look like chance.
 pub(super) struct Noise(pub u64);
@@ -108,7 +114,9 @@ fn memory_is_little() {
 
 #[test]
 fn a_floor_is_set_apart_near_the_root() {
-    let mut boxes = cloud(10_000, 0.001);
+    let flat = DVec3::new(1.0, 1.0, 0.01);
+    let mut boxes: Vec<Bounds> =
+        cloud(10_000, 0.001).iter().map(|b| Bounds::new(b.lo * flat, b.hi * flat)).collect();
     boxes.push(Bounds::new(DVec3::ZERO, DVec3::new(1.0, 1.0, 0.001)));
     let of = over(&boxes);
     checked(&of, &boxes);
@@ -142,4 +150,129 @@ fn what_can_not_be_told_apart_is_halved() {
         let depth = checked(&over(&boxes), &boxes);
         assert!(depth < 100, "{depth}");
     }
+}
+
+/// What a walk visits that looks for all objects.
+fn visited(of: &Boxes, ray: &Ray, to: f64) -> Vec<(u32, f64)> {
+    let mut all = Vec::new();
+    let visit = |objects: &[u32], step: Step| -> ControlFlow<(), f64> {
+        all.extend(objects.iter().map(|&object| (object, step.from)));
+        ControlFlow::Continue(to)
+    };
+    assert_eq!(of.walk(ray, 0.0, to, &mut 0, visit), None);
+    all
+}
+
+/// Where the ray is in a box, by the definition and nothing else; `None` where it never is.
+fn stretch(ray: &Ray, b: &Bounds) -> Option<(f64, f64)> {
+    let (mut from, mut to) = (0.0, f64::INFINITY);
+    for axis in 0..3 {
+        let (o, d) = (ray.o[axis], ray.d[axis]);
+        if d == 0.0 {
+            if o < b.lo[axis] || o > b.hi[axis] {
+                return None;
+            }
+            continue;
+        }
+        let (a, b) = ((b.lo[axis] - o) / d, (b.hi[axis] - o) / d);
+        (from, to) = (f64::max(from, a.min(b)), f64::min(to, a.max(b)));
+    }
+    (from <= to).then_some((from, to))
+}
+
+/// Rays of all directions from everywhere, many along axes and planes, and from planes of boxes.
+fn rays(boxes: &[Bounds]) -> Vec<Ray> {
+    let mut noise = Noise(7);
+    let mut one = |k: usize| {
+        let mut d = noise.point() * 2.0 - 1.0;
+        let mut o = noise.point() * 3.0 - 1.0;
+        for axis in (0..3).filter(|axis| k >> axis & 1 == 1 && k & 7 != 7) {
+            d[axis] = 0.0;
+        }
+        if k & 8 == 8 {
+            let b = &boxes[k % boxes.len()];
+            o = DVec3::select(d.cmpeq(DVec3::ZERO), b.center(), b.lo);
+        }
+        Ray::new(o, d.normalize())
+    };
+    (0..500).map(&mut one).collect()
+}
+
+const PAD: f64 = 1e-13;
+
+#[test]
+fn rays_visit_every_box_that_they_meet_once() {
+    for size in [0.0, 0.01, 0.3] {
+        let boxes = cloud(2000, size);
+        let of = Boxes::over(boxes.iter().map(|b| b.padded(DVec3::splat(PAD))));
+        let mut met = 0;
+        for ray in rays(&boxes) {
+            for to in [f64::INFINITY, 0.5] {
+                let mut all = visited(&of, &ray, to);
+                all.sort_by_key(|&(object, _)| object);
+                assert!(all.windows(2).all(|two| two[0].0 != two[1].0), "twice: {ray:?}");
+                for (object, b) in (0..).zip(&boxes) {
+                    let own = all.binary_search_by_key(&object, |&(object, _)| object);
+                    match (stretch(&ray, b).filter(|(from, _)| *from <= to), own) {
+                        (Some((from, _)), Ok(place)) => {
+                            met += 1;
+                            assert!(all[place].1 <= from, "{ray:?}: {} after {from}", all[place].1);
+                        }
+                        (Some(_), Err(_)) => panic!("{ray:?} misses {b:?}"),
+                        (None, Ok(_)) => {
+                            let wide = b.padded(DVec3::splat(10.0 * PAD));
+                            assert!(stretch(&ray, &wide).is_some(), "{ray:?} is far from {b:?}");
+                        }
+                        (None, Err(_)) => {}
+                    }
+                }
+            }
+        }
+        assert!(met > 200, "{met}");
+    }
+}
+
+#[test]
+fn every_processor_visits_the_same() {
+    let boxes = cloud(3000, 0.05);
+    let best = over(&boxes);
+    let baseline = Boxes { level: Level::baseline(), ..best.clone() };
+    for ray in rays(&boxes) {
+        assert_eq!(visited(&best, &ray, f64::INFINITY), visited(&baseline, &ray, f64::INFINITY), "{ray:?}");
+    }
+}
+
+#[test]
+fn nothing_beyond_what_matters_is_visited() {
+    let boxes = cloud(3000, 0.02);
+    let of = over(&boxes);
+    let mut skipped = 0;
+    for ray in rays(&boxes) {
+        let mut best = f64::INFINITY;
+        let mut count = 0;
+        let visit = |objects: &[u32], step: Step| -> ControlFlow<(), f64> {
+            assert!(step.from <= best, "{ray:?}");
+            count += 1;
+            if let Some((from, _)) = stretch(&ray, &boxes[objects[0] as usize]) {
+                best = best.min(from);
+            }
+            ControlFlow::Continue(best)
+        };
+        of.walk(&ray, 0.0, f64::INFINITY, &mut 0, visit);
+        let all = visited(&of, &ray, f64::INFINITY);
+        let first = all.iter().map(|&(_, from)| from).fold(f64::INFINITY, f64::min);
+        assert!(best == f64::INFINITY || (best - first).abs() < 1e-12, "{ray:?}: {best}, not {first}");
+        skipped += all.len() - count;
+    }
+    assert!(skipped > 100, "{skipped}");
+}
+
+#[test]
+fn a_deep_hierarchy_is_walked_to_its_end() {
+    // Each box holds all that come after it.
+    let boxes: Vec<Bounds> =
+        (0..2000).map(|i| Bounds::new(DVec3::ZERO, DVec3::splat(libm::ldexp(1.0, -i / 2)))).collect();
+    let of = over(&boxes);
+    let ray = Ray::new(DVec3::splat(-1.0), DVec3::ONE.normalize());
+    assert_eq!(visited(&of, &ray, f64::INFINITY).len(), boxes.len());
 }

@@ -7,13 +7,14 @@
 
 use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x8, mask64x8};
 
-use crate::math::{Bundle, Column, LANES, Mask, Number, ROWS, Rays, row_of};
+use crate::math::{Bundle, Column, LANES, Mask, Number, ROWS, row_of};
 
 use super::crossing::{Crossing, Reach, SAME_SLOPE, start_of};
 use super::expression::Link;
-use super::primitive::{Form, Primitive};
+use super::known::{Known, KnownSpans, Side};
+use super::primitive::Primitive;
 use super::prune::Flat;
-use super::span::{Departure, Spans};
+use super::span::Departure;
 
 /// The surfaces that the rays of a bundle start on: [`super::Departure`] of each.
 #[derive(Clone, Debug)]
@@ -48,12 +49,18 @@ impl Departures {
     }
 
     /// Which rays start on a primitive, and which of these go to its inside.
-    #[inline(always)]
     pub fn here<S: Simd>(&self, simd: S, primitive: u32) -> (u64, u64) {
-        let index = f64x8::splat(simd, f64::from(primitive));
-        let here = (0..ROWS).fold(0, |bits, row| {
-            bits | u64::from(self.primitive.load(simd, row).is_equal(index).bits()) << (row * LANES)
-        });
+        let here = simd.vectorize(
+            #[inline(always)]
+            || {
+                let index = f64x8::splat(simd, f64::from(primitive));
+                let mut here = 0;
+                for row in 0..ROWS {
+                    here |= u64::from(self.primitive.load(simd, row).is_equal(index).bits()) << (row * LANES);
+                }
+                here
+            },
+        );
         (here, here & self.inward)
     }
 }
@@ -100,39 +107,25 @@ impl Found {
     }
 }
 
-/// One end of the spans in one primitive.
-#[derive(Clone, Debug)]
-struct Side {
-    t: Column,
-    error: Column,
-    surface: Column,
-    /// The rays that are yet to cross here.
-    ahead: u64,
-    /// The rays that cross here in the place that is looked at.
-    now: u64,
-}
-
-impl Side {
-    const NONE: Self = Self {
-        t: Column::filled(0.0),
-        error: Column::filled(0.0),
-        surface: Column::filled(0.0),
-        ahead: 0,
-        now: 0,
-    };
-}
-
 /// Memory that is used again for every bundle.
 #[derive(Clone, Debug, Default)]
 pub struct BundleScratch {
-    /// By leaf: where rays come in, and where they go out.
-    sides: Vec<[Side; 2]>,
+    known: Known,
+    /// By leaf: the place of its spans among those that are known.
+    places: Vec<u32>,
     /// By leaf: the rays that are inside; and those that the place toggles.
     inside: Vec<u64>,
     flipped: Vec<u64>,
     /// By operator: the rays for which it is true, before the place and behind it.
     before: Vec<u64>,
     behind: Vec<u64>,
+}
+
+impl BundleScratch {
+    /// Another bundle follows, or the same from other surfaces.
+    pub fn start(&mut self) {
+        self.known.clear();
+    }
 }
 
 /// The first crossings of an expression of convex primitives within `reach`, for the rays of `wanted`.
@@ -156,15 +149,13 @@ pub fn first_of_expressions<S: Simd>(
         found.unsure = wanted;
         return;
     }
-    if scratch.sides.len() < leaves {
-        scratch.sides.resize(leaves, [Side::NONE, Side::NONE]);
-    }
     let mut some = 0;
-    for leaf in 0..leaves {
-        let primitive = expression.leaves[leaf].primitive;
-        let here = departures.map_or((0, 0), |d| d.here(simd, primitive));
-        gather(simd, bundle, wanted, form(leaf), here, reach, &mut scratch.sides[leaf]);
-        some |= scratch.sides[leaf][0].ahead;
+    scratch.places.clear();
+    for (leaf, place) in expression.leaves.iter().enumerate() {
+        let about = (place.primitive, form(leaf));
+        let (place, ahead) = scratch.known.look(simd, (bundle, departures), about, wanted, reach);
+        scratch.places.push(place);
+        some |= ahead;
     }
     if some != 0 {
         simd.vectorize(
@@ -174,127 +165,21 @@ pub fn first_of_expressions<S: Simd>(
     }
 }
 
-/// The spans of a bundle in one primitive, as far as they can matter.
-fn gather<S: Simd>(
-    simd: S,
-    bundle: &Bundle,
-    wanted: u64,
-    form: &Form,
-    here: (u64, u64),
-    reach: Reach,
-    sides: &mut [Side; 2],
-) {
-    /// Compiled for each form by itself.
+/// The spans of an expression's leaves.
+struct Leaves<'a> {
+    spans: &'a mut [KnownSpans],
+    places: &'a [u32],
+}
+
+impl Leaves<'_> {
     #[inline(always)]
-    fn rows<S: Simd>(
-        simd: S,
-        (bundle, wanted, (here, inward), reach): (&Bundle, u64, (u64, u64), Reach),
-        [enter, leave]: &mut [Side; 2],
-        spans: impl Fn(&Rays<f64x8<S>>) -> Spans<f64x8<S>>,
-    ) {
-        (enter.ahead, leave.ahead) = (0, 0);
-        for row in 0..ROWS {
-            if (wanted >> (row * LANES)) as u8 == 0 {
-                continue;
-            }
-            let mut spans = spans(&bundle.load(simd, row));
-            let any = spans.any & row_of(simd, wanted, row) & !row_of(simd, here & !inward, row);
-            if !any.any() {
-                continue;
-            }
-            if here != 0 {
-                let zero = f64x8::splat(simd, 0.0);
-                let start = super::span::Ends { t: zero, error: zero, surface: zero };
-                spans.enter = super::span::Ends::choose(row_of(simd, inward, row), start, spans.enter);
-            }
-            // Far outside the reach only the state inside it matters: none for a span that ends before it or
-            // starts behind it.
-            let ends_before = (spans.leave.t + spans.leave.error).is_below(spans.leave.t.same(reach.from));
-            let starts_behind = (spans.enter.t - spans.enter.error).is_above(spans.leave.t.same(reach.to));
-            let any = any & !ends_before & !starts_behind & spans.enter.t.is_below(spans.leave.t);
-            for (side, end) in [(&mut *enter, spans.enter), (&mut *leave, spans.leave)] {
-                side.ahead |= u64::from(any.bits()) << (row * LANES);
-                side.t.store(row, end.t);
-                side.error.store(row, end.error);
-                side.surface.store(row, end.surface);
-            }
-        }
+    fn of(&self, leaf: usize) -> &KnownSpans {
+        &self.spans[self.places[leaf] as usize]
     }
-    let about = (bundle, wanted, here, reach);
-    match form {
-        Form::Ball(ball) => {
-            simd.vectorize(
-                #[inline(always)]
-                || {
-                    rows(
-                        simd,
-                        about,
-                        sides,
-                        #[inline(always)]
-                        |rays| ball.spans(rays),
-                    )
-                },
-            );
-        }
-        Form::AxisBox(slabs) => {
-            simd.vectorize(
-                #[inline(always)]
-                || {
-                    rows(
-                        simd,
-                        about,
-                        sides,
-                        #[inline(always)]
-                        |rays| slabs.spans(rays),
-                    )
-                },
-            );
-        }
-        Form::SkewBox(slabs) => {
-            simd.vectorize(
-                #[inline(always)]
-                || {
-                    rows(
-                        simd,
-                        about,
-                        sides,
-                        #[inline(always)]
-                        |rays| slabs.spans(rays),
-                    )
-                },
-            );
-        }
-        Form::Round(round) => {
-            simd.vectorize(
-                #[inline(always)]
-                || {
-                    rows(
-                        simd,
-                        about,
-                        sides,
-                        #[inline(always)]
-                        |rays| round.spans(rays),
-                    )
-                },
-            );
-        }
-        Form::Facets(facets) => {
-            simd.vectorize(
-                #[inline(always)]
-                || {
-                    rows(
-                        simd,
-                        about,
-                        sides,
-                        #[inline(always)]
-                        |rays| facets.spans(rays),
-                    )
-                },
-            );
-        }
-        Form::Mesh(_) | Form::Face(_) | Form::Patch(_) | Form::Tube(_) => {
-            (sides[0].ahead, sides[1].ahead) = (0, 0);
-        }
+
+    #[inline(always)]
+    fn of_mut(&mut self, leaf: usize) -> &mut KnownSpans {
+        &mut self.spans[self.places[leaf] as usize]
     }
 }
 
@@ -317,8 +202,8 @@ fn decide<S: Simd>(
     found: &mut Found,
 ) {
     let leaves = expression.leaves.len();
-    let BundleScratch { sides, inside, flipped, before, behind } = scratch;
-    let sides = &mut sides[..leaves];
+    let BundleScratch { known, places, inside, flipped, before, behind } = scratch;
+    let mut sides = Leaves { spans: known.spans(), places };
     inside.clear();
     inside.resize(leaves, 0);
     flipped.resize(leaves, 0);
@@ -331,13 +216,14 @@ fn decide<S: Simd>(
             if (open >> (row * LANES)) as u8 != 0 {
                 let at = (simd, row, open);
                 let [ended, earlier] =
-                    next_place(at, sides, expression, primitives, departures, reach, &mut place);
+                    next_place(at, &mut sides, expression, primitives, departures, reach, &mut place);
                 done |= ended;
                 early |= earlier;
             }
         }
         open &= !done;
-        for (leaf, [enter, leave]) in sides.iter_mut().enumerate() {
+        for leaf in 0..leaves {
+            let KnownSpans { enter, leave, .. } = sides.of_mut(leaf);
             flipped[leaf] = (enter.now ^ leave.now) & open;
             inside[leaf] ^= flipped[leaf];
             enter.ahead &= !enter.now;
@@ -355,7 +241,7 @@ fn decide<S: Simd>(
                 let why = left & decides(expression, leaf, inside, flipped, before, behind);
                 if why != 0 {
                     left &= !why;
-                    let [enter, leave] = &sides[leaf];
+                    let [enter, leave] = sides.of(leaf).sides();
                     for (side, lanes) in [(enter, why & enter.now), (leave, why & !enter.now)] {
                         take(simd, side, lanes, expression.leaves[leaf].primitive, found);
                     }
@@ -375,7 +261,7 @@ fn decide<S: Simd>(
 #[inline(always)]
 fn next_place<S: Simd>(
     (simd, row, open): (S, usize, u64),
-    sides: &mut [[Side; 2]],
+    sides: &mut Leaves,
     expression: Flat,
     primitives: &[Primitive],
     departures: Option<&Departures>,
@@ -387,7 +273,9 @@ fn next_place<S: Simd>(
     let infinite = f64x8::splat(simd, f64::INFINITY);
     let (mut t, mut error, mut off, mut start) =
         (infinite, f64x8::splat(simd, 0.0), f64x8::splat(simd, 0.0), f64x8::splat(simd, 0.0));
-    for (leaf, pair) in sides.iter().enumerate() {
+    let leaves = expression.leaves.len();
+    for leaf in 0..leaves {
+        let pair = sides.of(leaf).sides();
         if (pair[0].ahead | pair[1].ahead) >> shift & 0xFF == 0 {
             continue;
         }
@@ -411,8 +299,8 @@ fn next_place<S: Simd>(
     let limit = t + error;
     // In the order of their distances the place ends before the first that does not reach back to it.
     let mut end = infinite;
-    for [enter, leave] in sides.iter() {
-        for side in [enter, leave] {
+    for leaf in 0..leaves {
+        for side in sides.of(leaf).sides() {
             let their_t = side.t.load(simd, row);
             let apart =
                 row_of(simd, side.ahead, row) & (their_t - side.error.load(simd, row)).is_above(limit);
@@ -420,9 +308,10 @@ fn next_place<S: Simd>(
         }
     }
     let mut all_before = open;
-    for (leaf, pair) in sides.iter_mut().enumerate() {
+    for leaf in 0..leaves {
         let own = primitives[expression.leaves[leaf].primitive as usize].form.off();
-        for side in pair {
+        let KnownSpans { enter, leave, .. } = sides.of_mut(leaf);
+        for side in [enter, leave] {
             let now = if (side.ahead >> shift & 0xFF) == 0 {
                 0
             } else {

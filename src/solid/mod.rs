@@ -10,6 +10,7 @@ mod expression;
 mod face;
 mod facets;
 mod inside;
+mod known;
 mod mesh;
 mod patch;
 mod primitive;
@@ -30,6 +31,7 @@ pub use crossing::{
 };
 pub use crossings::{BundleScratch, Departures, Found, first_of_expressions};
 pub use expression::{Child, Expression, Leaf, Pruned, Tree};
+pub(crate) use known::with_spans;
 pub use primitive::{Cover, Form, Primitive};
 pub use prune::{Flat, Left, Pruning, Remains};
 pub use span::{Departure, End, Ends, LIMIT, ROUNDING, Span, Spans, WORLD};

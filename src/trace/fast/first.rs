@@ -10,7 +10,7 @@ use crate::lattice::{Beam, Child, SLACK, Spread};
 use crate::math::{Bundle, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
 use crate::solid::{
     Ball, Body, Firsts, Flat, Form, Found, Left, Reach, Spans, Starts, first_of_expressions,
-    first_of_surface, firsts_of_spans,
+    first_of_surface, firsts_of_spans, with_spans,
 };
 use crate::stage::{Meter, Silent};
 
@@ -190,6 +190,7 @@ impl Fast<'_> {
     ) {
         let bounds = &self.assembly.objects[object as usize].bounds.padded(DVec3::splat(self.slack));
         let Some((open, from, end)) = through(simd, bundle, bounds) else { return };
+        memory.scratch.start();
         let mut slicing = Slicing { fast: self, simd, bundle, object, open, nearest };
         slicing.slice(expression, (from, end.min(to)), HALVINGS, memory);
     }
@@ -292,63 +293,5 @@ fn single<S: Simd>(simd: S, form: &Form, bundle: &Bundle, nearest: &mut Nearest,
         }
     }
     let about = (form, bundle, object, index);
-    match form {
-        Form::AxisBox(slabs) => {
-            simd.vectorize(
-                #[inline(always)]
-                || {
-                    rows(
-                        simd,
-                        about,
-                        nearest,
-                        #[inline(always)]
-                        |rays| slabs.spans(rays),
-                    )
-                },
-            );
-        }
-        Form::SkewBox(slabs) => {
-            simd.vectorize(
-                #[inline(always)]
-                || {
-                    rows(
-                        simd,
-                        about,
-                        nearest,
-                        #[inline(always)]
-                        |rays| slabs.spans(rays),
-                    )
-                },
-            );
-        }
-        Form::Round(round) => {
-            simd.vectorize(
-                #[inline(always)]
-                || {
-                    rows(
-                        simd,
-                        about,
-                        nearest,
-                        #[inline(always)]
-                        |rays| round.spans(rays),
-                    )
-                },
-            );
-        }
-        Form::Facets(facets) => {
-            simd.vectorize(
-                #[inline(always)]
-                || {
-                    rows(
-                        simd,
-                        about,
-                        nearest,
-                        #[inline(always)]
-                        |rays| facets.spans(rays),
-                    )
-                },
-            );
-        }
-        Form::Ball(_) | Form::Mesh(_) | Form::Face(_) | Form::Patch(_) | Form::Tube(_) => {}
-    }
+    with_spans!(simd, form, rows, about, nearest);
 }

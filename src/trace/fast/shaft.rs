@@ -10,7 +10,7 @@ use crate::lattice::{Beam, Child, SLACK, Spread};
 use crate::math::{Bundle, Column, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
 use crate::solid::{
     Ball, Body, Departures, Firsts, Flat, Form, Left, Reach, Spans, Starts, first_of_expressions,
-    first_of_surface, firsts_of_spans,
+    first_of_surface, firsts_of_spans, with_spans,
 };
 use crate::stage::{Meter, Silent};
 
@@ -205,6 +205,7 @@ impl Fast<'_> {
                 let Some((open, from, to)) = through(simd, &shaft.rays, &bounds) else { return };
                 let to = to.min(shaft.distance.0.iter().copied().fold(0.0, f64::max));
                 let open = open & shaft.open();
+                memory.scratch.start();
                 let mut slicing = Slicing { fast: self, simd, shaft, departures, open };
                 slicing.slice(Flat::from(&**whole), (from, to), HALVINGS, memory);
             }
@@ -303,63 +304,5 @@ fn single<S: Simd>(simd: S, form: &Form, shaft: &mut Shaft, departures: &Departu
         }
     }
     let about = (form, departures, index);
-    match form {
-        Form::AxisBox(slabs) => {
-            simd.vectorize(
-                #[inline(always)]
-                || {
-                    rows(
-                        simd,
-                        about,
-                        shaft,
-                        #[inline(always)]
-                        |rays| slabs.spans(rays),
-                    )
-                },
-            );
-        }
-        Form::SkewBox(slabs) => {
-            simd.vectorize(
-                #[inline(always)]
-                || {
-                    rows(
-                        simd,
-                        about,
-                        shaft,
-                        #[inline(always)]
-                        |rays| slabs.spans(rays),
-                    )
-                },
-            );
-        }
-        Form::Round(round) => {
-            simd.vectorize(
-                #[inline(always)]
-                || {
-                    rows(
-                        simd,
-                        about,
-                        shaft,
-                        #[inline(always)]
-                        |rays| round.spans(rays),
-                    )
-                },
-            );
-        }
-        Form::Facets(facets) => {
-            simd.vectorize(
-                #[inline(always)]
-                || {
-                    rows(
-                        simd,
-                        about,
-                        shaft,
-                        #[inline(always)]
-                        |rays| facets.spans(rays),
-                    )
-                },
-            );
-        }
-        Form::Ball(_) | Form::Mesh(_) | Form::Face(_) | Form::Patch(_) | Form::Tube(_) => {}
-    }
+    with_spans!(simd, form, rows, about, shaft);
 }

@@ -1,0 +1,177 @@
+//! The spans of a bundle in the primitives that it was asked about: each is computed once, however many slices of the
+//! way, and expressions in them, name the primitive.
+
+use fearless_simd::{Simd, SimdBase, f64x8};
+
+use crate::math::{Bundle, Column, LANES, Mask, Number, ROWS, Rays, row_of};
+
+use super::crossing::Reach;
+use super::crossings::Departures;
+use super::primitive::Form;
+use super::span::{Ends, Spans};
+
+/// Calls `$rows($simd, $args…, spans)` with the spans of a convex form, compiled for each form by itself and for the SIMD
+/// width. Other forms have none.
+macro_rules! with_spans {
+    ($simd:expr, $form:expr, $rows:ident, $($arg:expr),* $(,)?) => {
+        with_spans!(@each $simd, $form, $rows, ($($arg),*), Ball, AxisBox, SkewBox, Round, Facets)
+    };
+    (@each $simd:expr, $form:expr, $rows:ident, $args:tt, $($kind:ident),*) => {
+        match $form {
+            $($crate::solid::Form::$kind(solid) => with_spans!(@one $simd, $rows, $args, solid),)*
+            _ => {}
+        }
+    };
+    (@one $simd:expr, $rows:ident, ($($arg:expr),*), $solid:ident) => {
+        $simd.vectorize(
+            #[inline(always)]
+            || $rows($simd, $($arg,)* #[inline(always)] |rays| $solid.spans(rays)),
+        )
+    };
+}
+pub(crate) use with_spans;
+
+/// One end of the spans in one primitive.
+#[derive(Clone, Debug)]
+pub(super) struct Side {
+    pub t: Column,
+    pub error: Column,
+    pub surface: Column,
+    /// The rays that are yet to cross here.
+    pub ahead: u64,
+    /// The rays that cross here in the place that is looked at.
+    pub now: u64,
+}
+
+/// The spans in one primitive.
+#[derive(Clone, Debug)]
+pub(super) struct KnownSpans {
+    primitive: u32,
+    /// Which rays have one.
+    any: u64,
+    pub enter: Side,
+    pub leave: Side,
+}
+
+impl Side {
+    const NONE: Self = Self {
+        t: Column::filled(0.0),
+        error: Column::filled(0.0),
+        surface: Column::filled(0.0),
+        ahead: 0,
+        now: 0,
+    };
+}
+
+impl KnownSpans {
+    const NONE: Self = Self { primitive: 0, any: 0, enter: Side::NONE, leave: Side::NONE };
+
+    /// The two ends.
+    #[inline(always)]
+    pub fn sides(&self) -> [&Side; 2] {
+        [&self.enter, &self.leave]
+    }
+
+    /// Looks ahead at the spans of some rays that can matter within `reach`. Far outside it only the state inside it
+    /// matters: none for a span that ends before it or starts behind it.
+    #[inline(always)]
+    fn look<S: Simd>(&mut self, simd: S, wanted: u64, reach: Reach) -> u64 {
+        let mut ahead = 0;
+        let rays = wanted & self.any;
+        let (from, to) = (f64x8::splat(simd, reach.from), f64x8::splat(simd, reach.to));
+        for row in 0..ROWS {
+            if (rays >> (row * LANES)) as u8 == 0 {
+                continue;
+            }
+            let (leave, enter) = (self.leave.t.load(simd, row), self.enter.t.load(simd, row));
+            let ends_before = (leave + self.leave.error.load(simd, row)).is_below(from);
+            let starts_behind = (enter - self.enter.error.load(simd, row)).is_above(to);
+            ahead |= u64::from((!(ends_before | starts_behind)).bits()) << (row * LANES);
+        }
+        ahead &= rays;
+        (self.enter.ahead, self.leave.ahead) = (ahead, ahead);
+        (self.enter.now, self.leave.now) = (0, 0);
+        ahead
+    }
+}
+
+/// What is known of one bundle.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Known {
+    /// Those that are in use come first.
+    spans: Vec<KnownSpans>,
+    count: usize,
+}
+
+impl Known {
+    /// Forgets all: another bundle follows.
+    pub fn clear(&mut self) {
+        self.count = 0;
+    }
+
+    /// All spans, by their places.
+    pub fn spans(&mut self) -> &mut [KnownSpans] {
+        &mut self.spans[..self.count]
+    }
+
+    /// Looks ahead at the spans in a primitive, and gives their place and which rays have one that can matter.
+    pub fn look<S: Simd>(
+        &mut self,
+        simd: S,
+        (bundle, departures): (&Bundle, Option<&Departures>),
+        (primitive, form): (u32, &Form),
+        wanted: u64,
+        reach: Reach,
+    ) -> (u32, u64) {
+        let known = self.spans[..self.count].iter().position(|known| known.primitive == primitive);
+        let place = known.unwrap_or_else(|| {
+            if self.count == self.spans.len() {
+                self.spans.push(KnownSpans::NONE);
+            }
+            self.count += 1;
+            let known = &mut self.spans[self.count - 1];
+            (known.primitive, known.any) = (primitive, 0);
+            let here = departures.map_or((0, 0), |d| d.here(simd, primitive));
+            with_spans!(simd, form, learn, (bundle, here), known);
+            self.count - 1
+        });
+        let spans = &mut self.spans[place];
+        let ahead = simd.vectorize(
+            #[inline(always)]
+            || spans.look(simd, wanted, reach),
+        );
+        (place as u32, ahead)
+    }
+}
+
+#[inline(always)]
+fn learn<S: Simd>(
+    simd: S,
+    (bundle, (here, inward)): (&Bundle, (u64, u64)),
+    known: &mut KnownSpans,
+    spans: impl Fn(&Rays<f64x8<S>>) -> Spans<f64x8<S>>,
+) {
+    for row in 0..ROWS {
+        if bundle.live_in(row) == 0 {
+            continue;
+        }
+        let mut spans = spans(&bundle.load(simd, row));
+        let any = spans.any & !row_of(simd, here & !inward, row);
+        if !any.any() {
+            continue;
+        }
+        if here != 0 {
+            // A start on a surface is 0 by construction.
+            let zero = f64x8::splat(simd, 0.0);
+            let start = Ends { t: zero, error: zero, surface: zero };
+            spans.enter = Ends::choose(row_of(simd, inward, row), start, spans.enter);
+        }
+        let any = any & spans.enter.t.is_below(spans.leave.t);
+        known.any |= u64::from(any.bits()) << (row * LANES);
+        for (side, end) in [(&mut known.enter, spans.enter), (&mut known.leave, spans.leave)] {
+            side.t.store(row, end.t);
+            side.error.store(row, end.error);
+            side.surface.store(row, end.surface);
+        }
+    }
+}

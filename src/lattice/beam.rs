@@ -71,7 +71,101 @@ pub struct Met<S: Simd> {
     pub near: f64x8<S>,
 }
 
+/// Lights farther away than this are no apex for planes: what rounding makes of their place would be more than what
+/// the planes are moved outward by.
+const NEAR: f64 = WAY;
+
 impl Beam {
+    /// The beam of rays that start in one point and lie between four of them.
+    pub fn between(o: DVec3, corners: [DVec3; 4]) -> Self {
+        let axis = (corners[0] + corners[1] + corners[2] + corners[3]).normalize_or(DVec3::X);
+        let u = (corners[1] - corners[0]).cross(axis).normalize_or(axis.any_orthonormal_vector());
+        let u = u.cross(axis).normalize_or(u);
+        let across = [u, axis.cross(u)];
+        let (mut low, mut high, mut least) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2], f64::INFINITY);
+        for d in corners {
+            let w = d.dot(axis);
+            least = least.min(w);
+            for slot in 0..2 {
+                let slope = d.dot(across[slot]) / w;
+                (low[slot], high[slot]) = (low[slot].min(slope), high[slot].max(slope));
+            }
+        }
+        let mut sides = [Plane::NOWHERE; 4];
+        if least > COHERENT {
+            for slot in 0..2 {
+                let normals = [across[slot] - low[slot] * axis, high[slot] * axis - across[slot]];
+                for (side, normal) in sides[2 * slot..].iter_mut().zip(normals) {
+                    *side = Plane { normal, offset: normal.dot(o) - margin(normal) };
+                }
+            }
+        }
+        let (at, off) = (axis.dot(o), margin(axis));
+        Self { sides, axis, first: at - off, last: at + WAY + off, start: at + off }
+    }
+
+    /// The beam around the live rays of some bundles, which all go to one point.
+    #[inline(always)]
+    pub fn towards<'b, S: Simd>(
+        simd: S,
+        bundles: impl Iterator<Item = (&'b Bundle, &'b Column)> + Clone,
+        apex: DVec3,
+    ) -> Self {
+        if apex.abs().max_element() > NEAR {
+            let bundles = bundles.map(|(bundle, distance)| (bundle, Some(distance)));
+            return Self::around(simd, bundles, Spread::Together);
+        }
+        let mut sum = DVec3::ZERO;
+        for (bundle, _) in bundles.clone() {
+            if bundle.live != 0 {
+                // Corners and middle: enough for a direction in between.
+                for lane in [0, 7, 27, 36, 56, 63] {
+                    sum += bundle.d.get(lane);
+                }
+            }
+        }
+        let axis = sum.normalize_or(DVec3::X);
+        let u = axis.any_orthonormal_vector();
+        let v = axis.cross(u);
+        let infinite = f64x8::splat(simd, f64::INFINITY);
+        let (mut low, mut high, mut least) = ([infinite; 2], [-infinite; 2], infinite);
+        let (mut nearest, mut farthest) = (infinite, -infinite);
+        for (bundle, _) in bundles {
+            if bundle.live == 0 {
+                continue;
+            }
+            for row in 0..ROWS {
+                let rays = bundle.load(simd, row);
+                let w = rays.d.dot_one(axis);
+                least = w.smaller(least);
+                let inverse = w.same(1.0) / w;
+                let slopes = [rays.d.dot_one(u) * inverse, rays.d.dot_one(v) * inverse];
+                for slot in 0..2 {
+                    low[slot] = slopes[slot].smaller(low[slot]);
+                    high[slot] = slopes[slot].larger(high[slot]);
+                }
+                let at = rays.o.dot_one(axis);
+                nearest = at.smaller(nearest);
+                farthest = at.larger(farthest);
+            }
+        }
+        let mut sides = [Plane::NOWHERE; 4];
+        if lowest(least) > COHERENT {
+            for slot in 0..2 {
+                let across = [u, v][slot];
+                // Seen from the apex, what comes from one side lies on the other.
+                let normals = [across - highest(high[slot]) * axis, lowest(low[slot]) * axis - across];
+                for k in 0..2 {
+                    let normal = normals[k];
+                    sides[2 * slot + k] = Plane { normal, offset: normal.dot(apex) - margin(normal) };
+                }
+            }
+        }
+        let (at, off) = (axis.dot(apex), margin(axis));
+        let (nearest, farthest) = (lowest(nearest), highest(farthest));
+        Self { sides, axis, first: nearest - off, last: at.max(farthest) + off, start: farthest + off }
+    }
+
     /// The beam around the live rays of some bundles, as far as `reach` of each.
     #[inline(always)]
     pub fn around<'b, S: Simd>(
@@ -137,7 +231,6 @@ impl Beam {
                 start = at.larger(start);
             }
         }
-        let margin = |normal: DVec3| ROUNDED * normal.abs().element_sum();
         let sides = std::array::from_fn(|k| {
             if coherent {
                 Plane { normal: normals[k], offset: lowest(offsets[k]) - margin(normals[k]) }
@@ -192,4 +285,9 @@ pub fn lowest<S: Simd>(x: f64x8<S>) -> f64 {
 #[inline(always)]
 pub fn highest<S: Simd>(x: f64x8<S>) -> f64 {
     -lowest(-x)
+}
+
+/// How far a plane is moved outward for what rounding may do.
+fn margin(normal: DVec3) -> f64 {
+    ROUNDED * normal.abs().element_sum()
 }

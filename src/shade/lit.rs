@@ -3,7 +3,7 @@
 
 use fearless_simd::{Level, Select, Simd, SimdBase, SimdMask, dispatch, f64x8, mask64x8};
 
-use crate::math::{Bundle, Column, Columns, DVec3, LANES, Mask, Number, ROWS, Vector};
+use crate::math::{BUNDLE, Bundle, Column, Columns, DVec3, LANES, Mask, Number, ROWS, Vector};
 use crate::trace::{Nearest, Shaft};
 use crate::view::all_settled;
 
@@ -24,6 +24,8 @@ pub(super) struct Surfaces {
     pub radius: Column,
     /// 1 where the surface answers light, 0 where it does not.
     pub shines: Column,
+    /// The number of its material.
+    pub finish: [u32; BUNDLE],
 }
 
 /// How the surfaces of a bundle lie to a lamp.
@@ -42,6 +44,7 @@ impl Surfaces {
         normal: [Column::filled(0.0); 3],
         radius: Column::filled(1.0),
         shines: Column::filled(0.0),
+        finish: [0; BUNDLE],
     };
 
     /// The points at which rays met something.

@@ -23,6 +23,30 @@ pub struct Sight {
     pub ways: Vec<[Column; 2]>,
 }
 
+/// What all points of one side of a primitive have in common.
+#[derive(Clone, Copy, Debug)]
+struct Side {
+    /// [`Form::off`] of the primitive.
+    off: f64,
+    /// 1 where it answers light, 0 where it does not.
+    shines: f64,
+    finish: u32,
+    normal: Normal,
+}
+
+/// How the normals of one side of a primitive are known.
+#[derive(Clone, Copy, Debug)]
+enum Normal {
+    /// Away from a centre, at so great a distance.
+    From(DVec3, f64),
+    /// The same everywhere.
+    Flat(DVec3),
+    /// Interpolated.
+    Patched,
+    /// Another at each point.
+    Curved,
+}
+
 /// What shading a tile needs, used again for every tile.
 #[derive(Debug, Default)]
 pub struct TileShading {
@@ -104,6 +128,22 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         meter.counts += std::mem::take(tile.trace.counts_mut());
     }
 
+    /// What all points of one side of a primitive have in common.
+    fn side(&self, primitive: u32, surface: u32) -> Side {
+        let form = &self.assembly.primitives[primitive as usize].form;
+        let finish = self.finish_of(primitive);
+        let normal = match form {
+            Form::Ball(ball) => Normal::From(ball.center, ball.radius),
+            Form::AxisBox(_) | Form::SkewBox(_) | Form::Facets(_) | Form::Mesh(_) | Form::Face(_) => {
+                Normal::Flat(form.normal(DVec3::ZERO, surface))
+            }
+            Form::Patch(_) => Normal::Patched,
+            Form::Round(_) | Form::Tube(_) => Normal::Curved,
+        };
+        let shines = if finish.kd > 0.0 || finish.ks > 0.0 { 1.0 } else { 0.0 };
+        Side { off: form.off(), shines, finish: self.assembly.material(primitive).0, normal }
+    }
+
     /// The surfaces that were met: their points, normals and departures. Answers which rays met one.
     fn meet(&self, bundles: &[Bundle], tile: &mut TileShading) -> Vec<u64> {
         let count = bundles.len();
@@ -114,27 +154,35 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
             let surfaces = &mut tile.surfaces[k];
             surfaces.met(bundle, &tile.nearest[k], self.engine.level());
             let (mut balls, mut patches) = (0_u64, 0_u64);
+            let departures = &mut tile.departures[k];
             let mut rest = surfaces.hits;
+            // Neighbours mostly see the same face.
+            let mut last = None;
             while rest != 0 {
                 let lane = rest.trailing_zeros() as usize;
                 rest &= rest - 1;
-                let primitive = tile.nearest[k].primitive.0[lane] as u32;
-                let form = &self.assembly.primitives[primitive as usize].form;
-                let departures = &mut tile.departures[k];
-                departures.primitive.0[lane] = f64::from(primitive);
-                departures.off.0[lane] = form.off();
-                let finish = self.finish_of(primitive);
-                surfaces.shines.0[lane] = if finish.kd > 0.0 || finish.ks > 0.0 { 1.0 } else { 0.0 };
-                match form {
-                    Form::Ball(ball) => {
+                let (primitive, surface) =
+                    (tile.nearest[k].primitive.0[lane], tile.nearest[k].surface.0[lane]);
+                let seen = match last {
+                    Some((before, seen)) if before == (primitive, surface) => seen,
+                    _ => self.side(primitive as u32, surface as u32),
+                };
+                last = Some(((primitive, surface), seen));
+                departures.primitive.0[lane] = primitive;
+                departures.off.0[lane] = seen.off;
+                surfaces.shines.0[lane] = seen.shines;
+                surfaces.finish[lane] = seen.finish;
+                match seen.normal {
+                    Normal::From(center, radius) => {
                         balls |= 1 << lane;
-                        surfaces.normal.set(lane, ball.center);
-                        surfaces.radius.0[lane] = ball.radius;
+                        surfaces.normal.set(lane, center);
+                        surfaces.radius.0[lane] = radius;
                     }
-                    Form::Patch(_) => patches |= 1 << lane,
-                    _ => {
-                        let surface = tile.nearest[k].surface.0[lane] as u32;
-                        surfaces.normal.set(lane, form.normal(surfaces.p.get(lane), surface));
+                    Normal::Flat(normal) => surfaces.normal.set(lane, normal),
+                    Normal::Patched => patches |= 1 << lane,
+                    Normal::Curved => {
+                        let form = &self.assembly.primitives[primitive as usize].form;
+                        surfaces.normal.set(lane, form.normal(surfaces.p.get(lane), surface as u32));
                     }
                 }
             }
@@ -174,7 +222,8 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         }
         if self.shadows {
             meter.at(Stage::Cell);
-            self.engine.blocked_of(&mut tile.shafts, &tile.departures, &mut tile.trace);
+            let at = self.lamps[lamp].at;
+            self.engine.blocked_of(&mut tile.shafts, &tile.departures, at, &mut tile.trace);
             meter.at(Stage::Shade);
         }
         for (k, shaft) in tile.shafts.iter().enumerate() {
@@ -200,7 +249,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
                         continue;
                     }
                 }
-                let finish = self.finish_of(tile.nearest[k].primitive.0[lane] as u32);
+                let finish = &self.finishes[tile.surfaces[k].finish[lane] as usize];
                 let (facing, cosine) = (tile.lit[k].facing.0[lane], tile.lit[k].cosine.0[lane]);
                 let share = self.share(finish, facing, cosine) * visible;
                 sums[k][lane] = (sums[k][lane] + self.lamps[lamp].light * share).limited();

@@ -7,7 +7,7 @@
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 
 use crate::lattice::{Beam, Child, SLACK, Spread};
-use crate::math::{Bundle, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
+use crate::math::{Bundle, Columns, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
 use crate::solid::{
     Ball, Body, Firsts, Flat, Form, Found, Left, Reach, Spans, Starts, first_of_expressions,
     first_of_surface, firsts_of_spans, with_spans,
@@ -37,16 +37,16 @@ impl Fast<'_> {
         nearest: &mut [Nearest],
         memory: &mut TileMemory,
     ) {
-        let whole = Beam::around(simd, bundles.iter().map(|bundle| (bundle, None)), Spread::Apart);
+        let whole = beam_of_tile(simd, bundles);
         let TileMemory { beams, far, thin, fan, stack, .. } = memory;
         beams.clear();
         for bundle in bundles {
-            beams.push(Beam::around(simd, std::iter::once((bundle, None)), Spread::Apart));
+            beams.push(beam_of(simd, bundle));
         }
         fan.set(beams);
         thin.resize(bundles.len(), Thin::EMPTY);
         for (thin, bundle) in thin.iter_mut().zip(bundles) {
-            thin.set(bundle);
+            thin.set(simd, bundle);
         }
         far.clear();
         far.extend(bundles.iter().map(|b| if b.live == 0 { f64::NEG_INFINITY } else { f64::INFINITY }));
@@ -194,6 +194,39 @@ impl Fast<'_> {
         let mut slicing = Slicing { fast: self, simd, bundle, object, open, nearest };
         slicing.slice(expression, (from, end.min(to)), HALVINGS, memory);
     }
+}
+
+/// The frustum of a block of rays from the eye: that of its corners, where all start in the eye itself.
+#[inline(always)]
+fn beam_of<S: Simd>(simd: S, bundle: &Bundle) -> Beam {
+    match corners(bundle, [0, 7, 56, 63]) {
+        Some((o, d)) => Beam::between(o, d),
+        None => Beam::around(simd, std::iter::once((bundle, None)), Spread::Apart),
+    }
+}
+
+/// The frustum of a tile of four by four blocks, or of what there is at the rim of the picture.
+#[inline(always)]
+fn beam_of_tile<S: Simd>(simd: S, bundles: &[Bundle]) -> Beam {
+    if bundles.len() == 16 {
+        let ends = [(0, 0), (3, 7), (12, 56), (15, 63)].map(|(k, lane)| corners(&bundles[k], [lane; 4]));
+        if let [Some((o, a)), Some((p, b)), Some((q, c)), Some((r, d))] = ends
+            && o == p
+            && o == q
+            && o == r
+        {
+            return Beam::between(o, [a[0], b[0], c[0], d[0]]);
+        }
+    }
+    Beam::around(simd, bundles.iter().map(|bundle| (bundle, None)), Spread::Apart)
+}
+
+/// Where a whole block of rays starts, and where four of them go; `None` where rays are missing, or have been moved
+/// nearer to the world, each along its own way.
+fn corners(bundle: &Bundle, lanes: [usize; 4]) -> Option<(DVec3, [DVec3; 4])> {
+    let o = bundle.o.get(0);
+    let one = [7, 56, 63].into_iter().all(|lane| bundle.o.get(lane) == o);
+    (bundle.live == u64::MAX && one).then(|| (o, lanes.map(|lane| bundle.d.get(lane))))
 }
 
 /// Whose way is cut into slices.

@@ -15,7 +15,7 @@ mod walk;
 use fearless_simd::{Level, Simd, dispatch};
 
 use crate::lattice::{Boxes, Structure, SubLattices, slack};
-use crate::math::{Bundle, Column, Columns, ROWS, Ray};
+use crate::math::{Bundle, Column, Columns, DVec3, ROWS, Ray};
 use crate::solid::{Assembly, Crossing, Departure, Departures};
 use crate::stage::{Meter, Probe};
 
@@ -76,10 +76,16 @@ impl<'a> Fast<'a> {
         }
     }
 
-    /// Which rays of a tile towards one light are blocked. Those that are unsure are to be asked of
+    /// Which rays of a tile towards one light at `lamp` are blocked. Those that are unsure are to be asked of
     /// [`Engine::blocked`] one by one.
-    pub fn blocked_of(&self, shafts: &mut [Shaft], departures: &[Departures], memory: &mut TileMemory) {
-        dispatch!(self.level, simd => self.blocked_of_tile(simd, shafts, departures, memory));
+    pub fn blocked_of(
+        &self,
+        shafts: &mut [Shaft],
+        departures: &[Departures],
+        lamp: DVec3,
+        memory: &mut TileMemory,
+    ) {
+        dispatch!(self.level, simd => self.blocked_of_tile(simd, shafts, departures, lamp, memory));
     }
 }
 

@@ -6,7 +6,7 @@
 
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 
-use crate::lattice::{Beam, Child, SLACK, Spread};
+use crate::lattice::{Beam, Child, SLACK};
 use crate::math::{Bundle, Column, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
 use crate::solid::{
     Ball, Body, Departures, Firsts, Flat, Form, Left, Reach, Spans, Starts, first_of_expressions,
@@ -66,13 +66,14 @@ impl Fast<'_> {
         simd: S,
         shafts: &mut [Shaft],
         departures: &[Departures],
+        lamp: DVec3,
         memory: &mut TileMemory,
     ) {
-        let bundles = || shafts.iter().map(|shaft| (&shaft.rays, Some(&shaft.distance)));
-        let whole = Beam::around(simd, bundles(), Spread::Together);
+        let bundles = shafts.iter().map(|shaft| (&shaft.rays, &shaft.distance));
+        let whole = Beam::towards(simd, bundles.clone(), lamp);
         memory.beams.clear();
-        for one in bundles() {
-            memory.beams.push(Beam::around(simd, std::iter::once(one), Spread::Together));
+        for one in bundles {
+            memory.beams.push(Beam::towards(simd, std::iter::once(one), lamp));
         }
         memory.fan.set(&memory.beams);
         let mut open = 0_u16;
@@ -84,7 +85,7 @@ impl Fast<'_> {
         }
         memory.thin.resize(shafts.len(), Thin::EMPTY);
         for (thin, shaft) in memory.thin.iter_mut().zip(&*shafts) {
-            thin.set(&shaft.rays);
+            thin.set(simd, &shaft.rays);
         }
         memory.stack.clear();
         memory.stack.push((f64::NEG_INFINITY, 0));

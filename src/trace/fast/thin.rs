@@ -3,7 +3,7 @@
 //! Most rays of a bundle that are asked about a small ball miss it. They are told apart by numbers of 24 bits, with a
 //! bound on what these lose, and only the others are computed in full.
 
-use fearless_simd::{Simd, SimdBase, SimdMask, f32x16};
+use fearless_simd::{Select, Simd, SimdBase, SimdMask, f32x16};
 
 use crate::math::{BUNDLE, Bundle, DVec3};
 
@@ -35,18 +35,21 @@ impl Thin {
 
     /// The rays of a closed bundle.
     #[inline(always)]
-    pub fn set(&mut self, bundle: &Bundle) {
+    pub fn set<S: Simd>(&mut self, simd: S, bundle: &Bundle) {
         self.extent = 0.0;
         for axis in 0..3 {
             let base = bundle.o[axis].0[0];
             self.base[axis] = base;
-            let mut most = 0.0_f32;
             for lane in 0..BUNDLE {
-                let o = (bundle.o[axis].0[lane] - base) as f32;
-                self.o[axis][lane] = o;
-                most = if o.abs() > most { o.abs() } else { most };
+                self.o[axis][lane] = (bundle.o[axis].0[lane] - base) as f32;
                 self.d[axis][lane] = bundle.d[axis].0[lane] as f32;
             }
+            let mut most = f32x16::splat(simd, 0.0);
+            for row in 0..BUNDLE / WIDTH {
+                let o = f32x16::from_slice(simd, &self.o[axis][row * WIDTH..][..WIDTH]).abs();
+                most = o.simd_gt(most).select(o, most);
+            }
+            let most = most.to_array().into_iter().fold(0.0, |most, x| if x > most { x } else { most });
             self.extent += f64::from(most);
         }
     }

@@ -8,7 +8,7 @@ use clap_complete::Shell;
 use crate::math::{DVec3, Size};
 use crate::plan::{CUTOFF, DEPTH};
 
-use super::picture::{Glyphs, PaletteName, Preset, StructureName, ToneName};
+use super::picture::{EngineName, Glyphs, PaletteName, Preset, StructureName, ToneName};
 use super::values;
 
 /// Shows solid models in a terminal: ray traced, in 13 gray levels of block characters.
@@ -148,6 +148,9 @@ pub struct PictureArguments {
     /// How space is cut into cells [default: auto]
     #[arg(long, value_enum)]
     pub structure: Option<StructureName>,
+    /// What traces; the picture is the same
+    #[arg(long, value_enum, default_value = "auto")]
+    pub engine: EngineName,
     /// Characters of the picture
     #[arg(long, value_enum, default_value = "blocks")]
     pub glyphs: Glyphs,

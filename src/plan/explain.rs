@@ -58,6 +58,8 @@ pub(super) enum Cut {
     Few,
     /// There is more.
     Many,
+    /// The fast engine goes through boxes.
+    ForTiles,
 }
 
 /// What a term needs and does not have.
@@ -138,6 +140,9 @@ impl Plan {
             }
             (Cut::Many, _) => {
                 format!("{objects} of {} → boxes, eight side by side", count(kinds.primitives, "primitive"))
+            }
+            (Cut::ForTiles, _) => {
+                format!("{objects} of {}, traced in tiles → boxes", count(kinds.primitives, "primitive"))
             }
             (Cut::Asked, StructureChoice::None) => "no structure is wanted".into(),
             (Cut::Asked, StructureChoice::Tree) => format!("{objects}, a tree is wanted"),

@@ -41,7 +41,7 @@ pub enum Command {
     Render(RenderArguments),
     /// Measure how long pictures take
     Bench(BenchArguments),
-    /// Say what a picture requires, stage by stage, and why the rest is left out
+    /// Say what a picture requires, stage by stage, what that is expected to cost, and why the rest is left out
     Plan(PlanArguments),
     /// Read and validate a scene only
     Check(SceneArguments),
@@ -108,6 +108,9 @@ pub struct PlanArguments {
     pub scene: SceneArguments,
     #[command(flatten)]
     pub picture: PictureArguments,
+    /// Draw the picture once, and say what each stage did cost and count
+    #[arg(long)]
+    pub run: bool,
     /// One line of JSON in place of the table
     #[arg(long)]
     pub json: bool,

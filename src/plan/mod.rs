@@ -1,9 +1,11 @@
 //! What a picture requires: the scene, the view and the options, compiled. What can not change the picture is
 //! left out here, once, and not asked about again for every dot.
 
+mod cost;
 mod explain;
 mod options;
 
+pub use cost::Cost;
 pub use explain::{Reasons, StagePlan, Term};
 pub use options::{CUTOFF, DEPTH, EngineChoice, Options, OptionsError, Shading, StructureChoice};
 

@@ -77,7 +77,7 @@ fn any_direction() -> impl Strategy<Value = DVec3> {
 
 proptest! {
     // The same cases each time: a test that fails tells of the change before it.
-    #![proptest_config(ProptestConfig { cases: 60, rng_seed: RngSeed::Fixed(13), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 150, rng_seed: RngSeed::Fixed(13), failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn from_outside(scene in any_scene(), direction in any_direction()) {

@@ -12,7 +12,7 @@ use crate::same::{difference, exact, fast};
 use crate::scenery::embedded_scenes;
 
 /// Several tiles, those at the rim cut.
-const DOTS: Size = Size::new(67, 45);
+const DOTS: Size = Size::new(131, 97);
 
 /// The first view, one from above the other side, and one from within, backwards.
 fn views(studio: &Studio) -> [(&'static str, Camera); 3] {
@@ -27,12 +27,14 @@ fn views(studio: &Studio) -> [(&'static str, Camera); 3] {
 #[track_caller]
 fn all_same(name: &str, scene: Scene, structures: &[StructureChoice]) {
     let studio = Studio::new(scene).unwrap();
+    let mut hits = 0;
     for (view, camera) in views(&studio) {
         if camera.check().is_err() {
             continue;
         }
         let request = request(camera, DOTS);
         let frame = fast(&studio, &request);
+        hits += frame.counts.primary_hits;
         for &structure in structures {
             let other = exact(&studio, &request, structure);
             if let Some(fault) = difference(&frame, &other) {
@@ -52,6 +54,7 @@ fn all_same(name: &str, scene: Scene, structures: &[StructureChoice]) {
             assert_eq!(counted(&frame), counted(&other), "{name}, {view}: rays are counted otherwise");
         }
     }
+    assert!(hits > 0, "{name}: no ray meets it");
 }
 
 /// The files of a folder that may stand beside this repository, by name.

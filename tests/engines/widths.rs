@@ -109,7 +109,7 @@ fn an_eye_far_away_or_within_sees_the_same() {
             let mut request = plain(studio, Size::new(33, 33));
             let camera = &mut request.camera;
             camera.eye = camera.target + (camera.eye - camera.target) * share;
-            camera.zoom = share.max(1.0).min(1e12);
+            camera.zoom = share.clamp(1.0, 1e12);
             request
         });
     }

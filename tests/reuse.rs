@@ -26,7 +26,7 @@ fn plain(studio: &Studio) -> Request {
 
 fn traced(frame: &Frame) -> bool {
     assert_eq!(frame.trace.is_zero(), frame.counts == Counts::default());
-    assert_eq!(frame.times[Stage::Solid].is_zero(), frame.counts.primary_rays == 0);
+    assert_eq!(frame.times[Stage::Ray].is_zero(), frame.counts.primary_rays == 0);
     frame.counts.primary_rays > 0
 }
 

@@ -100,6 +100,17 @@ fn fields_of_any_angle() {
     }
 }
 
+// The box of the point had infinite sides in the assembly's unit, and was met by frustums that did not exist.
+#[test]
+fn an_object_of_one_point() {
+    let text = "intersection() {
+        translate([1, -1, 0]) rotate([90, 0, 0]) scale([1.5, 0.5, 0.5]) cylinder(h = 2, r = 1, center = true);
+        translate([-1, 1, -1]) scale([0.5, 1.5, 0.5]) sphere(1);
+        sphere(0.5);
+    }";
+    same(text, DVec3::new(0.0, 0.0, 9.0), DVec3::new(0.1, 0.05, -0.07), 40.0, 1.0);
+}
+
 #[test]
 fn needles_plates_and_neighbours_of_unlike_size() {
     let pairs = [

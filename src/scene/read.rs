@@ -108,7 +108,7 @@ fn text<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Diagnostics> {
         Diagnostics::whole(name, Diagnostic::error(0..0, message).help("a scene is UTF-8 text"))
     };
     let text = std::str::from_utf8(bytes).map_err(|error| no_text(error.valid_up_to(), "not UTF-8"))?;
-    match bytes.iter().position(|&byte| byte == 0) {
+    match text.find('\0') {
         Some(offset) => Err(no_text(offset, "0")),
         None => Ok(text),
     }

@@ -17,9 +17,11 @@ mod slabs;
 mod span;
 mod state;
 mod surface;
+mod taper;
 #[cfg(test)]
 mod tests;
 mod tube;
+mod unit_space;
 
 pub use assembly::{Assembly, AssemblyError, Body, Datum, Object};
 pub use crossing::{Crossing, Reach, Scratch, first_of_expression, first_of_span};

@@ -22,14 +22,14 @@ pub struct Primitive {
     pub material: MaterialId,
 }
 
-/// The forms, each with its own intersection. Those of many numbers are boxed, so that a scene of a million spheres
-/// does not pay for them.
+/// The forms, each with its own intersection. Those of more numbers than a sphere's are boxed, so that a scene of a million
+/// spheres does not pay for them.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Form {
     /// A sphere.
     Ball(Ball),
     /// A box along the axes.
-    AxisBox(AxisBox),
+    AxisBox(Box<AxisBox>),
     /// A box in any position.
     SkewBox(Box<SkewBox>),
     /// An ellipsoid or frustum in any position.
@@ -63,20 +63,20 @@ impl Form {
         match shape {
             Shape::Sphere => match similarity(&place.linear) {
                 Some(radius) => Self::Ball(Ball::new(place.center, radius, error)),
-                None => Self::Round(Box::new(Round::ellipsoid(place, error))),
+                None => Self::Round(Box::new(Round::ellipsoid(&place, error))),
             },
             Shape::Frustum { bottom, top } => {
-                Self::Round(Box::new(Round::frustum(place, *bottom, *top, error)))
+                Self::Round(Box::new(Round::frustum(&place, *bottom, *top, error)))
             }
             Shape::Cube => match axis_half(&place.linear) {
-                Some(half) => Self::AxisBox(AxisBox::new(place.center, half, error)),
+                Some(half) => Self::AxisBox(Box::new(AxisBox::new(place.center, half, error))),
                 None => Self::SkewBox(Box::new(SkewBox::new(place, error))),
             },
             Shape::Facets(unit) => Self::Facets(Box::new(Facets::new(unit, &place, error))),
             Shape::Mesh(unit) => Self::Mesh(Box::new(Mesh::new(unit, &place, error))),
             Shape::Face(corners) => Self::Face(Box::new(Face::new(corners.iter().copied(), &place, error))),
             Shape::Patch(corners) => Self::Patch(Box::new(Patch::new(corners, &place, error))),
-            Shape::Tube { bottom, top } => Self::Tube(Box::new(Tube::new(place, *bottom, *top, error))),
+            Shape::Tube { bottom, top } => Self::Tube(Box::new(Tube::new(&place, *bottom, *top, error))),
         }
     }
 

@@ -29,7 +29,7 @@ impl Token<'_> {
     }
 }
 
-/// The words of a text, from the first.
+/// The words of a stretch of text, from the first.
 #[derive(Clone, Debug)]
 pub struct Tokens<'a> {
     text: &'a str,
@@ -39,11 +39,12 @@ pub struct Tokens<'a> {
 }
 
 impl<'a> Tokens<'a> {
-    /// The words of `text`.
-    pub fn new(text: &'a str) -> Self {
+    /// The words of a stretch of `text` that neither begins nor ends within a word or a comment.
+    pub fn new(text: &'a str, stretch: Range<usize>) -> Self {
         // Some editors begin a file with a byte order mark; it is no word.
-        let at = if text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
-        let mut tokens = Self { text, at, next: None };
+        let is_marked = stretch.start == 0 && text.starts_with('\u{feff}');
+        let at = if is_marked { '\u{feff}'.len_utf8() } else { stretch.start };
+        let mut tokens = Self { text: &text[..stretch.end], at, next: None };
         tokens.take();
         tokens
     }
@@ -62,7 +63,7 @@ impl<'a> Tokens<'a> {
         token
     }
 
-    /// Bytes of the text from the next word on.
+    /// Bytes of the stretch from the next word on.
     pub fn bytes_left(&self) -> usize {
         self.next.map_or(0, |token| self.text.len() - token.start)
     }
@@ -90,7 +91,7 @@ mod tests {
     #[test]
     fn words_stand_between_blanks_and_comments_are_none() {
         let text = "\u{feff}# a\nb  .1 -2e3\r\n#p 3\n\tö#x # last";
-        let mut tokens = Tokens::new(text);
+        let mut tokens = Tokens::new(text, 0..text.len());
         let words: Vec<_> = std::iter::from_fn(|| tokens.take()).collect();
         assert_eq!(words.iter().map(|t| t.word).collect::<Vec<_>>(), ["b", ".1", "-2e3", "ö#x"]);
         assert!(words.iter().all(|t| &text[t.span()] == t.word));

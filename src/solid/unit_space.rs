@@ -1,0 +1,93 @@
+//! The unit space of a curved shape: there the shape is round, and rays come to it.
+
+use crate::math::{Bounds, DMat3, DVec3, Placement, Ray};
+
+use super::span::rounding_at;
+
+/// The way from the world into the unit space of a shape, and how far off that may lead.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct UnitSpace {
+    /// The world place of the unit origin.
+    pub center: DVec3,
+    /// From world directions to unit directions.
+    pub inverse: DMat3,
+    /// How far a point of the shape may be off its place, by its map and by our own rounding, along each axis of the unit
+    /// space: a coin has a sharp rim however thin it is, and a needle a sharp tip.
+    pub off: DVec3,
+    /// The same in the world, for all of it.
+    pub displacement: f64,
+    /// The least share of it that is our own rounding.
+    pub seeming: f64,
+}
+
+/// A ray in the unit space, re-centred: `o` is its point closest to the unit origin.
+pub(super) struct Centred {
+    pub o: DVec3,
+    pub d: DVec3,
+    pub d_squared: f64,
+    /// `t` of the closest point.
+    pub t: f64,
+    /// How far `o` may be off along each axis.
+    pub off: DVec3,
+    /// The share of it that is our own rounding.
+    pub seeming: f64,
+}
+
+impl UnitSpace {
+    /// That of a shape at `place`, which may be off by `map_error`.
+    pub fn new(place: &Placement, map_error: DVec3) -> Self {
+        let Placement { inverse, center, .. } = *place;
+        let rows = [inverse.row(0), inverse.row(1), inverse.row(2)];
+        let seen = rounding_at(center.length());
+        let off = rows.map(|row| seen * row.length() + row.abs().dot(map_error));
+        let seeming = (0..3).map(|i| seen * rows[i].length() / off[i]).fold(1.0, f64::min);
+        let displacement = seen + map_error.length();
+        Self { center, inverse, off: DVec3::from_array(off), displacement, seeming }
+    }
+
+    /// A ray there.
+    #[inline]
+    pub fn centred(&self, ray: &Ray) -> Centred {
+        let from_center = ray.o - self.center;
+        let o = self.inverse * from_center;
+        let d = self.inverse * ray.d;
+        let d_squared = d.length_squared();
+        let first = -o.dot(d) / d_squared;
+        let o = o + first * d;
+        let second = -o.dot(d) / d_squared;
+        let o = o + second * d;
+        Centred { o, d, d_squared, t: first + second, off: self.off, seeming: self.seeming }
+    }
+
+    /// A point of the world there.
+    pub fn point(&self, p: DVec3) -> DVec3 {
+        self.inverse * (p - self.center)
+    }
+
+    /// The normal in the world, of length 1, of a surface that rises along `gradient` there.
+    pub fn normal(&self, gradient: DVec3) -> DVec3 {
+        // A normal goes through the transposed inverse; scaled first, so that no square overflows.
+        let normal = self.inverse.transpose() * gradient;
+        let size = normal.abs().max_element();
+        (normal / size).normalize_or(DVec3::Z)
+    }
+
+    /// The box there around a box of the world.
+    pub fn bounds(&self, b: &Bounds) -> Bounds {
+        let inverse = &self.inverse;
+        let center = *inverse * (b.center() - self.center);
+        let half = inverse.x_axis.abs() * b.half().x
+            + inverse.y_axis.abs() * b.half().y
+            + inverse.z_axis.abs() * b.half().z;
+        Bounds::new(center - half, center + half)
+    }
+}
+
+impl Centred {
+    /// Whether the line is certainly beside a frustum, which lies within √2 of the unit origin.
+    pub fn passes_by(&self) -> bool {
+        let off = self.off.element_sum();
+        // (√2 + off)² with 4 for 2√2.
+        self.o.length_squared() > 2.0 + off * (4.0 + off)
+    }
+}

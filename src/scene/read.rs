@@ -69,7 +69,7 @@ pub fn read_file(path: &Path, options: &ReadOptions) -> Result<Scene, ReadError>
         return Err(too_large(&name).into());
     }
     // The length above is a promise only of plain files: a pipe or a growing file is cut off here.
-    let mut bytes = Vec::new();
+    let mut bytes = Vec::with_capacity(metadata.len() as usize + 1);
     file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(file_error)?;
     Ok(read(&name, &bytes, options)?)
 }

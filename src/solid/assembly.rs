@@ -29,9 +29,10 @@ fn mapped<T: Sync, U: Send>(items: &[T], f: impl Fn(usize, &T) -> U + Sync) -> V
 }
 
 /// Those that are there, in the memory that held them all.
-fn present<T>(all: Vec<Option<T>>) -> Vec<T> {
+fn present<T>(mut all: Vec<Option<T>>) -> Vec<T> {
+    all.retain(Option::is_some);
     // `flatten` would take new memory.
-    all.into_iter().filter(Option::is_some).collect::<Option<_>>().unwrap_or_default()
+    all.into_iter().collect::<Option<_>>().unwrap_or_default()
 }
 
 /// The objects of a scene, ready for rays.
@@ -255,7 +256,11 @@ impl Assembly {
             }
         }
         let limit = objects.iter().fold(Bounds::EMPTY, |limit, object| limit.join(&object.bounds));
-        let off = primitives.iter().map(|p| p.form.off()).fold(0.0, f64::max);
+        let off = if primitives.len() < STRETCH {
+            primitives.iter().map(|p| p.form.off()).fold(0.0, f64::max)
+        } else {
+            primitives.par_iter().map(|p| p.form.off()).reduce(|| 0.0, f64::max)
+        };
         Ok(Self { primitives, objects, limit, off, datum })
     }
 

@@ -51,8 +51,8 @@ impl Lamps {
 /// The materials, each stored once.
 #[derive(Debug, Default)]
 pub struct Fills {
-    /// The numbers of each; `None` is ray13's own, for what comes before the first `f`.
-    fills: Vec<Option<[f64; 8]>>,
+    /// Of each; `None` is ray13's own, for what comes before the first `f`.
+    numbers: Vec<Option<[f64; 8]>>,
     /// By their bits. Only asked by key, so that its order plays no part.
     known: HashMap<[u64; 8], MaterialId>,
     current: Option<MaterialId>,
@@ -84,10 +84,10 @@ impl Fills {
     }
 
     fn id(&mut self, values: [f64; 8]) -> MaterialId {
-        let next = MaterialId(self.fills.len() as u32);
+        let next = MaterialId(self.numbers.len() as u32);
         let id = *self.known.entry(values.map(f64::to_bits)).or_insert(next);
         if id == next {
-            self.fills.push(Some(values));
+            self.numbers.push(Some(values));
         }
         id
     }
@@ -95,8 +95,8 @@ impl Fills {
     /// The material of what comes next: the last that was read, else ray13's own.
     pub fn current(&mut self) -> MaterialId {
         *self.current.get_or_insert_with(|| {
-            self.fills.push(None);
-            MaterialId(self.fills.len() as u32 - 1)
+            self.numbers.push(None);
+            MaterialId(self.numbers.len() as u32 - 1)
         })
     }
 
@@ -107,7 +107,7 @@ impl Fills {
             Some(values) => self.id(values),
             None => self.current(),
         };
-        let ids: Vec<MaterialId> = next.fills.into_iter().map(of).collect();
+        let ids: Vec<MaterialId> = next.numbers.into_iter().map(of).collect();
         self.current = next.current.map(|MaterialId(id)| ids[id as usize]).or(self.current);
         self.too_bright = self.too_bright.take().or(next.too_bright);
         ids
@@ -118,7 +118,7 @@ impl Fills {
         if let Some(place) = self.too_bright {
             sink.note(Diagnostic::note(place, "where Ks + T is above 1, only 1 - T is mirrored"));
         }
-        self.fills.into_iter().map(|fill| fill.map_or_else(Material::default, material)).collect()
+        self.numbers.into_iter().map(|fill| fill.map_or_else(Material::default, material)).collect()
     }
 }
 

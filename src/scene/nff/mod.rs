@@ -53,7 +53,9 @@ fn in_stretches(text: &str, bytes: usize) -> Option<Reader> {
     let readers: Vec<Reader> = read.collect::<Option<_>>()?;
     let mut whole = Reader::default();
     whole.solids.reserve(readers.iter().map(|reader| reader.solids.len()).sum());
-    readers.into_iter().for_each(|reader| whole.append(reader));
+    for reader in readers {
+        whole.append(reader);
+    }
     Some(whole)
 }
 

@@ -104,6 +104,7 @@ fn column_sizes(m: &DMat3) -> DVec3 {
 }
 
 /// For each size the power of two `s` with `1 ≤ size / s < 2`; `None` where a size is 0 or not finite.
+#[inline]
 fn power_of_two_near(sizes: DVec3) -> Option<DVec3> {
     /// Of a normal number these bits alone are the power of two.
     const EXPONENT: u64 = f64::INFINITY.to_bits();

@@ -170,11 +170,14 @@ impl Datum {
         let map = DAffine3 { matrix3, translation: self.inward(p.map.translation) };
         // The scale is exact; a shift is rounded.
         let shifted = if self.origin == DVec3::ZERO { DVec3::ZERO } else { ROUNDING * map.translation.abs() };
+        let error = p.displacement() / self.unit + shifted;
+        if let Some(ball) = Form::ball(&p.shape, &map, error) {
+            return Some(ball);
+        }
         let place = Placement::new(&map).filter(|place| {
             // Lengths of the world in the unit space, whose squares must not overflow.
             place.inverse.to_cols_array().iter().all(|x| x.abs() <= FARTHEST)
         });
-        let error = p.displacement() / self.unit + shifted;
         match place {
             Some(place) => Some(Form::new(&p.shape, place, error)),
             // So thin beside the scene that no ray meets it, though its map has an inverse: a ball of no size.

@@ -1,6 +1,8 @@
 //! One primitive, put into the world and specialised: only what its map requires is computed per ray.
 
-use crate::math::{Bounds, DMat3, DVec3, Placement, Ray};
+use std::ops::RangeInclusive;
+
+use crate::math::{Bounds, DAffine3, DMat3, DVec3, Placement, Ray};
 use crate::scene::{MaterialId, Shape};
 
 use super::ball::Ball;
@@ -57,7 +59,20 @@ pub enum Cover {
     Some,
 }
 
+/// Radii whose inverse maps are far from the limits of f64.
+const PLAIN: RangeInclusive<f64> = 1e-90..=1e90;
+
 impl Form {
+    /// A unit sphere that the map keeps round, which may be off by `error`: it needs no inverse. `None` for another shape,
+    /// or a map that wants a closer look.
+    pub fn ball(shape: &Shape, map: &DAffine3, error: DVec3) -> Option<Self> {
+        if !matches!(shape, Shape::Sphere) || !map.translation.is_finite() {
+            return None;
+        }
+        let radius = similarity(&map.matrix3).filter(|radius| PLAIN.contains(radius))?;
+        Some(Self::Ball(Ball::new(map.translation, radius, error)))
+    }
+
     /// The form of a unit shape at `place`, which may be off by `error`.
     pub fn new(shape: &Shape, place: Placement, error: DVec3) -> Self {
         match shape {

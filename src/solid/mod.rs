@@ -20,9 +20,11 @@ mod slabs;
 mod span;
 mod state;
 mod surface;
+mod taper;
 #[cfg(test)]
 mod tests;
 mod tube;
+mod unit_space;
 
 pub use assembly::{Assembly, AssemblyError, Body, Datum, Object};
 pub use ball::Ball;

@@ -49,6 +49,14 @@ pub struct SideCrossings<N: Number> {
     pub one_way: N::Mask,
 }
 
+impl<N: Number> SideCrossings<N> {
+    #[inline(always)]
+    fn none(like: N) -> Self {
+        let Spans { enter, leave, any } = Spans::none(like);
+        Self { enter, enters: any, leave, leaves: any, one_way: any }
+    }
+}
+
 /// Rays in the unit space, re-centred: `o` is the point of each that is closest to the unit origin.
 struct Centred<N> {
     o: Vector<N>,
@@ -98,12 +106,16 @@ impl Round {
     #[inline(always)]
     pub fn side_crossings<N: Number>(&self, rays: &Rays<N>) -> SideCrossings<N> {
         let rays = self.centred(rays);
+        let near = !rays.pass_by();
+        if !near.any() {
+            return SideCrossings::none(rays.t);
+        }
         let (middle, slope) = match self.profile {
             Profile::Frustum { middle, slope } => (middle, slope),
             Profile::Sphere => (f64::NAN, 0.0),
         };
         let side = side_spans(&rays, middle, slope);
-        let met = side.any & !rays.pass_by();
+        let met = side.any & near;
         let finite = |t: N| t.magnitude().is_below(t.same(f64::INFINITY));
         let between_caps = |end: Ends<N>| {
             let z = rays.o.z + end.t * rays.d.z;

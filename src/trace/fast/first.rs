@@ -9,15 +9,14 @@ use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 use crate::lattice::{Beam, Child, SLACK, Spread};
 use crate::math::{Bundle, DVec3, LANES, Mask, Number, ROWS, Rays};
 use crate::solid::{
-    Body, Firsts, Flat, Form, Found, Left, Reach, Spans, Starts, first_of_expressions, first_of_surface,
-    firsts_of_spans,
+    Body, Firsts, Flat, Form, Found, Left, Reach, Spans, Starts, first_of_expressions, firsts_of_spans,
+    firsts_of_surface,
 };
-use crate::stage::{Meter, Silent};
 
 use super::Fast;
 use super::memory::TileMemory;
 use super::nearest::{Nearest, Offer};
-use super::walk::{bounds_between, push_nearest_last, through, touching};
+use super::walk::{bounds_between, push_nearest_last, through};
 
 /// The most leaves of an expression that are asked at once, rather than the way being cut into shorter slices: more
 /// cost more than a slice does.
@@ -37,11 +36,13 @@ impl Fast<'_> {
         memory: &mut TileMemory,
     ) {
         let whole = Beam::around(simd, bundles.iter().map(|bundle| (bundle, None)), Spread::Apart);
-        let TileMemory { beams, far, stack, .. } = memory;
+        let TileMemory { beams, .. } = memory;
         beams.clear();
         for bundle in bundles {
             beams.push(Beam::around(simd, std::iter::once((bundle, None)), Spread::Apart));
         }
+        memory.forget_sheared(bundles.len());
+        let TileMemory { far, stack, .. } = memory;
         far.clear();
         far.extend(bundles.iter().map(|b| if b.live == 0 { f64::NEG_INFINITY } else { f64::INFINITY }));
         for found in &mut *nearest {
@@ -98,19 +99,9 @@ impl Fast<'_> {
             Body::Surface(index) => {
                 memory.counts.primitive_tests += 1;
                 let primitive = &primitives[*index as usize];
-                let bounds = self.assembly.objects[object as usize].bounds.padded(DVec3::splat(self.slack));
-                let found = &mut memory.found;
-                (found.any, found.entering) = (0, 0);
-                let mut rest = touching(simd, bundle, &bounds);
-                while rest != 0 {
-                    let lane = rest.trailing_zeros() as usize;
-                    rest &= rest - 1;
-                    let ray = bundle.ray(lane);
-                    if let Some(c) = first_of_surface(&ray, primitive, *index, None, &mut Meter::new(Silent))
-                    {
-                        found.set(lane, &c);
-                    }
-                }
+                let TileMemory { sheared, found, .. } = memory;
+                let sheared = &mut sheared[k];
+                firsts_of_surface(simd, bundle, bundle.live, primitive, *index, None, sheared, found);
                 if found.any != 0 {
                     offer_found(simd, found, object, nearest);
                 }
@@ -198,6 +189,9 @@ fn offer_found<S: Simd>(simd: S, found: &Found, object: u32, nearest: &mut Neare
         #[inline(always)]
         || {
             for row in 0..ROWS {
+                if (found.any >> (row * LANES)) as u8 == 0 {
+                    continue;
+                }
                 let bits = |word: u64| mask64x8::from_bitmask(simd, word >> (row * LANES) & 0xFF);
                 let met = Offer {
                     any: bits(found.any),

@@ -1,7 +1,7 @@
 //! Memory of one worker.
 
 use crate::lattice::Beam;
-use crate::solid::{BundleScratch, Found, Pruning, Remains};
+use crate::solid::{BundleScratch, Found, Pruning, Remains, Sheared};
 use crate::stage::Counts;
 
 /// What tracing a tile needs, used again for every tile.
@@ -10,6 +10,8 @@ pub struct TileMemory {
     /// By bundle: its own frustum, and how far its rays have still to look.
     pub(super) beams: Vec<Beam>,
     pub(super) far: Vec<f64>,
+    /// By bundle: the planes across its rays, where they were asked for.
+    pub(super) sheared: Vec<Sheared>,
     /// Nodes to be walked, and how near they are at least.
     pub(super) stack: Vec<(f64, u32)>,
     pub(super) scratch: BundleScratch,
@@ -27,11 +29,20 @@ impl TileMemory {
     }
 }
 
+impl TileMemory {
+    /// Forgets the planes across the rays of the last tile; this one has so many bundles.
+    pub(super) fn forget_sheared(&mut self, bundles: usize) {
+        self.sheared.clear();
+        self.sheared.resize(bundles, Sheared::UNKNOWN);
+    }
+}
+
 impl Default for TileMemory {
     fn default() -> Self {
         Self {
             beams: Vec::new(),
             far: Vec::new(),
+            sheared: Vec::new(),
             stack: Vec::new(),
             scratch: BundleScratch::default(),
             found: Box::new(Found::NONE),

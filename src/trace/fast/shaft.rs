@@ -9,15 +9,14 @@ use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 use crate::lattice::{Beam, Child, SLACK, Spread};
 use crate::math::{Bundle, Column, DVec3, LANES, Mask, Number, ROWS, Rays};
 use crate::solid::{
-    Body, Departures, Firsts, Flat, Form, Left, Reach, Spans, Starts, first_of_expressions, first_of_surface,
-    firsts_of_spans,
+    Body, Departures, Firsts, Flat, Form, Found, Left, Reach, Spans, Starts, first_of_expressions,
+    firsts_of_spans, firsts_of_surface,
 };
-use crate::stage::{Meter, Silent};
 
 use super::Fast;
 use super::first::{FEW, HALVINGS};
 use super::memory::TileMemory;
-use super::walk::{bounds_between, push_nearest_last, through, touching};
+use super::walk::{bounds_between, push_nearest_last, through};
 
 /// Rays towards a light.
 #[derive(Clone, Debug)]
@@ -55,6 +54,17 @@ impl Shaft {
     fn open(&self) -> u64 {
         self.rays.live & !(self.blocked | self.unsure)
     }
+
+    /// Notes the rays that meet something before they reach the light.
+    fn block(&mut self, found: &Found) {
+        let mut met = found.any;
+        while met != 0 {
+            let lane = met.trailing_zeros() as usize;
+            met &= met - 1;
+            let blocks = found.t.0[lane] + found.error.0[lane] < self.distance.0[lane];
+            self.blocked |= u64::from(blocks) << lane;
+        }
+    }
 }
 
 impl Fast<'_> {
@@ -73,6 +83,7 @@ impl Fast<'_> {
         for one in bundles() {
             memory.beams.push(Beam::around(simd, std::iter::once(one), Spread::Together));
         }
+        memory.forget_sheared(shafts.len());
         memory.stack.clear();
         memory.stack.push((f64::NEG_INFINITY, 0));
         while let Some((_, node)) = memory.stack.pop() {
@@ -92,7 +103,7 @@ impl Fast<'_> {
                         let slot = left.trailing_zeros() as usize;
                         left &= left - 1;
                         if let Some(Child::Object(object)) = node.child(slot) {
-                            self.object_in_shaft(simd, object, shaft, &departures[k], memory);
+                            self.object_in_shaft(simd, object, shaft, &departures[k], memory, k);
                         }
                     }
                     all_blocked &= shaft.open() == 0;
@@ -112,6 +123,7 @@ impl Fast<'_> {
         shaft: &mut Shaft,
         departures: &Departures,
         memory: &mut TileMemory,
+        k: usize,
     ) {
         let primitives = &self.assembly.primitives;
         let own = &self.assembly.objects[object as usize];
@@ -122,17 +134,11 @@ impl Fast<'_> {
             }
             Body::Surface(index) => {
                 memory.counts.primitive_tests += 1;
-                let bounds = own.bounds.padded(DVec3::splat(self.slack));
-                let mut rest = touching(simd, &shaft.rays, &bounds) & shaft.open();
-                while rest != 0 {
-                    let lane = rest.trailing_zeros() as usize;
-                    rest &= rest - 1;
-                    let (ray, departure) = (shaft.rays.ray(lane), departures.get(lane));
-                    let (primitive, mut meter) = (&primitives[*index as usize], Meter::new(Silent));
-                    let met = first_of_surface(&ray, primitive, *index, Some(departure), &mut meter);
-                    let blocks = met.is_some_and(|c| c.t + c.error < shaft.distance.0[lane]);
-                    shaft.blocked |= u64::from(blocks) << lane;
-                }
+                let (primitive, departures) = (&primitives[*index as usize], Some(departures));
+                let TileMemory { sheared, found, .. } = memory;
+                let (sheared, open) = (&mut sheared[k], shaft.open());
+                firsts_of_surface(simd, &shaft.rays, open, primitive, *index, departures, sheared, found);
+                shaft.block(found);
             }
             Body::Composite { whole, .. } => {
                 let bounds = own.bounds.padded(DVec3::splat(self.slack));
@@ -200,13 +206,7 @@ impl<S: Simd> Slicing<'_, S> {
         );
         shaft.unsure |= found.unsure;
         self.open &= !(found.unsure | found.any);
-        let mut met = found.any;
-        while met != 0 {
-            let lane = met.trailing_zeros() as usize;
-            met &= met - 1;
-            let blocks = found.t.0[lane] + found.error.0[lane] < shaft.distance.0[lane];
-            shaft.blocked |= u64::from(blocks) << lane;
-        }
+        shaft.block(found);
     }
 }
 

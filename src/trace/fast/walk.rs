@@ -61,11 +61,6 @@ pub fn through<S: Simd>(simd: S, bundle: &Bundle, b: &Bounds) -> Option<(u64, f6
     )
 }
 
-/// Which rays of a bundle pass a box.
-pub fn touching<S: Simd>(simd: S, bundle: &Bundle, b: &Bounds) -> u64 {
-    through(simd, bundle, b).map_or(0, |(any, ..)| any)
-}
-
 /// The box around the way of all rays of a bundle between two distances.
 pub fn bounds_between<S: Simd>(simd: S, bundle: &Bundle, from: f64, to: f64) -> Bounds {
     simd.vectorize(

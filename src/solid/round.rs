@@ -116,17 +116,12 @@ impl Round {
         };
         let side = side_spans(&rays, middle, slope);
         let met = side.any & near;
-        let finite = |t: N| t.magnitude().is_below(t.same(f64::INFINITY));
-        let between_caps = |end: Ends<N>| {
-            let z = rays.o.z + end.t * rays.d.z;
-            met & finite(end.t) & z.magnitude().is_at_most(z.same(1.0))
-        };
         SideCrossings {
             enter: Ends { t: rays.t + side.enter.t, ..side.enter },
-            enters: between_caps(side.enter),
+            enters: met & rays.between_caps(side.enter.t),
             leave: Ends { t: rays.t + side.leave.t, ..side.leave },
-            leaves: between_caps(side.leave),
-            one_way: met & (!finite(side.enter.t) | !finite(side.leave.t)),
+            leaves: met & rays.between_caps(side.leave.t),
+            one_way: met & !(is_finite(side.enter.t) & is_finite(side.leave.t)),
         }
     }
 
@@ -250,7 +245,19 @@ impl Round {
     }
 }
 
+#[inline(always)]
+fn is_finite<N: Number>(t: N) -> N::Mask {
+    t.magnitude().is_below(t.same(f64::INFINITY))
+}
+
 impl<N: Number> Centred<N> {
+    /// Whether a place on the line, so far from its point closest to the unit origin, lies between the caps.
+    #[inline(always)]
+    fn between_caps(&self, t: N) -> N::Mask {
+        let z = self.o.z + t * self.d.z;
+        is_finite(t) & z.magnitude().is_at_most(z.same(1.0))
+    }
+
     /// Whether the line is certainly beside the frustum, which lies within √2 of the unit origin.
     #[inline(always)]
     fn pass_by(&self) -> N::Mask {
@@ -338,16 +345,12 @@ fn side_spans<N: Number>(rays: &Centred<N>, middle: f64, slope: f64) -> Spans<N>
     // A point moved by `off` changes the form x² + y² − ρ² by (2|x| + off.x)·off.x, and so for y and ρ: near an apex
     // hardly at all, and at the long end of an ellipse by the long axis' off only.
     let off = DVec3::new(rays.off.x, rays.off.y, slope.abs() * rays.off.z);
-    let form_off = |t: N, off: DVec3| {
-        let p = Vector { x: o.x + t * d.x, y: o.y + t * d.y, z: rho + t * d_rho };
-        let p = p.magnitude();
-        Vector { x: p.x * 2.0 + off.x, y: p.y * 2.0 + off.y, z: p.z * 2.0 + off.z }.dot_one(off)
-    };
+    let form = Rays { o: Vector { z: rho, ..o }, d: Vector { z: d_rho, ..d } };
     let zero = rays.t.same(0.0);
     let (crosses, steeper) = (a.is_above(zero), a.is_below(zero));
     // A chord is none where the form at its middle, −discriminant / a at t = −b / a, may be 0.
     let is_chord =
-        discriminant.is_above(zero) & discriminant.is_above(a * form_off(-b / a, rays.seeming * off));
+        discriminant.is_above(zero) & discriminant.is_above(a * form_off(&form, -b / a, rays.seeming * off));
     let is_number = discriminant.is_equal(discriminant);
     let met = is_number & (!crosses | is_chord);
     if !met.any() {
@@ -357,10 +360,10 @@ fn side_spans<N: Number>(rays: &Centred<N>, middle: f64, slope: f64) -> Spans<N>
     let root = discriminant.larger(zero).root();
     // The root of a number that is off by `form_off · |a|` is off by that over twice the root, and never by more than
     // the root of that: all there is to say at the apex, where the root is 0.
-    let error = |t: N| {
-        let (form_off, a) = (form_off(t, off), a.magnitude());
+    #[inline(always)]
+    fn error<N: Number>(form_off: N, a: N, discriminant: N, root: N) -> N {
         discriminant.is_below(form_off * a).choose((form_off / a).root(), form_off * 0.5 / root)
-    };
+    }
     // The root whose terms do not cancel, and the other from the product c / a.
     let q = -(b + root.signed_as(b));
     let none = q.is_equal(zero);
@@ -368,14 +371,19 @@ fn side_spans<N: Number>(rays: &Centred<N>, middle: f64, slope: f64) -> Spans<N>
     let ordered = t1.is_below(t2);
     let (low, high) = (ordered.choose(t1, t2), ordered.choose(t2, t1));
     let surface = rays.t.same(f64::from(SIDE));
-    let low = Ends { t: low, error: error(low), surface };
-    let high = Ends { t: high, error: error(high), surface };
+    let steepness = a.magnitude();
+    let [low_error, high_error] = [
+        error(form_off(&form, low, off), steepness, discriminant, root),
+        error(form_off(&form, high, off), steepness, discriminant, root),
+    ];
+    let low = Ends { t: low, error: low_error, surface };
+    let high = Ends { t: high, error: high_error, surface };
     if !(met & !crosses).any() {
         return Spans { enter: low, leave: high, any: met };
     }
     // Parallel to the side, or to the axis of a cylinder: 2bt + c ≤ 0.
     let t = c * -0.5 / b;
-    let once = Ends { t, error: form_off(t, off) * 0.5 / b.magnitude(), surface };
+    let once = Ends { t, error: form_off(&form, t, off) * 0.5 / b.magnitude(), surface };
     let line = Spans::line(rays.t);
     // Steeper than the side: one crossing per nappe; only the one with ρ ≥ 0 is the solid's.
     let widens = d_rho.is_above(zero);
@@ -390,6 +398,13 @@ fn side_spans<N: Number>(rays: &Centred<N>, middle: f64, slope: f64) -> Spans<N>
         leave: Ends::choose(crosses, high, leave),
         any: met & (crosses | steeper | slanted | c.is_below(zero)),
     }
+}
+
+/// How much the form x² + y² − ρ² changes at a place on each line that is moved by `off`; `lines` are (x, y, ρ).
+#[inline(always)]
+fn form_off<N: Number>(lines: &Rays<N>, t: N, off: DVec3) -> N {
+    let p = lines.at(t).magnitude();
+    Vector { x: p.x * 2.0 + off.x, y: p.y * 2.0 + off.y, z: p.z * 2.0 + off.z }.dot_one(off)
 }
 
 #[inline(always)]

@@ -57,10 +57,9 @@ impl Sheared {
             for (main, mask) in [x, y, z].into_iter().enumerate() {
                 self.main[main] |= u64::from(mask.bits()) << (row * LANES);
             }
-            let of_main = |x_: f64x8<S>, y_: f64x8<S>, z_: f64x8<S>| x.choose(x_, y.choose(y_, z_));
-            let main = of_main(d.x, d.y, d.z);
-            self.shear[0].store(row, of_main(d.y, d.z, d.x) / main);
-            self.shear[1].store(row, of_main(d.z, d.x, d.y) / main);
+            let main = x.choose(d.x, y.choose(d.y, d.z));
+            self.shear[0].store(row, x.choose(d.y, y.choose(d.z, d.x)) / main);
+            self.shear[1].store(row, x.choose(d.z, y.choose(d.x, d.y)) / main);
         }
     }
 
@@ -78,9 +77,9 @@ impl Sheared {
         bundle: &Bundle,
         row: usize,
     ) -> Row<S, MAIN> {
-        let o = |axis: usize| bundle.o[axis].load(simd, row);
+        let [main, first, second] = [&bundle.o[MAIN], &bundle.o[(MAIN + 1) % 3], &bundle.o[(MAIN + 2) % 3]];
         Row {
-            o: [o(MAIN), o((MAIN + 1) % 3), o((MAIN + 2) % 3)],
+            o: [main.load(simd, row), first.load(simd, row), second.load(simd, row)],
             shear: [self.shear[0].load(simd, row), self.shear[1].load(simd, row)],
         }
     }
@@ -124,10 +123,8 @@ impl<S: Simd, const MAIN: usize> Row<S, MAIN> {
     #[inline(always)]
     pub fn may_cross(&self, b: &Bounds) -> bool {
         let (lo, hi) = (b.lo.to_array(), b.hi.to_array());
-        let along = [lo[MAIN], hi[MAIN]].map(
-            #[inline(always)]
-            |end| (-self.o[0] + end) * self.shear[1],
-        );
+        let shear = self.shear[1];
+        let along = [(-self.o[0] + lo[MAIN]) * shear, (-self.o[0] + hi[MAIN]) * shear];
         let least = (-self.o[2] + lo[(MAIN + 2) % 3]) - along[0].larger(along[1]);
         let most = (-self.o[2] + hi[(MAIN + 2) % 3]) - along[0].smaller(along[1]);
         let zero = least.same(0.0);

@@ -59,12 +59,14 @@ pub(super) fn firsts_of_tube<N: Number>(
     starts: &Starts<N>,
 ) -> Firsts<N> {
     let found = tube.crossings(rays);
-    let ahead = |end: &Ends<N>| !end.t.is_at_most(start_of(end.error, form, starts.off));
-    let entering = !starts.here & found.enters & ahead(&found.enter);
+    let (enter, leave) = (&found.enter, &found.leave);
+    let enter_ahead = !enter.t.is_at_most(start_of(enter.error, form, starts.off));
+    let leave_ahead = !leave.t.is_at_most(start_of(leave.error, form, starts.off));
+    let entering = !starts.here & found.enters & enter_ahead;
     // A ray that starts on the tube went in there: what is left is where it comes out, if that is another place. A ray to
     // the outside of a convex solid does not meet its side again.
-    let other = starts.inward & !found.one_way & found.leave.t.is_above(found.leave.t.same(0.0));
-    let leaving = found.leaves & ((starts.here & other) | (!starts.here & ahead(&found.leave)));
+    let other = starts.inward & !found.one_way & leave.t.is_above(leave.t.same(0.0));
+    let leaving = found.leaves & ((starts.here & other) | (!starts.here & leave_ahead));
     Firsts { end: Ends::choose(entering, found.enter, found.leave), entering, any: entering | leaving }
 }
 

@@ -53,6 +53,12 @@ pub fn firsts_of_surface<S: Simd>(
     }
 }
 
+/// Those of a row among some rays of a bundle.
+#[inline(always)]
+fn rays_of_row<S: Simd>(simd: S, row: usize, rays: u64) -> mask64x8<S> {
+    mask64x8::from_bitmask(simd, rays >> (row * LANES) & 0xFF)
+}
+
 /// Who asks one surface.
 struct Asking<'a> {
     bundle: &'a Bundle,
@@ -90,9 +96,8 @@ impl Asking<'_> {
             return;
         }
         for row in 0..ROWS {
-            let shift = row * LANES;
-            let asking = rays >> shift & 0xFF;
-            if asking == 0 {
+            let asking = rays_of_row(simd, row, rays);
+            if !asking.any_true() {
                 continue;
             }
             let across = sheared.row::<S, MAIN>(simd, self.bundle, row);
@@ -102,7 +107,6 @@ impl Asking<'_> {
                     across.add(&mut around, corners);
                 }
             }
-            let asking: mask64x8<S> = mask64x8::from_bitmask(simd, asking);
             let mut unsure = around.unsure & asking;
             let odd = around.odd & asking & !unsure;
             if odd.any_true() {
@@ -113,18 +117,17 @@ impl Asking<'_> {
                 let any = odd & steep & !before;
                 self.put(simd, row, &Firsts { end, entering: against, any }, found);
             }
-            found.unsure |= u64::from(unsure.bits()) << shift;
+            found.unsure |= u64::from(unsure.bits()) << (row * LANES);
         }
     }
 
     #[inline(always)]
     fn tube<S: Simd>(&self, simd: S, tube: &Tube, wanted: u64, found: &mut Found) {
         for row in 0..ROWS {
-            let bits = |word: u64| mask64x8::from_bitmask(simd, word >> (row * LANES) & 0xFF);
-            let asking: mask64x8<S> = bits(wanted);
+            let asking = rays_of_row(simd, row, wanted);
             if asking.any_true() {
-                let starts =
-                    Starts { here: bits(self.here), inward: bits(self.inward), off: self.off(simd, row) };
+                let (here, inward) = (rays_of_row(simd, row, self.here), rays_of_row(simd, row, self.inward));
+                let starts = Starts { here, inward, off: self.off(simd, row) };
                 let firsts = firsts_of_tube(&self.bundle.load(simd, row), tube, self.form, &starts);
                 self.put(simd, row, &Firsts { any: firsts.any & asking, ..firsts }, found);
             }

@@ -16,7 +16,7 @@ use crate::solid::{
 use super::Fast;
 use super::memory::TileMemory;
 use super::nearest::{Nearest, Offer};
-use super::walk::{bounds_between, push_nearest_last, through};
+use super::walk::{asking, bounds_between, push_nearest_last, through};
 
 /// The most leaves of an expression that are asked at once, rather than the way being cut into shorter slices: more
 /// cost more than a slice does.
@@ -101,7 +101,9 @@ impl Fast<'_> {
                 let primitive = &primitives[*index as usize];
                 let TileMemory { sheared, found, .. } = memory;
                 let sheared = &mut sheared[k];
-                firsts_of_surface(simd, bundle, bundle.live, primitive, *index, None, sheared, found);
+                let bounds = self.assembly.objects[object as usize].bounds.padded(DVec3::splat(self.slack));
+                let wanted = asking(simd, bundle, &primitive.form, &bounds);
+                firsts_of_surface(simd, bundle, wanted, primitive, *index, None, sheared, found);
                 if found.any != 0 {
                     offer_found(simd, found, object, nearest);
                 }

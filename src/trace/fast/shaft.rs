@@ -16,7 +16,7 @@ use crate::solid::{
 use super::Fast;
 use super::first::{FEW, HALVINGS};
 use super::memory::TileMemory;
-use super::walk::{bounds_between, push_nearest_last, through};
+use super::walk::{asking, bounds_between, push_nearest_last, through};
 
 /// Rays towards a light.
 #[derive(Clone, Debug)]
@@ -136,8 +136,10 @@ impl Fast<'_> {
                 memory.counts.primitive_tests += 1;
                 let (primitive, departures) = (&primitives[*index as usize], Some(departures));
                 let TileMemory { sheared, found, .. } = memory;
-                let (sheared, open) = (&mut sheared[k], shaft.open());
-                firsts_of_surface(simd, &shaft.rays, open, primitive, *index, departures, sheared, found);
+                let bounds = own.bounds.padded(DVec3::splat(self.slack));
+                let wanted = asking(simd, &shaft.rays, &primitive.form, &bounds) & shaft.open();
+                let sheared = &mut sheared[k];
+                firsts_of_surface(simd, &shaft.rays, wanted, primitive, *index, departures, sheared, found);
                 shaft.block(found);
             }
             Body::Composite { whole, .. } => {

@@ -1,8 +1,8 @@
 //! Open tubes: the sides of cylinders, cones and frustums, seen from both sides.
 
-use crate::math::{Bounds, DAffine3, DMat3, DVec3, Number, Placement, Rays};
+use crate::math::{Bounds, DAffine3, DMat3, DVec3, Mask, Number, Placement, Rays};
 
-use super::span::Ends;
+use super::span::{Ends, Spans};
 use super::taper::Taper;
 use super::unit_space::{UnitSpace, is_finite};
 
@@ -29,6 +29,14 @@ pub struct SideCrossings<N: Number> {
     pub one_way: N::Mask,
 }
 
+impl<N: Number> SideCrossings<N> {
+    #[inline(always)]
+    fn none(like: N) -> Self {
+        let Spans { enter, leave, any } = Spans::none(like);
+        Self { enter, enters: any, leave, leaves: any, one_way: any }
+    }
+}
+
 impl Tube {
     /// The tube at `place`, which may be off by `map_error`, of radius `bottom` at z = −1 and `top` at z = 1.
     pub fn new(place: &Placement, bottom: f64, top: f64, map_error: DVec3) -> Self {
@@ -40,8 +48,12 @@ impl Tube {
     #[inline(always)]
     pub fn crossings<N: Number>(&self, rays: &Rays<N>) -> SideCrossings<N> {
         let rays = self.space.centred(rays);
+        let near = !rays.pass_by();
+        if !near.any() {
+            return SideCrossings::none(rays.t);
+        }
         let side = self.taper.sides(&rays);
-        let met = side.any & !rays.pass_by();
+        let met = side.any & near;
         SideCrossings {
             enter: Ends { t: rays.t + side.enter.t, ..side.enter },
             enters: met & rays.between_caps(side.enter.t),

@@ -9,16 +9,15 @@ use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 use crate::lattice::{Beam, Child, SLACK, Spread};
 use crate::math::{Bundle, Columns, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
 use crate::solid::{
-    Ball, Body, Firsts, Flat, Form, Found, Left, Reach, Spans, Starts, first_of_expressions,
-    first_of_surface, firsts_of_spans, with_spans,
+    Ball, Body, Firsts, Flat, Form, Found, Left, Reach, Spans, Starts, first_of_expressions, firsts_of_spans,
+    firsts_of_surface, with_spans,
 };
-use crate::stage::{Meter, Silent};
 
 use super::Fast;
 use super::memory::TileMemory;
 use super::nearest::{Nearest, Offer};
 use super::thin::Thin;
-use super::walk::{bounds_between, push_nearest_last, through, touching};
+use super::walk::{asking, bounds_between, push_nearest_last, through};
 
 /// The most leaves of an expression that are asked at once, rather than the way being cut into shorter slices: more
 /// cost more than a slice does.
@@ -42,7 +41,7 @@ impl Fast<'_> {
         memory: &mut TileMemory,
     ) {
         let whole = beam_of_tile(simd, bundles);
-        let TileMemory { beams, far, thin, fan, stack, .. } = memory;
+        let TileMemory { beams, thin, fan, .. } = memory;
         beams.clear();
         for bundle in bundles {
             beams.push(beam_of(simd, bundle));
@@ -52,6 +51,8 @@ impl Fast<'_> {
         for (thin, bundle) in thin.iter_mut().zip(bundles) {
             thin.set(simd, bundle);
         }
+        memory.forget_sheared(bundles.len());
+        let TileMemory { far, stack, .. } = memory;
         far.clear();
         far.extend(bundles.iter().map(|b| if b.live == 0 { f64::NEG_INFINITY } else { f64::INFINITY }));
         for found in &mut *nearest {
@@ -125,19 +126,11 @@ impl Fast<'_> {
             Body::Surface(index) => {
                 memory.counts.primitive_tests += 1;
                 let primitive = &primitives[*index as usize];
+                let TileMemory { sheared, found, .. } = memory;
+                let sheared = &mut sheared[k];
                 let bounds = self.assembly.objects[object as usize].bounds.padded(DVec3::splat(self.slack));
-                let found = &mut memory.found;
-                (found.any, found.entering) = (0, 0);
-                let mut rest = touching(simd, bundle, &bounds);
-                while rest != 0 {
-                    let lane = rest.trailing_zeros() as usize;
-                    rest &= rest - 1;
-                    let ray = bundle.ray(lane);
-                    if let Some(c) = first_of_surface(&ray, primitive, *index, None, &mut Meter::new(Silent))
-                    {
-                        found.set(lane, &c);
-                    }
-                }
+                let wanted = asking(simd, bundle, &primitive.form, &bounds);
+                firsts_of_surface(simd, bundle, wanted, primitive, *index, None, sheared, found);
                 if found.any != 0 {
                     offer_found(simd, found, object, nearest);
                 }
@@ -298,6 +291,9 @@ fn offer_found<S: Simd>(simd: S, found: &Found, object: u32, nearest: &mut Neare
         #[inline(always)]
         || {
             for row in 0..ROWS {
+                if (found.any >> (row * LANES)) as u8 == 0 {
+                    continue;
+                }
                 let met = Offer {
                     any: row_of(simd, found.any, row),
                     t: found.t.load(simd, row),

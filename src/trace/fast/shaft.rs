@@ -9,16 +9,15 @@ use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 use crate::lattice::{Beam, Child, SLACK};
 use crate::math::{Bundle, Column, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
 use crate::solid::{
-    Ball, Body, Departures, Firsts, Flat, Form, Left, Reach, Spans, Starts, first_of_expressions,
-    first_of_surface, firsts_of_spans, with_spans,
+    Ball, Body, Departures, Firsts, Flat, Form, Found, Left, Reach, Spans, Starts, first_of_expressions,
+    firsts_of_spans, firsts_of_surface, with_spans,
 };
-use crate::stage::{Meter, Silent};
 
 use super::Fast;
 use super::first::{FEW, HALVINGS};
 use super::memory::TileMemory;
 use super::thin::Thin;
-use super::walk::{bounds_between, push_nearest_last, through, touching};
+use super::walk::{asking, bounds_between, push_nearest_last, through};
 
 /// The most objects that the shafts of a tile are asked about, one after the other: as for rays from the eye, but rays
 /// towards a light take less time one by one, and there are more objects that they pass.
@@ -60,6 +59,17 @@ impl Shaft {
     fn open(&self) -> u64 {
         self.rays.live & !(self.blocked | self.unsure)
     }
+
+    /// Notes the rays that meet something before they reach the light.
+    fn block(&mut self, found: &Found) {
+        let mut met = found.any;
+        while met != 0 {
+            let lane = met.trailing_zeros() as usize;
+            met &= met - 1;
+            let blocks = found.t.0[lane] + found.error.0[lane] < self.distance.0[lane];
+            self.blocked |= u64::from(blocks) << lane;
+        }
+    }
 }
 
 impl Fast<'_> {
@@ -91,6 +101,7 @@ impl Fast<'_> {
         for (thin, shaft) in memory.thin.iter_mut().zip(&*shafts) {
             thin.set(simd, &shaft.rays);
         }
+        memory.forget_sheared(shafts.len());
         memory.stack.clear();
         memory.stack.push((f64::NEG_INFINITY, 0));
         let mut asked = 0;
@@ -201,17 +212,13 @@ impl Fast<'_> {
             }
             Body::Surface(index) => {
                 memory.counts.primitive_tests += 1;
+                let (primitive, departures) = (&primitives[*index as usize], Some(departures));
+                let TileMemory { sheared, found, .. } = memory;
                 let bounds = own.bounds.padded(DVec3::splat(self.slack));
-                let mut rest = touching(simd, &shaft.rays, &bounds) & shaft.open();
-                while rest != 0 {
-                    let lane = rest.trailing_zeros() as usize;
-                    rest &= rest - 1;
-                    let (ray, departure) = (shaft.rays.ray(lane), departures.get(lane));
-                    let (primitive, mut meter) = (&primitives[*index as usize], Meter::new(Silent));
-                    let met = first_of_surface(&ray, primitive, *index, Some(departure), &mut meter);
-                    let blocks = met.is_some_and(|c| c.t + c.error < shaft.distance.0[lane]);
-                    shaft.blocked |= u64::from(blocks) << lane;
-                }
+                let wanted = asking(simd, &shaft.rays, &primitive.form, &bounds) & shaft.open();
+                let sheared = &mut sheared[k];
+                firsts_of_surface(simd, &shaft.rays, wanted, primitive, *index, departures, sheared, found);
+                shaft.block(found);
             }
             Body::Composite { whole, .. } => {
                 let bounds = own.bounds.padded(DVec3::splat(self.slack));
@@ -280,13 +287,7 @@ impl<S: Simd> Slicing<'_, S> {
         );
         shaft.unsure |= found.unsure;
         self.open &= !(found.unsure | found.any);
-        let mut met = found.any;
-        while met != 0 {
-            let lane = met.trailing_zeros() as usize;
-            met &= met - 1;
-            let blocks = found.t.0[lane] + found.error.0[lane] < shaft.distance.0[lane];
-            shaft.blocked |= u64::from(blocks) << lane;
-        }
+        shaft.block(found);
     }
 }
 

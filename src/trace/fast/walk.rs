@@ -4,6 +4,7 @@ use fearless_simd::{Simd, SimdBase, f64x8};
 
 use crate::lattice::{Child, Met, Node, highest, lowest};
 use crate::math::{Bounds, Bundle, DVec3, LANES, Mask, Number, ROWS};
+use crate::solid::Form;
 
 /// Puts the nodes among a node's children that were met on the stack, the nearest last.
 #[inline(always)]
@@ -61,9 +62,12 @@ pub fn through<S: Simd>(simd: S, bundle: &Bundle, b: &Bounds) -> Option<(u64, f6
     )
 }
 
-/// Which rays of a bundle pass a box.
-pub fn touching<S: Simd>(simd: S, bundle: &Bundle, b: &Bounds) -> u64 {
-    through(simd, bundle, b).map_or(0, |(any, ..)| any)
+/// Which rays of a bundle are to be asked whether they meet a surface within a box. A polygon is as soon asked itself.
+pub fn asking<S: Simd>(simd: S, bundle: &Bundle, form: &Form, b: &Bounds) -> u64 {
+    match form {
+        Form::Tube(_) => through(simd, bundle, b).map_or(0, |(any, ..)| any),
+        _ => bundle.live,
+    }
 }
 
 /// The box around the way of all rays of a bundle between two distances.

@@ -6,7 +6,7 @@
 
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 
-use crate::lattice::{Beam, Child, SLACK, Spread};
+use crate::lattice::{Beam, Child, MANY, SLACK, Spread};
 use crate::math::{Bundle, Columns, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
 use crate::solid::{
     Ball, Body, Firsts, Flat, Form, Found, Left, Reach, Spans, Starts, first_of_expressions, firsts_of_spans,
@@ -17,7 +17,7 @@ use super::Fast;
 use super::memory::TileMemory;
 use super::nearest::{Nearest, Offer};
 use super::thin::Thin;
-use super::walk::{asking, bounds_between, push_nearest_last, through};
+use super::walk::{Whole, asking, begin, bounds_between, push_nearest_last, through};
 
 /// The most leaves of an expression that are asked at once, rather than the way being cut into shorter slices: more
 /// cost more than a slice does.
@@ -196,7 +196,8 @@ impl Fast<'_> {
         let bounds = &self.assembly.objects[object as usize].bounds.padded(DVec3::splat(self.slack));
         let Some((open, from, end)) = through(simd, bundle, bounds) else { return };
         memory.scratch.start();
-        let mut slicing = Slicing { fast: self, simd, bundle, object, open, nearest };
+        let whole = self.subs.loose(object).map(|loose| (loose, expression));
+        let mut slicing = Slicing { fast: self, whole, simd, bundle, object, open, nearest };
         slicing.slice(expression, (from, end.min(to)), HALVINGS, memory);
     }
 }
@@ -237,6 +238,7 @@ fn corners(bundle: &Bundle, lanes: [usize; 4]) -> Option<(DVec3, [DVec3; 4])> {
 /// Whose way is cut into slices.
 struct Slicing<'a, S> {
     fast: &'a Fast<'a>,
+    whole: Option<Whole<'a>>,
     simd: S,
     bundle: &'a Bundle,
     object: u32,
@@ -255,6 +257,14 @@ impl<S: Simd> Slicing<'_, S> {
         // A crossing may be computed `slack` outside its slice; twice that keeps its whole cluster.
         let margin = DVec3::splat(2.0 * self.fast.slack);
         let b = bounds_between(self.simd, self.bundle, from, to).padded(margin);
+        let Some(expression) = begin(self.whole, expression, primitives, &b) else { return };
+        // The way is cut before much is pruned: shorter slices begin with less.
+        if expression.leaves.len() > 2 * MANY && halvings > 0 {
+            let middle = 0.5 * (from + to);
+            self.slice(expression, (from, middle), halvings - 1, memory);
+            self.slice(expression, (middle, to), halvings - 1, memory);
+            return;
+        }
         let mut remains = memory.remains.pop().unwrap_or_default();
         if expression.pruned(primitives, &b, &mut memory.pruning, &mut remains) == Left::Some {
             let left = Flat::from(&remains);

@@ -32,6 +32,7 @@ pub struct Fast<'a> {
     exact: Exact<'a>,
     assembly: &'a Assembly,
     boxes: &'a Boxes,
+    subs: &'a SubLattices,
     /// How far apart two hits may seem that are one place.
     slack: f64,
     level: Level,
@@ -41,7 +42,7 @@ impl<'a> Fast<'a> {
     /// An engine over an assembly, at the SIMD width of this processor.
     pub fn new(assembly: &'a Assembly, boxes: &'a Boxes, subs: &'a SubLattices) -> Self {
         let exact = Exact::new(assembly, Structure::Boxes(boxes, subs));
-        Self { exact, assembly, boxes, slack: slack(assembly.off), level: Level::new() }
+        Self { exact, assembly, boxes, subs, slack: slack(assembly.off), level: Level::new() }
     }
 
     /// The same engine at another SIMD width. It finds the same bits.

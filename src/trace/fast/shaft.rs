@@ -6,7 +6,7 @@
 
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 
-use crate::lattice::{Beam, Child, SLACK};
+use crate::lattice::{Beam, Child, MANY, SLACK};
 use crate::math::{Bundle, Column, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
 use crate::solid::{
     Ball, Body, Departures, Firsts, Flat, Form, Found, Left, Reach, Spans, Starts, first_of_expressions,
@@ -17,7 +17,7 @@ use super::Fast;
 use super::first::{FEW, HALVINGS};
 use super::memory::TileMemory;
 use super::thin::Thin;
-use super::walk::{asking, bounds_between, push_nearest_last, through};
+use super::walk::{Whole, asking, begin, bounds_between, push_nearest_last, through};
 
 /// The most objects that the shafts of a tile are asked about, one after the other: as for rays from the eye, but rays
 /// towards a light take less time one by one, and there are more objects that they pass.
@@ -226,8 +226,10 @@ impl Fast<'_> {
                 let to = to.min(shaft.distance.0.iter().copied().fold(0.0, f64::max));
                 let open = open & shaft.open();
                 memory.scratch.start();
-                let mut slicing = Slicing { fast: self, simd, shaft, departures, open };
-                slicing.slice(Flat::from(&**whole), (from, to), HALVINGS, memory);
+                let expression = Flat::from(&**whole);
+                let whole = self.subs.loose(object).map(|loose| (loose, expression));
+                let mut slicing = Slicing { fast: self, whole, simd, shaft, departures, open };
+                slicing.slice(expression, (from, to), HALVINGS, memory);
             }
         }
     }
@@ -236,6 +238,7 @@ impl Fast<'_> {
 /// Whose way is cut into slices.
 struct Slicing<'a, S> {
     fast: &'a Fast<'a>,
+    whole: Option<Whole<'a>>,
     simd: S,
     shaft: &'a mut Shaft,
     departures: &'a Departures,
@@ -252,6 +255,14 @@ impl<S: Simd> Slicing<'_, S> {
         // As for the rays from the eye.
         let margin = DVec3::splat(2.0 * self.fast.slack);
         let b = bounds_between(self.simd, &self.shaft.rays, from, to).padded(margin);
+        let Some(expression) = begin(self.whole, expression, primitives, &b) else { return };
+        // The way is cut before much is pruned: shorter slices begin with less.
+        if expression.leaves.len() > 2 * MANY && halvings > 0 {
+            let middle = 0.5 * (from + to);
+            self.slice(expression, (from, middle), halvings - 1, memory);
+            self.slice(expression, (middle, to), halvings - 1, memory);
+            return;
+        }
         let mut remains = memory.remains.pop().unwrap_or_default();
         if expression.pruned(primitives, &b, &mut memory.pruning, &mut remains) == Left::Some {
             let left = Flat::from(&remains);

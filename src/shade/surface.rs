@@ -31,6 +31,8 @@ pub struct Shader<'a, E, C> {
     pub(super) shadows: bool,
     /// Whether light can come through anything.
     pub(super) glass: bool,
+    /// By object: whether light comes through any of its surfaces; empty where it comes through nothing.
+    pub(super) clear: Vec<bool>,
     pub(super) generations: u32,
     pub(super) least_weight: f64,
     /// The glass that the eye is in.
@@ -155,6 +157,11 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
             .lamps
             .iter()
             .map(|l| Lamp { at: assembly.datum.inward_near(l.at), light: C::source(l.light) });
+        let clear = |object: u32| {
+            let primitives = assembly.primitives_of(object).into_iter();
+            primitives.map(|p| assembly.material(p).0).any(|m| scene.materials[m as usize].kt > 0.0)
+        };
+        let objects = if plan.glass { assembly.objects.len() as u32 } else { 0 };
         let secondary = plan.secondary.as_ref();
         let around_eye = secondary.iter().flat_map(|s| &s.around_eye);
         Self {
@@ -167,6 +174,7 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
             depth: plan.depth,
             shadows: plan.shadows,
             glass: plan.glass,
+            clear: (0..objects).map(clear).collect(),
             generations: secondary.map_or(0, |s| s.generations),
             least_weight: secondary.map_or(0.0, |s| s.least_weight),
             around_eye: around_eye.map(|&(object, index)| Filling { object, index }).collect(),

@@ -7,7 +7,7 @@
 use crate::math::{BUNDLE, Bundle, Column, Columns, DVec3, Ray};
 use crate::solid::{Crossing, Departures, Form};
 use crate::stage::{Meter, Probe, Stage};
-use crate::trace::{Fast, Hit, Nearest, Shaft, TileMemory};
+use crate::trace::{Fast, Hit, Nearest, Shaft, Shone, TileMemory};
 
 use super::channel::Channel;
 use super::lit::{Lit, Surfaces};
@@ -222,8 +222,8 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         }
         if self.shadows {
             meter.at(Stage::Cell);
-            let at = self.lamps[lamp].at;
-            self.engine.blocked_of(&mut tile.shafts, &tile.departures, at, &mut tile.trace);
+            let shone = Shone { at: self.lamps[lamp].at, clear: &self.clear };
+            self.engine.blocked_of(&mut tile.shafts, &tile.departures, &shone, &mut tile.trace);
             meter.at(Stage::Shade);
         }
         for (k, shaft) in tile.shafts.iter().enumerate() {
@@ -235,7 +235,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
                 let mut visible = 1.0;
                 if self.shadows {
                     let blocked = shaft.blocked & bit != 0;
-                    if shaft.unsure & bit != 0 || (blocked && self.glass) {
+                    if !blocked && (shaft.unsure | shaft.tinted) & bit != 0 {
                         let met = met(tile, k, lane, [0.0; 2]);
                         let departure = self.departure(&met.hit, met.p, met.normal);
                         let (ray, distance) = (shaft.rays.ray(lane), shaft.distance.0[lane]);

@@ -15,7 +15,7 @@ mod walk;
 use fearless_simd::{Level, Simd, dispatch};
 
 use crate::lattice::{Boxes, Structure, SubLattices, slack};
-use crate::math::{Bundle, Column, Columns, DVec3, ROWS, Ray};
+use crate::math::{Bundle, Column, Columns, ROWS, Ray};
 use crate::solid::{Assembly, Crossing, Departure, Departures};
 use crate::stage::{Meter, Probe};
 
@@ -24,7 +24,7 @@ use super::{Engine, Exact, Hit, Memory};
 
 pub use memory::TileMemory;
 pub use nearest::Nearest;
-pub use shaft::Shaft;
+pub use shaft::{Shaft, Shone};
 
 /// The engine for tiles of rays, over an assembly and a hierarchy of its boxes.
 #[derive(Clone, Copy, Debug)]
@@ -77,13 +77,13 @@ impl<'a> Fast<'a> {
         }
     }
 
-    /// Which rays of a tile towards one light at `lamp` are blocked. Those that are unsure are to be asked of
+    /// Which rays of a tile towards one light are blocked, and which meet something that lets light through. Those that are unsure are to be asked of
     /// [`Engine::blocked`] one by one.
     pub fn blocked_of(
         &self,
         shafts: &mut [Shaft],
         departures: &[Departures],
-        lamp: DVec3,
+        lamp: &Shone,
         memory: &mut TileMemory,
     ) {
         dispatch!(self.level, simd => self.blocked_of_tile(simd, shafts, departures, lamp, memory));

@@ -32,14 +32,25 @@ pub struct Shaft {
     pub distance: Column,
     /// Which of the rays are blocked.
     pub blocked: u64,
+    /// Which meet an object that lets light through.
+    pub tinted: u64,
     /// Which are to be asked one by one.
     pub unsure: u64,
+}
+
+/// A light, and what it shines through.
+#[derive(Clone, Copy, Debug)]
+pub struct Shone<'a> {
+    /// Where it stands.
+    pub at: DVec3,
+    /// By object: whether it lets light through; empty where none does.
+    pub clear: &'a [bool],
 }
 
 impl Shaft {
     /// No rays.
     pub const EMPTY: Self =
-        Self { rays: Bundle::EMPTY, distance: Column::filled(0.0), blocked: 0, unsure: 0 };
+        Self { rays: Bundle::EMPTY, distance: Column::filled(0.0), blocked: 0, tinted: 0, unsure: 0 };
 
     /// Gives those that do not ask the numbers of the first that does ([`Bundle::close`]).
     pub fn close(&mut self) {
@@ -80,14 +91,14 @@ impl Fast<'_> {
         simd: S,
         shafts: &mut [Shaft],
         departures: &[Departures],
-        lamp: DVec3,
+        lamp: &Shone,
         memory: &mut TileMemory,
     ) {
         let bundles = shafts.iter().map(|shaft| (&shaft.rays, &shaft.distance));
-        let whole = Beam::towards(simd, bundles.clone(), lamp);
+        let whole = Beam::towards(simd, bundles.clone(), lamp.at);
         memory.beams.clear();
         for one in bundles {
-            memory.beams.push(Beam::towards(simd, std::iter::once(one), lamp));
+            memory.beams.push(Beam::towards(simd, std::iter::once(one), lamp.at));
         }
         memory.fan.set(&memory.beams);
         let mut open = 0_u16;
@@ -127,7 +138,13 @@ impl Fast<'_> {
                     let k = left.trailing_zeros() as usize;
                     left &= left - 1;
                     asked += 1;
+                    let before = shafts[k].blocked;
                     self.object_in_shaft(simd, object, &mut shafts[k], &departures[k], memory, k);
+                    if lamp.clear.get(object as usize).is_some_and(|&clear| clear) {
+                        let shaft = &mut shafts[k];
+                        shaft.tinted |= shaft.blocked & !before;
+                        shaft.blocked = before;
+                    }
                     if shafts[k].open() == 0 {
                         open &= !(1 << k);
                     }

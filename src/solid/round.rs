@@ -358,12 +358,6 @@ fn side_spans<N: Number>(rays: &Centred<N>, middle: f64, slope: f64) -> Spans<N>
     }
     // A line along or inside the cone always crosses it: below 0 there is rounding only.
     let root = discriminant.larger(zero).root();
-    // The root of a number that is off by `form_off · |a|` is off by that over twice the root, and never by more than
-    // the root of that: all there is to say at the apex, where the root is 0.
-    #[inline(always)]
-    fn error<N: Number>(form_off: N, a: N, discriminant: N, root: N) -> N {
-        discriminant.is_below(form_off * a).choose((form_off / a).root(), form_off * 0.5 / root)
-    }
     // The root whose terms do not cancel, and the other from the product c / a.
     let q = -(b + root.signed_as(b));
     let none = q.is_equal(zero);
@@ -373,8 +367,8 @@ fn side_spans<N: Number>(rays: &Centred<N>, middle: f64, slope: f64) -> Spans<N>
     let surface = rays.t.same(f64::from(SIDE));
     let steepness = a.magnitude();
     let [low_error, high_error] = [
-        error(form_off(&form, low, off), steepness, discriminant, root),
-        error(form_off(&form, high, off), steepness, discriminant, root),
+        end_error(form_off(&form, low, off), steepness, discriminant, root),
+        end_error(form_off(&form, high, off), steepness, discriminant, root),
     ];
     let low = Ends { t: low, error: low_error, surface };
     let high = Ends { t: high, error: high_error, surface };
@@ -405,6 +399,15 @@ fn side_spans<N: Number>(rays: &Centred<N>, middle: f64, slope: f64) -> Spans<N>
 fn form_off<N: Number>(lines: &Rays<N>, t: N, off: DVec3) -> N {
     let p = lines.at(t).magnitude();
     Vector { x: p.x * 2.0 + off.x, y: p.y * 2.0 + off.y, z: p.z * 2.0 + off.z }.dot_one(off)
+}
+
+/// How far the end of a chord may be off along its line, by how much the form may be there.
+///
+/// The root of a number that is off by `form_off · |a|` is off by that over twice the root, and never by more than the
+/// root of that: all there is to say at the apex, where the root is 0.
+#[inline(always)]
+fn end_error<N: Number>(form_off: N, a: N, discriminant: N, root: N) -> N {
+    discriminant.is_below(form_off * a).choose((form_off / a).root(), form_off * 0.5 / root)
 }
 
 #[inline(always)]

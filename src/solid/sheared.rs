@@ -112,8 +112,8 @@ impl<S: Simd, const MAIN: usize> Row<S, MAIN> {
                 let area = left - right;
                 let bound = (left + right).magnitude() * ROUNDED;
                 // From above to below it is the area's negative that has to be above 0.
-                around.odd = around.odd ^ (crosses & (area.is_above(zero) ^ p_above));
-                around.unsure = around.unsure | (crosses & !area.magnitude().is_above(bound));
+                around.odd ^= crosses & (area.is_above(zero) ^ p_above);
+                around.unsure |= crosses & !area.magnitude().is_above(bound);
             }
             (p, p_above) = (q, q_above);
         }

@@ -16,13 +16,12 @@ use super::sheared::{Around, Sheared};
 use super::surface::{first_of_surface, firsts_of_tube};
 use super::tube::Tube;
 
-/// The first crossings of a surface, for the rays of `wanted`. `sheared` are the planes across the bundle's rays.
+/// The first crossings of a surface, a primitive with its index, for the rays of `wanted`. `sheared` are the planes across the bundle's rays.
 pub fn firsts_of_surface<S: Simd>(
     simd: S,
     bundle: &Bundle,
     wanted: u64,
-    primitive: &Primitive,
-    index: u32,
+    (primitive, index): (&Primitive, u32),
     departures: Option<&Departures>,
     sheared: &mut Sheared,
     found: &mut Found,
@@ -112,7 +111,7 @@ impl Asking<'_> {
             if odd.any_true() {
                 let SteepCrossings { end, against, steep } =
                     face.steep_crossings(&self.bundle.load(simd, row));
-                unsure = unsure | (odd & !steep);
+                unsure |= odd & !steep;
                 let before = end.t.is_at_most(start_of(end.error, self.form, self.off(simd, row)));
                 let any = odd & steep & !before;
                 self.put(simd, row, &Firsts { end, entering: against, any }, found);
@@ -137,10 +136,10 @@ impl Asking<'_> {
     /// [`super::Departure::off`] of eight.
     #[inline(always)]
     fn off<S: Simd>(&self, simd: S, row: usize) -> Option<f64x8<S>> {
-        match self.departures {
-            Some(departures) => Some(departures.off.load(simd, row)),
-            None => None,
-        }
+        self.departures.map(
+            #[inline(always)]
+            |departures| departures.off.load(simd, row),
+        )
     }
 
     /// Notes the first crossings of a row.
@@ -235,7 +234,7 @@ mod tests {
         for level in [Level::new(), Level::baseline()] {
             let (mut sheared, mut found) = (Sheared::UNKNOWN, Found::NONE);
             dispatch!(level, simd => firsts_of_surface(
-                simd, &bundle, wanted, primitive, 3, departures, &mut sheared, &mut found,
+                simd, &bundle, wanted, (primitive, 3), departures, &mut sheared, &mut found,
             ));
             prop_assert_eq!((found.unsure, found.any & !wanted), (0, 0));
             for (lane, ray) in rays.iter().enumerate().filter(|(lane, _)| wanted >> lane & 1 == 1) {

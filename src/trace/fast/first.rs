@@ -130,7 +130,7 @@ impl Fast<'_> {
                 let sheared = &mut sheared[k];
                 let bounds = self.assembly.objects[object as usize].bounds.padded(DVec3::splat(self.slack));
                 let wanted = asking(simd, bundle, &primitive.form, &bounds);
-                firsts_of_surface(simd, bundle, wanted, primitive, *index, None, sheared, found);
+                firsts_of_surface(simd, bundle, wanted, (primitive, *index), None, sheared, found);
                 if found.any != 0 {
                     offer_found(simd, found, object, nearest);
                 }

@@ -229,12 +229,13 @@ impl Fast<'_> {
             }
             Body::Surface(index) => {
                 memory.counts.primitive_tests += 1;
-                let (primitive, departures) = (&primitives[*index as usize], Some(departures));
+                let primitive = &primitives[*index as usize];
                 let TileMemory { sheared, found, .. } = memory;
                 let bounds = own.bounds.padded(DVec3::splat(self.slack));
                 let wanted = asking(simd, &shaft.rays, &primitive.form, &bounds) & shaft.open();
                 let sheared = &mut sheared[k];
-                firsts_of_surface(simd, &shaft.rays, wanted, primitive, *index, departures, sheared, found);
+                let departures = Some(departures);
+                firsts_of_surface(simd, &shaft.rays, wanted, (primitive, *index), departures, sheared, found);
                 shaft.block(found);
             }
             Body::Composite { whole, .. } => {

@@ -5,7 +5,7 @@ mod scenery;
 
 use ray13::frame::{Frame, Space, Studio};
 use ray13::math::{Bounds, DVec3, Size};
-use ray13::plan::StructureChoice;
+use ray13::plan::{EngineChoice, StructureChoice};
 use ray13::scene::{Camera, FieldSpan, Scene, Solid};
 use ray13::tone::{Level, Tone};
 use request::request;
@@ -105,6 +105,8 @@ fn the_lattice_changes_no_dot() {
             let draw = |structure| {
                 let mut request = request(camera.clone(), DOTS);
                 request.options.structure = structure;
+                // Ray by ray, through boxes too.
+                request.options.engine = EngineChoice::Exact;
                 studio.draw(&request)
             };
             let without = draw(StructureChoice::None);

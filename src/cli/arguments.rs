@@ -8,7 +8,7 @@ use clap_complete::Shell;
 use crate::math::{DVec3, Size};
 use crate::plan::{CUTOFF, DEPTH};
 
-use super::picture::{Glyphs, PaletteName, Preset, StructureName, ToneName};
+use super::picture::{EngineName, Glyphs, PaletteName, Preset, StructureName, ToneName};
 use super::values;
 
 /// Shows solid models in a terminal: ray traced, in 13 gray levels of block characters.
@@ -41,7 +41,7 @@ pub enum Command {
     Render(RenderArguments),
     /// Measure how long pictures take
     Bench(BenchArguments),
-    /// Say what a picture requires, stage by stage, and why the rest is left out
+    /// Say what a picture requires, stage by stage, what that is expected to cost, and why the rest is left out
     Plan(PlanArguments),
     /// Read and validate a scene only
     Check(SceneArguments),
@@ -108,6 +108,9 @@ pub struct PlanArguments {
     pub scene: SceneArguments,
     #[command(flatten)]
     pub picture: PictureArguments,
+    /// Draw the picture once, and say what each stage did cost and count
+    #[arg(long)]
+    pub run: bool,
     /// One line of JSON in place of the table
     #[arg(long)]
     pub json: bool,
@@ -148,6 +151,9 @@ pub struct PictureArguments {
     /// How space is cut into cells [default: auto]
     #[arg(long, value_enum)]
     pub structure: Option<StructureName>,
+    /// What traces; the picture is the same
+    #[arg(long, value_enum, default_value = "auto")]
+    pub engine: EngineName,
     /// Characters of the picture
     #[arg(long, value_enum, default_value = "blocks")]
     pub glyphs: Glyphs,

@@ -67,7 +67,7 @@ fn view(arguments: &ViewerArguments) -> Result<(), CliError> {
         title: input::title(file),
         view: view.unwrap_or(0),
         camera: picture.moves_camera().then(|| picture.camera(&studio, 1.6)).transpose()?,
-        options: picture.options(),
+        options: picture.options()?,
         glyphs: picture.glyphs.into(),
         palette: picture.palette(),
         tone: picture.tone(),

@@ -5,7 +5,7 @@ use clap::ValueEnum;
 use crate::frame::{Request, Studio, Wants, pcat};
 use crate::glyph::{CELL_ASPECT, ColorDepth, GlyphMode, Palette};
 use crate::math::Size;
-use crate::plan::{Options, Shading, StructureChoice};
+use crate::plan::{EngineChoice, Options, Shading, StructureChoice};
 use crate::scene::{Camera, FieldSpan, Scene};
 use crate::tone::Tone;
 
@@ -107,6 +107,27 @@ impl From<StructureName> for StructureChoice {
     }
 }
 
+/// The engines by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum EngineName {
+    /// The fast one, unless another structure than boxes is asked for
+    Auto,
+    /// Rays side by side, in tiles, through boxes
+    Fast,
+    /// One ray after the other: the reference, which the fast one asks where it is unsure
+    Exact,
+}
+
+impl From<EngineName> for EngineChoice {
+    fn from(name: EngineName) -> Self {
+        match name {
+            EngineName::Auto => Self::Auto,
+            EngineName::Fast => Self::Fast,
+            EngineName::Exact => Self::Exact,
+        }
+    }
+}
+
 /// The presets by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Preset {
@@ -117,20 +138,26 @@ pub enum Preset {
 }
 
 impl PictureArguments {
-    /// What the plan is made from.
-    pub fn options(&self) -> Options {
+    /// What the plan is made from. Fails for options that rule each other out.
+    pub fn options(&self) -> Result<Options, CliError> {
         let preset = self.preset.map_or_else(Options::default, |Preset::Pcat| pcat::options());
         let shading = Shading::ALL.into_iter().find(|s| Some(s.number()) == self.shading);
-        Options {
+        let engine = EngineChoice::from(self.engine);
+        // What is given has the last word: an engine, before the structure of a preset.
+        let structure = if engine == EngineChoice::Fast { StructureChoice::Auto } else { preset.structure };
+        let options = Options {
             shading: shading.unwrap_or(preset.shading),
             depth: self.depth,
             cutoff: self.cutoff,
             shadows: self.shadows || (preset.shadows && !self.no_shadows),
-            structure: self.structure.map_or(preset.structure, Into::into),
+            structure: self.structure.map_or(structure, Into::into),
+            engine,
             samples: self.samples,
             color: false,
             threads: self.threads.map_or(0, usize::from),
-        }
+        };
+        let checked = options.check().map(|()| options);
+        checked.map_err(|e| CliError::Input(format!("{e}: leave out --engine or --structure")))
     }
 
     /// How light becomes a level.
@@ -186,7 +213,7 @@ impl PictureArguments {
             camera,
             dots,
             dot_aspect,
-            options: self.options(),
+            options: self.options()?,
             wants,
             glyphs,
             palette,

@@ -46,7 +46,7 @@ pub fn figures(frame: &Frame, built: &Built) -> Map<String, Value> {
     put("total_ms", json!(ms(frame.total)));
     put("stage_ms", Value::Object(stages));
     put("threads", json!(frame.threads));
-    put("engine", json!("exact"));
+    put("engine", json!(frame.engine.name()));
     put("structure", json!(frame.space.name()));
     match frame.space {
         Space::Whole => {}

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use crate::glyph::{self, Cell, Palette};
 use crate::lattice::Structure;
 use crate::math::{Bounds, DVec3, Grid};
-use crate::plan::{Channels, Plan};
+use crate::plan::{Channels, EngineChoice, Plan};
 use crate::shade::{Channel, Shader};
 use crate::stage::{Counts, Meter, Silent, Stage, StageTimes, Stopwatch};
 use crate::trace::{Exact, Fast};
@@ -94,6 +94,7 @@ impl Studio {
             objects: self.assembly.objects.len(),
             primitives: self.assembly.primitives.len(),
             space: Space::of(&structure),
+            engine: plan.engine,
             over_budget,
             field: lens.field(),
             threads: rayon::current_num_threads(),
@@ -120,14 +121,14 @@ struct Viewed<'a> {
 }
 
 impl Viewed<'_> {
-    /// Traces all dots, by the engine for how space is cut. Gives what was counted, and the times of the tiles that were
+    /// Traces all dots, by the plan's engine. Gives what was counted, and the times of the tiles that were
     /// timed.
     fn trace<C: Channel>(&self, structure: Structure, dots: &mut PictureDots) -> (Counts, StageTimes) {
         let Self { studio, plan, lens, .. } = *self;
         let (scene, assembly) = (studio.scene(), &studio.assembly);
         let way = farthest(assembly.datum.inward_near(lens.eye), &assembly.limit);
-        if let Structure::Boxes(boxes, subs) = structure {
-            let engine = Fast::new(assembly, boxes, subs);
+        if let (EngineChoice::Fast, Structure::Boxes(boxes, subs)) = (plan.engine, structure) {
+            let engine = Fast::new(assembly, boxes, subs).at_level(studio.level());
             let shader = &Shader::<_, C>::new(scene, assembly, plan, &engine);
             let sampler = Blocks { assembly, engine: &engine, shader, lens, way, samples: plan.samples };
             self.trace_by(&sampler, dots)

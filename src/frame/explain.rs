@@ -1,19 +1,32 @@
 //! What a picture requires, stage by stage, before it is drawn.
 
 use crate::glyph::{GlyphMode, Palette};
-use crate::plan::{StagePlan, Term};
+use crate::plan::{Cost, StagePlan, Term};
 use crate::stage::Stage;
 use crate::tone::Tone;
 
 use super::{Request, Space, Studio};
 
+/// Nanoseconds of one thread for the levels and characters of a dot: the middle of what `plan --run` shows.
+const COMPOSE: f64 = 60.0;
+
 impl Studio {
     /// All eleven stages of the picture that [`Studio::draw`] draws of the same request: which it needs, which it
-    /// leaves out, and why. Builds the structure, where it was not built before, and traces nothing.
+    /// leaves out, why, and what each is expected to cost. Builds the structure, where it was not built before, and traces
+    /// nothing.
     pub fn explain(&self, request: &Request) -> Vec<StagePlan> {
         let (lens, plan) = self.plan(request);
         let mut stages = plan.explain(self.scene(), &self.assembly, &lens, request.dots);
         let (structure, over_budget) = self.structure(plan.structure);
+        let nodes = match Space::of(&structure) {
+            Space::Whole => 0,
+            Space::Lattice([x, y, z]) => x.saturating_mul(y).saturating_mul(z),
+            Space::Tree(nodes) | Space::Boxes(nodes) => nodes,
+        };
+        let costs = plan.costs(self.scene(), &self.assembly, &lens, request.dots, nodes);
+        for stage in &mut stages {
+            stage.cost = costs(stage.stage);
+        }
         let built = match Space::of(&structure) {
             Space::Whole => None,
             Space::Lattice([x, y, z]) => Some(format!("{x} × {y} × {z} cells")),
@@ -30,7 +43,13 @@ impl Studio {
                 stage.terms.push(sub_lattices(objects.filter(|&o| structure.sub(o).is_some()).count()));
             }
         }
-        stages.push(levels(request));
+        let compose = request.wants.cells.then(|| Cost {
+            count: request.dots.area() as f64,
+            of: "dot",
+            each: COMPOSE,
+            shared: true,
+        });
+        stages.push(StagePlan { cost: compose, ..levels(request) });
         stages.push(characters(request));
         stages
     }
@@ -54,7 +73,7 @@ fn levels(request: &Request) -> StagePlan {
         (true, Tone::Lightness) => "light becomes the nearest of 13 levels in lightness",
         (true, Tone::Even) => "light becomes the nearest of 13 levels in even steps of 1/12",
     };
-    StagePlan { stage: Stage::Dither, needed, why: why.into(), terms: Vec::new() }
+    StagePlan { stage: Stage::Dither, needed, why: why.into(), cost: None, terms: Vec::new() }
 }
 
 fn characters(request: &Request) -> StagePlan {
@@ -70,11 +89,11 @@ fn characters(request: &Request) -> StagePlan {
     let needed = request.wants.cells;
     if !needed {
         let why = "no characters are wanted".to_owned();
-        return StagePlan { stage: Stage::Display, needed, why, terms: Vec::new() };
+        return StagePlan { stage: Stage::Display, needed, why, cost: None, terms: Vec::new() };
     }
     let why = format!(
         "{glyphs} in {colors}, {} × {} dots to a cell → {columns} × {rows} cells",
         per_cell.width, per_cell.height
     );
-    StagePlan { stage: Stage::Display, needed, why, terms: Vec::new() }
+    StagePlan { stage: Stage::Display, needed, why, cost: None, terms: Vec::new() }
 }

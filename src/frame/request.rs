@@ -6,7 +6,7 @@ use std::time::Duration;
 use crate::glyph::{Cell, GlyphMode, Palette};
 use crate::lattice::{OverBudget, Structure};
 use crate::math::{DVec3, Grid, Size};
-use crate::plan::Options;
+use crate::plan::{EngineChoice, Options};
 use crate::scene::Camera;
 use crate::stage::{Counts, StageTimes};
 use crate::tone::{Level, Tone};
@@ -20,7 +20,7 @@ pub struct Request {
     pub dots: Size,
     /// Width of a dot on the screen divided by its height, above 0.
     pub dot_aspect: f64,
-    /// Shading model, shadows, structure, threads.
+    /// Shading model, shadows, structure, engine, threads.
     pub options: Options,
     /// What is wanted beside the light.
     pub wants: Wants,
@@ -91,6 +91,8 @@ pub struct Frame {
     pub primitives: usize,
     /// How space was cut.
     pub space: Space,
+    /// What traced; never [`EngineChoice::Auto`].
+    pub engine: EngineChoice,
     /// Why that is a tree, where a lattice was asked for.
     pub over_budget: Option<OverBudget>,
     /// The full angles of the field across and down, in degrees.
@@ -154,6 +156,7 @@ impl Frame {
             objects: 0,
             primitives: 0,
             space: Space::Whole,
+            engine: EngineChoice::Exact,
             over_budget: None,
             field: [0.0; 2],
             threads: 1,

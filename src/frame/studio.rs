@@ -3,6 +3,8 @@
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
+use fearless_simd::Level;
+
 use crate::lattice::{Boxes, Lattice, OverBudget, Structure, SubLattices, Tree};
 use crate::math::DVec3;
 use crate::plan::StructureChoice;
@@ -19,6 +21,7 @@ pub struct Studio {
     scene: Scene,
     pub(super) assembly: Assembly,
     assembling: Duration,
+    level: Level,
     lattice: OnceLock<(Result<Lattice, OverBudget>, Duration)>,
     tree: OnceLock<(Tree, Duration)>,
     boxes: OnceLock<(Boxes, Duration)>,
@@ -49,6 +52,7 @@ impl Studio {
             scene,
             assembly,
             assembling,
+            level: Level::new(),
             lattice: OnceLock::new(),
             tree: OnceLock::new(),
             boxes: OnceLock::new(),
@@ -56,6 +60,18 @@ impl Studio {
             workers: Mutex::new(None),
             kept: Mutex::new(None),
         })
+    }
+
+    /// The same studio, where the fast engine runs at another SIMD width than the widest that this processor has: to see that
+    /// the pictures are the same.
+    #[must_use]
+    pub fn at_level(self, level: Level) -> Self {
+        Self { level, ..self }
+    }
+
+    /// The SIMD width of the fast engine.
+    pub fn level(&self) -> Level {
+        self.level
     }
 
     /// The scene.

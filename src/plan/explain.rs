@@ -6,10 +6,10 @@ use crate::solid::{Assembly, Body, Form, Tree};
 use crate::stage::Stage;
 use crate::view::Lens;
 
-use super::{Channels, Plan, Shading, StructureChoice};
+use super::{Channels, Cost, EngineChoice, Plan, Shading, StructureChoice};
 
 /// What a plan says of one stage.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct StagePlan {
     /// The stage.
     pub stage: Stage,
@@ -17,6 +17,8 @@ pub struct StagePlan {
     pub needed: bool,
     /// Why it is needed, or why not: one line.
     pub why: String,
+    /// What it is expected to cost; absent where that is nothing, next to nothing, or part of another stage's.
+    pub cost: Option<Cost>,
     /// The parts of the stage that are decided on singly; none where the stage itself is left out.
     pub terms: Vec<Term>,
 }
@@ -58,6 +60,8 @@ pub(super) enum Cut {
     Few,
     /// There is more.
     Many,
+    /// The fast engine goes through boxes.
+    ForTiles,
 }
 
 /// What a term needs and does not have.
@@ -95,7 +99,8 @@ impl Plan {
     /// decide. `scene`, `assembly` and `lens` are those that the plan was made from.
     pub fn explain(&self, scene: &Scene, assembly: &Assembly, lens: &Lens, dots: Size) -> Vec<StagePlan> {
         let kinds = Kinds::of(assembly);
-        let stage = |stage, needed, why: String| StagePlan { stage, needed, why, terms: Vec::new() };
+        let stage =
+            |stage, needed, why: String| StagePlan { stage, needed, why, cost: None, terms: Vec::new() };
         let nothing = || "no object holds anything → no ray meets one".to_owned();
         let is_empty = assembly.objects.is_empty();
         let inside = assembly.limit.contains(assembly.datum.inward(lens.eye));
@@ -103,7 +108,12 @@ impl Plan {
         let [across, down] = lens.field();
         let walk = match (is_empty, is_cut) {
             (true, _) => nothing(),
-            (false, true) => "a ray meets only what reaches into the cells on its way".into(),
+            (false, true) if self.engine == EngineChoice::Fast => {
+                "rays side by side, 32 × 32 in a tile, with SOLID and CSG; those that are unsure alone".into()
+            }
+            (false, true) => {
+                "one ray after the other; it meets only what reaches into the cells on its way".into()
+            }
             (false, false) => "no structure → no cells: every ray meets every object".into(),
         };
         let clip = if inside {
@@ -138,6 +148,9 @@ impl Plan {
             }
             (Cut::Many, _) => {
                 format!("{objects} of {} → boxes, eight side by side", count(kinds.primitives, "primitive"))
+            }
+            (Cut::ForTiles, _) => {
+                format!("{objects} of {}, traced in tiles → boxes", count(kinds.primitives, "primitive"))
             }
             (Cut::Asked, StructureChoice::None) => "no structure is wanted".into(),
             (Cut::Asked, StructureChoice::Tree) => format!("{objects}, a tree is wanted"),

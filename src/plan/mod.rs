@@ -1,11 +1,13 @@
 //! What a picture requires: the scene, the view and the options, compiled. What can not change the picture is
 //! left out here, once, and not asked about again for every dot.
 
+mod cost;
 mod explain;
 mod options;
 
+pub use cost::Cost;
 pub use explain::{Reasons, StagePlan, Term};
-pub use options::{CUTOFF, DEPTH, Options, Shading, StructureChoice};
+pub use options::{CUTOFF, DEPTH, EngineChoice, Options, OptionsError, Shading, StructureChoice};
 
 use crate::math::DVec3;
 use crate::scene::{Anchor, Light, Material, Scene};
@@ -20,6 +22,9 @@ pub struct Plan {
     /// How space is cut: what was asked for, or what suits the scene; never [`StructureChoice::Auto`]. Whether a
     /// lattice can be had within its budget shows when it is built.
     pub structure: StructureChoice,
+    /// What traces; never [`EngineChoice::Auto`]. Where it is [`EngineChoice::Fast`], the structure is
+    /// [`StructureChoice::Boxes`].
+    pub engine: EngineChoice,
     /// The constant of the depth term, in the scene's unit; absent where the division is left out.
     pub depth: Option<f64>,
     /// Whether any surface has a highlight that this shading model shows.
@@ -107,7 +112,8 @@ impl Plan {
             scene.lights.iter().filter(|l| l.intensity > 0.0).map(|light| lamp(light, lens)).collect()
         };
         let lit = if lamps.is_empty() { Err(Absent::Light) } else { Ok(()) };
-        let (structure, cut) = suitable(assembly, options.structure);
+        let engine = engine(options);
+        let (structure, cut) = suitable(assembly, options.structure, engine);
         let reasons = Reasons {
             cut,
             shading: options.shading,
@@ -123,6 +129,7 @@ impl Plan {
         };
         Self {
             structure,
+            engine,
             depth: reasons.depth.ok(),
             highlight: reasons.highlight.is_ok(),
             secondary: (reasons.secondary.ok())
@@ -146,17 +153,29 @@ fn colored(scene: &Scene, lamps: &[Lamp], wanted: bool) -> Option<&'static str> 
     world.into_iter().chain(lights).chain(surfaces).find(|&(_, c)| !is_gray(c)).map(|(what, _)| what)
 }
 
-/// Up to so many objects, of so many primitives in all, are tested as fast as a structure says which of them to test:
-/// measured on solids of OpenSCAD.
+/// Up to so many objects, of so many primitives in all, are tested one ray at a time as fast as a structure says which of
+/// them to test: measured on solids of OpenSCAD.
 const FEW_OBJECTS: usize = 2;
 const FEW_PRIMITIVES: usize = 8;
 
-fn suitable(assembly: &Assembly, choice: StructureChoice) -> (StructureChoice, Cut) {
+/// The fast engine finds the bits of the exact one whatever the scene, the view and their scales, since it asks that one
+/// wherever it is unsure. So nothing but a wish decides.
+fn engine(options: &Options) -> EngineChoice {
+    match options.engine {
+        EngineChoice::Auto if options.structure.allows_boxes() => EngineChoice::Fast,
+        EngineChoice::Auto => EngineChoice::Exact,
+        asked => asked,
+    }
+}
+
+fn suitable(assembly: &Assembly, choice: StructureChoice, engine: EngineChoice) -> (StructureChoice, Cut) {
     let few = assembly.objects.len() <= FEW_OBJECTS && assembly.primitives.len() <= FEW_PRIMITIVES;
-    match choice {
-        StructureChoice::Auto if few => (StructureChoice::None, Cut::Few),
-        StructureChoice::Auto => (StructureChoice::Boxes, Cut::Many),
-        asked => (asked, Cut::Asked),
+    match (engine, choice) {
+        (EngineChoice::Fast, StructureChoice::Boxes) => (StructureChoice::Boxes, Cut::Asked),
+        (EngineChoice::Fast, _) => (StructureChoice::Boxes, Cut::ForTiles),
+        (_, StructureChoice::Auto) if few => (StructureChoice::None, Cut::Few),
+        (_, StructureChoice::Auto) => (StructureChoice::Boxes, Cut::Many),
+        (_, asked) => (asked, Cut::Asked),
     }
 }
 

@@ -22,6 +22,8 @@ pub struct Options {
     pub shadows: bool,
     /// How space is cut into cells.
     pub structure: StructureChoice,
+    /// What traces.
+    pub engine: EngineChoice,
     /// Rays per dot along each axis; 1 or more. The light of a dot is their mean.
     pub samples: u32,
     /// Whether the light of each dot is wanted by its three primaries, and not its luminance only. A `color`
@@ -39,9 +41,31 @@ impl Default for Options {
             cutoff: CUTOFF,
             shadows: true,
             structure: StructureChoice::Auto,
+            engine: EngineChoice::Auto,
             samples: 1,
             color: false,
             threads: 0,
+        }
+    }
+}
+
+/// Options that rule each other out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum OptionsError {
+    /// The fast engine leads its rays through boxes, and another structure is asked for.
+    #[error("the fast engine goes through boxes, not through {}", .0.name())]
+    FastWithout(StructureChoice),
+}
+
+impl Options {
+    /// Whether all can be had together. Where they can not, a picture is drawn all the same: the engine that is asked for
+    /// comes before the structure.
+    pub fn check(&self) -> Result<(), OptionsError> {
+        match (self.engine, self.structure) {
+            (EngineChoice::Fast, structure) if !structure.allows_boxes() => {
+                Err(OptionsError::FastWithout(structure))
+            }
+            _ => Ok(()),
         }
     }
 }
@@ -83,4 +107,45 @@ pub enum StructureChoice {
     Tree,
     /// Boxes around boxes.
     Boxes,
+}
+
+impl StructureChoice {
+    /// The name on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::None => "none",
+            Self::Lattice => "lattice",
+            Self::Tree => "tree",
+            Self::Boxes => "boxes",
+        }
+    }
+
+    /// Whether boxes are what is asked for, or nothing.
+    pub(super) const fn allows_boxes(self) -> bool {
+        matches!(self, Self::Auto | Self::Boxes)
+    }
+}
+
+/// What traces the rays, as asked for. Both find the same bits, for every scene and view that can be drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum EngineChoice {
+    /// The fast one, unless a structure is asked for that it does not go through.
+    #[default]
+    Auto,
+    /// Rays side by side, in tiles, through boxes.
+    Fast,
+    /// One ray after the other, through any structure.
+    Exact,
+}
+
+impl EngineChoice {
+    /// The name on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Fast => "fast",
+            Self::Exact => "exact",
+        }
+    }
 }

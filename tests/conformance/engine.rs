@@ -5,7 +5,7 @@ use ray13::frame::{Frame, Request, Studio, Wants};
 use ray13::glyph::{GlyphMode, Palette};
 use ray13::lattice::{Boxes, Lattice, Structure, SubLattices, Tree};
 use ray13::math::{DVec3, Placement, Ray, Size};
-use ray13::plan::{Options, StructureChoice};
+use ray13::plan::{EngineChoice, Options, StructureChoice};
 use ray13::scene::{Camera, Primitive, Scene};
 use ray13::solid::{Assembly, Datum, Departure, ROUNDING, WORLD};
 use ray13::stage::{Meter, Silent};
@@ -91,12 +91,12 @@ pub trait Subject: Sized {
 /// The reference engine.
 #[derive(Debug)]
 pub struct ExactEngine {
-    assembly: Assembly,
+    pub(crate) assembly: Assembly,
     cut: Cut,
     lattice: Option<Lattice>,
     tree: Tree,
-    boxes: Boxes,
-    subs: SubLattices,
+    pub(crate) boxes: Boxes,
+    pub(crate) subs: SubLattices,
 }
 
 impl ExactEngine {
@@ -109,7 +109,7 @@ impl ExactEngine {
         }
     }
 
-    fn found(&self, hit: Hit) -> Found {
+    pub(crate) fn found(&self, hit: Hit) -> Found {
         let unit = self.assembly.datum.unit;
         Found {
             t: hit.t * unit,
@@ -122,7 +122,7 @@ impl ExactEngine {
     }
 
     /// The ray in the assembly, and the departure, of one that leaves a hit.
-    fn leaving(&self, start: &Start) -> (Ray, Departure) {
+    pub(crate) fn leaving(&self, start: &Start) -> (Ray, Departure) {
         let p = self.assembly.ray(&start.ray).at(start.hit.t / self.assembly.datum.unit);
         let form = &self.assembly.primitives[start.hit.primitive as usize].form;
         let inward = form.normal(p, start.hit.surface).dot(start.toward) < 0.0;
@@ -197,15 +197,20 @@ impl Subject for ExactEngine {
             Cut::Tree => StructureChoice::Tree,
             Cut::Boxes => StructureChoice::Boxes,
         };
-        Studio::new(scene.clone()).unwrap().draw(&Request {
-            camera: camera.clone(),
-            dots,
-            dot_aspect: 1.0,
-            options: Options { structure, ..Options::default() },
-            wants: Wants::ALL,
-            glyphs: GlyphMode::default(),
-            palette: Palette::default(),
-            tone: Tone::default(),
-        })
+        drawn(scene, camera, dots, Options { structure, engine: EngineChoice::Exact, ..Options::default() })
     }
+}
+
+/// A picture by some options.
+pub fn drawn(scene: &Scene, camera: &Camera, dots: Size, options: Options) -> Frame {
+    Studio::new(scene.clone()).unwrap().draw(&Request {
+        camera: camera.clone(),
+        dots,
+        dot_aspect: 1.0,
+        options,
+        wants: Wants::ALL,
+        glyphs: GlyphMode::default(),
+        palette: Palette::default(),
+        tone: Tone::default(),
+    })
 }

@@ -4,11 +4,13 @@
 //! prints figures.
 
 mod aim;
+mod bundles;
 mod chance;
 mod coincidence;
 mod distance;
 mod engine;
 mod expressions;
+
 mod faults;
 mod leaving;
 mod long;
@@ -167,3 +169,4 @@ macro_rules! conformance {
 }
 
 conformance!(exact, crate::engine::ExactEngine);
+conformance!(fast, crate::bundles::FastEngine);

@@ -1,0 +1,194 @@
+//! What a picture is expected to cost, before it is drawn.
+//!
+//! As a database does for a query: how many rays of each kind there will be, times what one of them costs. Both are rough.
+//! Where the objects' boxes stand in the picture is looked at, what stands in them is not.
+
+use crate::math::{Bounds, Ray, Size};
+use crate::scene::Scene;
+use crate::solid::{Assembly, Body};
+use crate::stage::Stage;
+use crate::view::Lens;
+
+use super::{EngineChoice, Plan, StructureChoice};
+
+/// What a stage is expected to cost.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cost {
+    /// How often its work is done.
+    pub count: f64,
+    /// What is counted.
+    pub of: &'static str,
+    /// What one of them takes, in nanoseconds of one thread.
+    pub each: f64,
+    /// Whether threads share the work.
+    pub shared: bool,
+}
+
+impl Cost {
+    /// Milliseconds on so many threads, 1 or more.
+    pub fn ms(&self, threads: usize) -> f64 {
+        self.count * self.each / 1e6 / if self.shared { threads.max(1) as f64 } else { 1.0 }
+    }
+}
+
+/// Rays along each side of the picture that are held against the objects' boxes.
+const LOOKS: u32 = 16;
+
+/// Boxes of more objects are not looked at one by one: 16 × 16 rays against so many take some milliseconds.
+const LOOKED_AT: usize = 4096;
+
+// Shares, each the middle of what `--stats json` counts on the scenes inside the program and Haines's.
+
+/// Of the rays that pass the box of an object, those that meet one.
+const MEETS: f64 = 0.75;
+/// Of the mirror and Snell rays, those that meet something.
+const SENT_MEETS: f64 = 0.7;
+/// Of the lights, those that a surface faces.
+const FACES: f64 = 0.7;
+
+// Nanoseconds of one thread, each the middle of what `--run --threads 1` shows on the same scenes.
+
+/// An object in a structure.
+const BUILD_BOXES: f64 = 700.0;
+const BUILD_OTHER: f64 = 5000.0;
+/// A ray from the eye, alone and in a bundle.
+const RAY: f64 = 60.0;
+const RAY_IN_BUNDLE: f64 = 4.0;
+/// A ray that goes alone: a cell or a node on its way, an object's primitive that it asks, an expression.
+const CELL: f64 = 20.0;
+const TEST: f64 = 40.0;
+const EVALUATION: f64 = 150.0;
+/// A ray in a bundle, with all that it asks: the share of the walk, and an object's primitive.
+const WALK_IN_BUNDLE: f64 = 15.0;
+const TEST_IN_BUNDLE: f64 = 8.0;
+/// A surface that is met, and a light on it.
+const SURFACE: f64 = 60.0;
+const LIGHT: f64 = 20.0;
+const SURFACE_IN_BUNDLE: f64 = 20.0;
+const LIGHT_IN_BUNDLE: f64 = 12.0;
+
+/// The rays of a picture, as far as they can be foreseen.
+#[derive(Clone, Copy, Debug)]
+struct Rays {
+    primary: f64,
+    shadow: f64,
+    secondary: f64,
+    /// Surfaces that are met by rays from the eye, or sent on.
+    met: f64,
+    /// Objects whose boxes a ray passes.
+    passed: f64,
+}
+
+impl Plan {
+    /// What each stage from LATTICE to SHADE is expected to cost: `None` where it is left out, or is done along with CELL.
+    /// `nodes` are the cells or nodes of the structure. The scene and the others are those that the plan was made from.
+    pub fn costs(
+        &self,
+        scene: &Scene,
+        assembly: &Assembly,
+        lens: &Lens,
+        dots: Size,
+        nodes: usize,
+    ) -> impl Fn(Stage) -> Option<Cost> + use<> {
+        let rays = self.rays_of(scene, assembly, lens, dots);
+        let objects = assembly.objects.len() as f64;
+        let composites = assembly.objects.iter().filter(|o| matches!(o.body, Body::Composite { .. })).count();
+        let composite = if objects > 0.0 { composites as f64 / objects } else { 0.0 };
+        let fast = self.engine == EngineChoice::Fast;
+        let whole = self.structure == StructureChoice::None;
+        let lamps = self.lamps.len() as f64;
+        let build = if self.structure == StructureChoice::Boxes { BUILD_BOXES } else { BUILD_OTHER };
+        let leaves = assembly.primitives.len() as f64 / objects.max(1.0);
+        let alone = if fast { rays.secondary } else { rays.primary + rays.shadow + rays.secondary };
+        let together = if fast { rays.primary + rays.shadow } else { 0.0 };
+        // A ray stops at what it meets, about halfway.
+        let asked = if whole { objects } else { 0.5 * (1.0 + rays.passed) };
+        let (tests, evaluations) = (alone * asked, alone * asked * composite);
+        // Eight ways at each node, and as many nodes beside the way as on it.
+        let steps = 2.0 * (1.0 + libm::log2(nodes.max(1) as f64) / 3.0);
+        let tested = TEST * leaves.min(4.0) + EVALUATION * composite;
+        let cell = if fast {
+            let tile = WALK_IN_BUNDLE + TEST_IN_BUNDLE * asked * leaves.min(4.0);
+            let all = together * tile + alone * (steps * CELL + asked * tested);
+            (together + alone, "ray", all)
+        } else {
+            (alone * steps, "step", alone * steps * CELL)
+        };
+        let (surface, light) = if fast { (SURFACE_IN_BUNDLE, LIGHT_IN_BUNDLE) } else { (SURFACE, LIGHT) };
+        let of = move |count: f64, of, each: f64| Some(Cost { count, of, each, shared: true });
+        let is_empty = assembly.objects.is_empty();
+        move |stage| match stage {
+            Stage::Lattice if !whole => {
+                Some(Cost { count: objects, of: "object", each: build, shared: false })
+            }
+            Stage::Ray if fast => of(rays.primary, "ray", RAY_IN_BUNDLE),
+            Stage::Ray => of(rays.primary, "ray", RAY),
+            Stage::Cell if !is_empty && !whole => {
+                let (count, what, all) = cell;
+                of(count, what, if count > 0.0 { all / count } else { 0.0 })
+            }
+            Stage::Solid if !is_empty && !fast => of(tests, "test", TEST),
+            Stage::Csg if composites > 0 && !fast => of(evaluations, "expression", EVALUATION),
+            Stage::Shade if !is_empty => of(rays.met, "surface", surface + lamps * light),
+            _ => None,
+        }
+    }
+
+    fn rays_of(&self, scene: &Scene, assembly: &Assembly, lens: &Lens, dots: Size) -> Rays {
+        let per_dot =
+            if self.samples == 1 { 1.0 } else { 1.0 + f64::from(self.samples) * f64::from(self.samples) };
+        let primary = dots.area() as f64 * per_dot;
+        let (share, passed) = looked(assembly, lens, dots);
+        let first = primary * share * MEETS;
+        let (mut secondary, mut met) = (0.0, first);
+        if let Some(sent) = &self.secondary {
+            let materials = || assembly.primitives.iter().map(|p| &scene.materials[p.material.0 as usize]);
+            let ways = |kr: f64, kt: f64| f64::from(u8::from(kr > 0.0) + u8::from(kt > 0.0));
+            let each = materials().map(|m| ways(m.kr, m.kt)).sum::<f64>() / materials().count().max(1) as f64;
+            let most = materials().map(|m| m.kr.max(m.kt)).fold(0.0, f64::max);
+            let (mut rays, mut weight) = (first * each, most);
+            for _ in 0..sent.generations {
+                if weight < sent.least_weight {
+                    break;
+                }
+                secondary += rays;
+                met += rays * SENT_MEETS;
+                rays *= SENT_MEETS * each;
+                weight *= most;
+            }
+        }
+        let shadow = if self.shadows { met * self.lamps.len() as f64 * FACES } else { 0.0 };
+        Rays { primary, shadow, secondary, met, passed }
+    }
+}
+
+/// The share of the picture in which a ray passes the box of an object, and how many boxes such a ray passes.
+fn looked(assembly: &Assembly, lens: &Lens, dots: Size) -> (f64, f64) {
+    let objects = assembly.objects.len();
+    let (mut rays, mut boxes) = (0_u32, 0_usize);
+    for (i, j) in (0..LOOKS).flat_map(|j| (0..LOOKS).map(move |i| (i, j))) {
+        let place = |k: u32, side: u32| (f64::from(k) + 0.5) / f64::from(LOOKS) * f64::from(side);
+        let ray = assembly.ray(&lens.ray(place(i, dots.width), place(j, dots.height)));
+        let met = if !passes(&ray, &assembly.limit) {
+            0
+        } else if objects > LOOKED_AT {
+            // So many stand on a line through as many that fill a cube.
+            libm::cbrt(objects as f64) as usize
+        } else {
+            assembly.objects.iter().filter(|object| passes(&ray, &object.bounds)).count()
+        };
+        rays += u32::from(met > 0);
+        boxes += met;
+    }
+    (f64::from(rays) / f64::from(LOOKS * LOOKS), boxes as f64 / f64::from(rays.max(1)))
+}
+
+/// Whether a ray passes a box, but for rounding.
+fn passes(ray: &Ray, b: &Bounds) -> bool {
+    let (mut from, mut to) = (0.0, f64::INFINITY);
+    for axis in 0..3 {
+        let [a, z] = [b.lo, b.hi].map(|side| (side[axis] - ray.o[axis]) / ray.d[axis]);
+        (from, to) = (f64::max(from, a.min(z)), f64::min(to, a.max(z)));
+    }
+    from <= to
+}

@@ -1,0 +1,128 @@
+//! The fast engine's answers: rays in bundles, and those that are unsure one by one.
+
+use ray13::frame::Frame;
+use ray13::math::{BUNDLE, Bundle, Column, DVec3, Ray, Size};
+use ray13::plan::{EngineChoice, Options};
+use ray13::scene::{Camera, Primitive, Scene};
+use ray13::solid::Departures;
+use ray13::stage::{Meter, Silent};
+use ray13::trace::{Engine, Fast, Hit, Nearest, Shaft, TileMemory};
+
+use crate::engine::{Cut, ExactEngine, Found, Range, Start, Subject, drawn};
+
+/// Rays of a bundle here: one less than it can hold, since a whole one is taken for a block of dots, whose corners bound
+/// the rest.
+const RAYS: usize = BUNDLE - 1;
+
+/// Bundles of a tile.
+const BUNDLES: usize = 16;
+
+/// The fast engine, whatever the cut: it has boxes of its own.
+#[derive(Debug)]
+pub struct FastEngine(ExactEngine);
+
+impl FastEngine {
+    fn engine(&self) -> Fast<'_> {
+        Fast::new(&self.0.assembly, &self.0.boxes, &self.0.subs)
+    }
+
+    /// The answers for as many rays as a tile has.
+    fn first_of_tile(&self, rays: &[Ray], tile: &mut TileMemory) -> Vec<Option<Found>> {
+        let engine = self.engine();
+        let (mut memory, mut meter) = (engine.memory(), Meter::new(Silent));
+        let mut bundles = Vec::new();
+        for part in rays.chunks(RAYS) {
+            let mut bundle = Bundle::EMPTY;
+            for (lane, ray) in part.iter().enumerate() {
+                bundle.set(lane, ray);
+            }
+            bundle.close();
+            bundles.push(bundle);
+        }
+        let ways: Vec<[Column; 2]> = bundles.iter_mut().map(|bundle| engine.approach(bundle)).collect();
+        let mut nearest = vec![Nearest::NOTHING; bundles.len()];
+        engine.first_of(&bundles, &mut nearest, tile);
+        let mut answer = |(place, ray): (usize, &Ray)| {
+            let (k, lane) = (place / RAYS, place % RAYS);
+            // What the exact engine says of its error holds for the same bits.
+            let alone = engine.first(ray, &mut memory, &mut meter);
+            let met = &nearest[k];
+            if met.unsure >> lane & 1 == 1 {
+                return alone;
+            }
+            let (t, [far, left]) = (met.t.0[lane], &ways[k]);
+            t.is_finite().then(|| Hit {
+                t: far.0[lane] + (left.0[lane] + t),
+                error: alone.map_or(0.0, |hit| hit.error),
+                p: bundles[k].ray(lane).at(t),
+                object: met.object.0[lane] as u32,
+                primitive: met.primitive.0[lane] as u32,
+                surface: met.surface.0[lane] as u32,
+                entering: met.entering >> lane & 1 == 1,
+            })
+        };
+        rays.iter().enumerate().map(|ray| answer(ray).map(|hit| self.0.found(hit))).collect()
+    }
+}
+
+impl Subject for FastEngine {
+    /// That of the exact engine, which it asks where it is unsure.
+    const RANGE: Range = ExactEngine::RANGE;
+
+    fn new(scene: &Scene, cut: Cut) -> Self {
+        Self(ExactEngine::new(scene, cut))
+    }
+
+    fn first(&self, rays: &[Ray]) -> Vec<Option<Found>> {
+        let rays: Vec<Ray> = rays.iter().map(|ray| self.0.assembly.ray(ray)).collect();
+        let mut tile = TileMemory::default();
+        rays.chunks(RAYS * BUNDLES).flat_map(|rays| self.first_of_tile(rays, &mut tile)).collect()
+    }
+
+    /// Rays that leave a surface go alone: those that it sends on are too unlike each other.
+    fn next(&self, starts: &[Start]) -> Vec<Option<Found>> {
+        let engine = self.engine();
+        let (mut memory, mut meter) = (engine.memory(), Meter::new(Silent));
+        let mut next = |start| {
+            let (ray, departure) = self.0.leaving(start);
+            engine.next(&ray, departure, &mut memory, &mut meter)
+        };
+        starts.iter().map(|start| next(start).map(|hit| self.0.found(hit))).collect()
+    }
+
+    /// Each towards a light of its own.
+    fn blocked(&self, starts: &[(Start, f64)]) -> Vec<bool> {
+        let engine = self.engine();
+        let (mut memory, mut meter) = (engine.memory(), Meter::new(Silent));
+        let mut tile = TileMemory::default();
+        let mut blocked = |start: &Start, distance: f64| {
+            let (ray, departure) = self.0.leaving(start);
+            let distance = distance / self.0.assembly.datum.unit;
+            let mut shaft = Shaft::EMPTY;
+            shaft.rays.set(0, &ray);
+            shaft.distance.0[0] = distance;
+            shaft.close();
+            let mut departures = Departures::NONE;
+            departures.set(0, &departure);
+            let mut shafts = [shaft];
+            engine.blocked_of(&mut shafts, &[departures], ray.at(distance), &mut tile);
+            if shafts[0].unsure & 1 == 1 {
+                return engine.blocked(&ray, departure, distance, &mut memory, &mut meter);
+            }
+            shafts[0].blocked & 1 == 1
+        };
+        starts.iter().map(|(start, distance)| blocked(start, *distance)).collect()
+    }
+
+    fn inward(&self, start: &Start) -> bool {
+        self.0.inward(start)
+    }
+
+    fn rim(&self, primitive: &Primitive, ray: &Ray) -> DVec3 {
+        self.0.rim(primitive, ray)
+    }
+
+    fn draw(scene: &Scene, camera: &Camera, dots: Size, _: Cut) -> Frame {
+        drawn(scene, camera, dots, Options { engine: EngineChoice::Fast, ..Options::default() })
+    }
+}

@@ -1,0 +1,13 @@
+//! The fast engine against the exact one: every dot of every picture has the same bits, on every processor.
+
+#[path = "../anything/mod.rs"]
+mod anything;
+mod random;
+mod range;
+#[path = "../request/mod.rs"]
+mod request;
+mod same;
+#[path = "../scenery/mod.rs"]
+mod scenery;
+mod scenes;
+mod widths;

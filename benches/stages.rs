@@ -10,7 +10,7 @@ use std::hint::black_box;
 use std::path::Path;
 
 use criterion::{BenchmarkId, Criterion};
-use ray13::frame::{Request, Studio};
+use ray13::frame::{Request, Studio, Wants};
 use ray13::glyph::{GlyphMode, Palette, compose};
 use ray13::lattice::{Lattice, SubLattices, Tree};
 use ray13::math::Size;
@@ -104,7 +104,7 @@ fn drawing(criterion: &mut Criterion) {
     let mut drawn = |name: &str, scene: Scene| {
         let studio = Studio::new(scene).unwrap_or_else(|e| panic!("{e}"));
         let request = request(&studio);
-        group.bench_function(name, |bencher| bencher.iter(|| studio.draw(black_box(&request))));
+        group.bench_function(name, |bencher| bencher.iter(|| studio.draw_anew(black_box(&request))));
     };
     for scene in embedded() {
         drawn(scene.name, inside(scene.name));
@@ -138,6 +138,7 @@ fn request(studio: &Studio) -> Request {
         camera: studio.camera(0, f64::from(DOTS.width) / f64::from(DOTS.height)),
         dots: DOTS,
         dot_aspect: 1.0,
+        wants: Wants::CELLS,
         options: Options::default(),
         glyphs: GlyphMode::Blocks,
         palette: Palette::Dos,

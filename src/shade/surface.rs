@@ -220,7 +220,7 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
         if finish.kr > 0.0 || finish.kt > 0.0 {
             let change = self.change(&sent.inside, memory);
             let own = self.own_light(sent, met, memory, meter);
-            self.sending_surface(sent, met, change, own, memory, meter)
+            self.sending_surface(sent, met, &change, own, memory, meter)
         } else {
             self.own_light(sent, met, memory, meter)
         }
@@ -234,7 +234,7 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
         let mut sum = C::DARK;
         for lamp in 0..self.lamps.len() {
             let Some(towards) = self.towards(lamp, p, normal) else { continue };
-            let mut share = self.share(finish, towards.facing, towards.mirrored_cosine(normal, sent.ray.d));
+            let mut share = Self::share(finish, towards.facing, towards.mirrored_cosine(normal, sent.ray.d));
             if self.shadows && (finish.kd > 0.0 || finish.ks > 0.0) {
                 let ray = Ray::new(p, towards.d);
                 let visible = self.visibility(&ray, departure, towards.distance, memory, meter);
@@ -264,7 +264,7 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
 
     /// `kd·C·(L·N) + ks·cosⁿθ`: the share of a light that a surface sends to where it is seen from.
     #[inline]
-    pub(super) fn share(&self, finish: &Finish<C>, facing: f64, cosine: f64) -> C {
+    pub(super) fn share(finish: &Finish<C>, facing: f64, cosine: f64) -> C {
         let share = finish.color * (finish.kd * facing);
         if finish.ks > 0.0 && cosine > 0.0 {
             share + C::from_rgb(DVec3::ONE) * (finish.ks * power(cosine, finish.n))

@@ -251,7 +251,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
                 }
                 let finish = &self.finishes[tile.surfaces[k].finish[lane] as usize];
                 let (facing, cosine) = (tile.lit[k].facing.0[lane], tile.lit[k].cosine.0[lane]);
-                let share = self.share(finish, facing, cosine) * visible;
+                let share = Self::share(finish, facing, cosine) * visible;
                 sums[k][lane] = (sums[k][lane] + self.lamps[lamp].light * share).limited();
             }
         }
@@ -271,7 +271,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         let together = [(object, Crossing { t, error, primitive, surface, entering })];
         let change = self.change_at(&inside, &together, &mut memory.media);
         let sent = Sent { ray: *ray, travelled: 0.0, weight: 1.0, generation: 0, inside };
-        self.sending_surface(&sent, met, change, own, memory, meter)
+        self.sending_surface(&sent, met, &change, own, memory, meter)
     }
 }
 

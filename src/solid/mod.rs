@@ -33,7 +33,7 @@ pub use ball::Ball;
 pub use crossing::{
     Crossing, Firsts, Reach, Scratch, Starts, first_of_expression, first_of_span, firsts_of_spans,
 };
-pub use crossings::{BundleScratch, Departures, Found, first_of_expressions};
+pub use crossings::{Asked, BundleScratch, Departures, Found, first_of_expressions};
 pub use expression::{Child, Expression, Leaf, Pruned, Tree};
 pub(crate) use known::with_spans;
 pub use primitive::{Cover, Form, Primitive};

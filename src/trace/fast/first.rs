@@ -9,8 +9,8 @@ use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 use crate::lattice::{Beam, Child, MANY, SLACK, Spread};
 use crate::math::{Bundle, Columns, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
 use crate::solid::{
-    Ball, Body, Firsts, Flat, Form, Found, Left, Reach, Spans, Starts, first_of_expressions, firsts_of_spans,
-    firsts_of_surface, with_spans,
+    Asked, Ball, Body, Firsts, Flat, Form, Found, Left, Reach, Spans, Starts, first_of_expressions,
+    firsts_of_spans, firsts_of_surface, with_spans,
 };
 
 use super::Fast;
@@ -117,7 +117,7 @@ impl Fast<'_> {
                     let thin = &memory.thin[k];
                     simd.vectorize(
                         #[inline(always)]
-                        || self.ball(simd, (ball, form), thin, bundle, nearest, [object, *index]),
+                        || ball_of_bundle(simd, (ball, form), thin, bundle, nearest, [object, *index]),
                     );
                 } else {
                     single(simd, form, bundle, nearest, object, *index);
@@ -137,47 +137,8 @@ impl Fast<'_> {
             }
             Body::Composite { whole, .. } => {
                 let to = memory.far[k] + self.slack;
-                self.composite(simd, object, Flat::from(&**whole), bundle, to, nearest, memory);
+                self.composite(simd, (object, Flat::from(&**whole)), bundle, to, nearest, memory);
             }
-        }
-    }
-
-    /// The first hits of a bundle with a ball.
-    #[inline(always)]
-    fn ball<S: Simd>(
-        &self,
-        simd: S,
-        (ball, form): (&Ball, &Form),
-        thin: &Thin,
-        bundle: &Bundle,
-        nearest: &mut Nearest,
-        [object, index]: [u32; 2],
-    ) {
-        let near = thin.near(simd, ball.center, ball.radius);
-        if near == 0 {
-            return;
-        }
-        let no = mask64x8::splat(simd, false);
-        let zero = f64x8::splat(simd, 0.0);
-        let primitive = f64x8::splat(simd, f64::from(index));
-        let start = f64x8::splat(simd, 2.0 * ball.most_error());
-        for row in 0..ROWS {
-            if (near >> (row * LANES)) as u8 == 0 {
-                continue;
-            }
-            let spans = ball.spans(&bundle.load(simd, row));
-            if !spans.any.any() {
-                continue;
-            }
-            let ahead = spans.enter.t.is_above(start);
-            let met = if (spans.any & !ahead).any() {
-                let starts = Starts { here: no, inward: no, off: None };
-                let Firsts { end, entering, any } = firsts_of_spans(spans, form, &starts);
-                Offer { any, t: end.t, entering, object, primitive, surface: zero }
-            } else {
-                Offer { any: spans.any, t: spans.enter.t, entering: !no, object, primitive, surface: zero }
-            };
-            nearest.offer(simd, row, &met);
         }
     }
 
@@ -186,8 +147,7 @@ impl Fast<'_> {
     fn composite<S: Simd>(
         &self,
         simd: S,
-        object: u32,
-        expression: Flat,
+        (object, expression): (u32, Flat),
         bundle: &Bundle,
         to: f64,
         nearest: &mut Nearest,
@@ -199,6 +159,44 @@ impl Fast<'_> {
         let whole = self.subs.loose(object).map(|loose| (loose, expression));
         let mut slicing = Slicing { fast: self, whole, simd, bundle, object, open, nearest };
         slicing.slice(expression, (from, end.min(to)), HALVINGS, memory);
+    }
+}
+
+/// The first hits of a bundle with a ball.
+#[inline(always)]
+fn ball_of_bundle<S: Simd>(
+    simd: S,
+    (ball, form): (&Ball, &Form),
+    thin: &Thin,
+    bundle: &Bundle,
+    nearest: &mut Nearest,
+    [object, index]: [u32; 2],
+) {
+    let near = thin.near(simd, ball.center, ball.radius);
+    if near == 0 {
+        return;
+    }
+    let no = mask64x8::splat(simd, false);
+    let zero = f64x8::splat(simd, 0.0);
+    let primitive = f64x8::splat(simd, f64::from(index));
+    let start = f64x8::splat(simd, 2.0 * ball.most_error());
+    for row in 0..ROWS {
+        if (near >> (row * LANES)) as u8 == 0 {
+            continue;
+        }
+        let spans = ball.spans(&bundle.load(simd, row));
+        if !spans.any.any() {
+            continue;
+        }
+        let ahead = spans.enter.t.is_above(start);
+        let met = if (spans.any & !ahead).any() {
+            let starts = Starts { here: no, inward: no, off: None };
+            let Firsts { end, entering, any } = firsts_of_spans(spans, form, &starts);
+            Offer { any, t: end.t, entering, object, primitive, surface: zero }
+        } else {
+            Offer { any: spans.any, t: spans.enter.t, entering: !no, object, primitive, surface: zero }
+        };
+        nearest.offer(simd, row, &met);
     }
 }
 
@@ -286,7 +284,8 @@ impl<S: Simd> Slicing<'_, S> {
         memory.counts.primitive_tests += expression.leaves.len() as u64;
         memory.counts.csg_evaluations += 1;
         let TileMemory { scratch, found, .. } = memory;
-        first_of_expressions(simd, bundle, self.open, expression, primitives, None, reach, scratch, found);
+        let asked = Asked { bundle, wanted: self.open, departures: None, reach };
+        first_of_expressions(simd, &asked, expression, primitives, scratch, found);
         self.nearest.unsure |= found.unsure;
         self.open &= !(found.unsure | found.any);
         if found.any != 0 {

@@ -45,7 +45,7 @@ impl Default for TileMemory {
             beams: Vec::new(),
             far: Vec::new(),
             thin: Vec::new(),
-            fan: Fan::new(),
+            fan: Fan::default(),
             sheared: Vec::new(),
             stack: Vec::new(),
             scratch: BundleScratch::default(),

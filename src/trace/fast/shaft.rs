@@ -9,8 +9,8 @@ use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 use crate::lattice::{Beam, Child, MANY, SLACK};
 use crate::math::{Bundle, Column, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
 use crate::solid::{
-    Ball, Body, Departures, Firsts, Flat, Form, Found, Left, Reach, Spans, Starts, first_of_expressions,
-    firsts_of_spans, firsts_of_surface, with_spans,
+    Asked, Ball, Body, Departures, Firsts, Flat, Form, Found, Left, Reach, Spans, Starts,
+    first_of_expressions, firsts_of_spans, firsts_of_surface, with_spans,
 };
 
 use super::Fast;
@@ -303,17 +303,8 @@ impl<S: Simd> Slicing<'_, S> {
         memory.counts.csg_evaluations += 1;
         let TileMemory { scratch, found, .. } = memory;
         let departures = Some(self.departures);
-        first_of_expressions(
-            simd,
-            &shaft.rays,
-            self.open,
-            expression,
-            primitives,
-            departures,
-            reach,
-            scratch,
-            found,
-        );
+        let asked = Asked { bundle: &shaft.rays, wanted: self.open, departures, reach };
+        first_of_expressions(simd, &asked, expression, primitives, scratch, found);
         shaft.unsure |= found.unsure;
         self.open &= !(found.unsure | found.any);
         shaft.block(found);

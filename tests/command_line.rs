@@ -322,6 +322,7 @@ mod a_still {
         for key in keys.split_whitespace() {
             assert!(stats.get(key).is_some(), "{key} is missing in {stats}");
         }
+        assert_eq!((&stats["engine"], &stats["structure"]), (&"fast".into(), &"boxes".into()));
         assert_eq!(stats["primary_rays"], 600);
         let hits = stats["primary_hits"].as_u64().unwrap();
         assert!(0 < hits && hits < 600, "{stats}");
@@ -424,6 +425,11 @@ mod bad_arguments {
             &["render", &file, "--format", "txt", "--channel", "light"],
             &["render", &file, "--format", "png", "--channel", "depth"],
             &["render", &file, "--structure", "octree"],
+            &["render", &file, "--engine", "slow"],
+            &["render", &file, "--engine", "fast", "--structure", "none"],
+            &["bench", &file, "--engine", "fast", "--structure", "tree"],
+            &["plan", &file, "--engine", "fast", "--structure", "lattice"],
+            &[&file, "--engine", "fast", "--structure", "lattice"],
             &["render", &file, "--preset", "pcxt"],
         ];
         for arguments in cases {
@@ -568,14 +574,17 @@ mod a_plan {
     fn leaves_out_what_a_ball_does_not_require() {
         let (_, file) = scene("plan_ball", BALL);
         let row = plan(&file, &[]);
-        says(&row("lattice"), false, "1 object of 1 primitive → no structure");
-        says(&row("cell"), false, "no structure");
+        says(&row("lattice"), true, "1 object of 1 primitive, traced in tiles → boxes: 1 node");
+        says(&row("cell"), true, "side by side");
         says(&row("csg"), false, "no CSG");
         says(&row("clip"), true, "outside the world");
         says(&row("depth"), false, "the world gives no k");
         says(&row("secondary rays"), false, "no mirror or glass → no secondary rays");
         says(&row("highlight"), true, "has ks");
         says(&row("colour"), false, "every light is gray → one channel");
+        let row = plan(&file, &["--engine", "exact"]);
+        says(&row("lattice"), false, "1 object of 1 primitive → no structure");
+        says(&row("cell"), false, "no structure");
         let row = plan(&file, &["--shading", "1", "--no-shadows", "--eye", "0,0,0", "--target", "1,0,0"]);
         says(&row("highlight"), false, "eq. (1) has no such term");
         says(&row("shadow rays"), false, "not wanted");
@@ -597,6 +606,8 @@ mod a_plan {
         let balls: String = (0..17).map(|i| format!("translate([{}, 0, 0]) sphere(1);\n", 3 * i)).collect();
         let (_, file) = scene("plan_balls", &balls);
         let row = plan(&file, &[]);
+        says(&row("lattice"), true, "17 objects of 17 primitives, traced in tiles → boxes: 3 nodes");
+        let row = plan(&file, &["--engine", "exact"]);
         says(&row("lattice"), true, "17 objects of 17 primitives → boxes, eight side by side: 3 nodes");
     }
 
@@ -608,6 +619,8 @@ mod a_plan {
             ("hanyang", &["--preset", "pcat"]),
             ("hanyang", &["--view", "inside", "--structure", "none"]),
             ("glass", &[]),
+            ("glass", &["--engine", "exact"]),
+            ("hanyang", &["--engine", "exact", "--structure", "boxes"]),
             ("die", &["--shading", "2"]),
         ] {
             let row = plan(name, options);
@@ -633,13 +646,92 @@ mod a_plan {
 
     #[test]
     fn is_a_table() {
-        let table = text(&done(&run(&["plan", "hanyang"])));
-        let starts: Vec<usize> = table
-            .lines()
-            .map(|line| line.find("needed").or(line.find("left out")).or(line.find("plan ")).unwrap())
-            .collect();
-        assert!(starts.len() > 11 && starts.iter().all(|&s| s == starts[0]), "{table}");
+        for options in [&[][..], &["--run"]] {
+            let table = text(&done(&run(&[&["plan", "hanyang"], options].concat())));
+            let lines: Vec<&str> = table.lines().collect();
+            let (total, rows) = lines.split_last().unwrap();
+            let starts: Vec<usize> = rows
+                .iter()
+                .map(|line| line.find("needed").or(line.find("left out")).or(line.find("plan ")).unwrap())
+                .collect();
+            assert!(starts.len() > 11 && starts.iter().all(|&s| s == starts[0]), "{table}");
+            assert!(total.starts_with("total") && total.contains(" ms"), "{table}");
+            assert_eq!(rows[0].contains("measured"), !options.is_empty(), "{table}");
+        }
         fails(&run(&["plan", "hanjang"]), 2);
+    }
+
+    /// What was counted stands beside what was expected, and is what `--stats` says.
+    #[test]
+    fn can_be_run() {
+        for engine in ["fast", "exact"] {
+            let picture = ["glass", "--cells", "60x30", "--engine", engine];
+            let plan = done(&run(&[&["plan", "--run", "--json"], &picture[..]].concat()));
+            let plan: serde_json::Value = serde_json::from_slice(&plan).expect("JSON");
+            let stats = run(&[&["render", "--stats", "json", "--format", "ans"], &picture[..]].concat());
+            let stats: serde_json::Value = serde_json::from_slice(&stats.stderr).expect("JSON");
+            assert_eq!((&plan["engine"], &stats["engine"]), (&engine.into(), &engine.into()));
+            let stage = |name: &str| {
+                plan["stages"].as_array().unwrap().iter().find(|s| s["stage"] == name).unwrap().clone()
+            };
+            assert_eq!(stage("ray")["count"], stats["primary_rays"]);
+            assert_eq!(stage("ray")["expected_count"].as_f64(), stats["primary_rays"].as_f64());
+            assert_eq!(stage("solid")["count"], stats["primitive_tests"]);
+            let terms = stage("shade")["terms"].clone();
+            let term =
+                |name: &str| terms.as_array().unwrap().iter().find(|t| t["name"] == name).unwrap().clone();
+            assert_eq!(term("shadow rays")["count"], stats["shadow_rays"]);
+            assert_eq!(term("secondary rays")["count"], stats["secondary_rays"]);
+            // Rough, but no guess: half to twice as many surfaces.
+            let (expected, met) = (&stage("shade")["expected_count"], &stage("shade")["count"]);
+            let ratio = expected.as_f64().unwrap() / met.as_f64().unwrap();
+            assert!((0.5..2.0).contains(&ratio), "{expected} expected, {met} met");
+            assert!(plan["ms"].as_f64().unwrap() > 0.0 && plan["expected_ms"].as_f64().unwrap() > 0.0);
+        }
+    }
+}
+
+mod an_engine {
+    use super::*;
+
+    fn used(options: &[&str]) -> (String, String) {
+        let render = ["render", "hanyang", "--dots", "40x30", "--format", "levels", "--stats", "json"];
+        let output = run(&[&render, options].concat());
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        let stats: serde_json::Value = serde_json::from_slice(&output.stderr).expect("JSON");
+        let word = |key: &str| stats[key].as_str().unwrap().to_owned();
+        (word("engine"), word("structure"))
+    }
+
+    #[test]
+    fn is_the_fast_one_unless_another_structure_is_asked_for() {
+        for (options, engine, structure) in [
+            (&[][..], "fast", "boxes"),
+            (&["--engine", "auto"], "fast", "boxes"),
+            (&["--structure", "boxes"], "fast", "boxes"),
+            (&["--structure", "none"], "exact", "none"),
+            (&["--structure", "lattice"], "exact", "lattice"),
+            (&["--structure", "tree"], "exact", "tree"),
+            (&["--preset", "pcat"], "exact", "lattice"),
+            (&["--preset", "pcat", "--structure", "auto"], "fast", "boxes"),
+            (&["--preset", "pcat", "--engine", "fast"], "fast", "boxes"),
+            (&["--engine", "exact"], "exact", "boxes"),
+            (&["--engine", "exact", "--structure", "boxes"], "exact", "boxes"),
+        ] {
+            assert_eq!(used(options), (engine.to_owned(), structure.to_owned()), "{options:?}");
+        }
+    }
+
+    #[test]
+    fn shows_the_same_picture() {
+        let picture = |engine: &str| done(&run(&["render", "glass", "--format", "pfm", "--engine", engine]));
+        assert!(picture("fast") == picture("exact"));
+    }
+
+    #[test]
+    fn that_can_not_be_had_says_what_to_do() {
+        let message = fails(&run(&["render", "die", "--engine", "fast", "--structure", "lattice"]), 2);
+        assert!(message.contains("lattice") && message.contains("leave out --engine"), "{message}");
     }
 }
 

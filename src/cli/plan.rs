@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 
 use crate::frame::{Frame, Studio, Wants};
-use crate::plan::{StagePlan, Term};
+use crate::plan::{EngineChoice, StagePlan, Term};
 use crate::stage::Stage;
 
 use super::arguments::PlanArguments;
@@ -59,6 +59,10 @@ impl Ran {
             Stage::Objects | Stage::Lattice => Some((self.frame.objects as u64, "object")),
             Stage::Ray => Some((counts.primary_rays, "ray")),
             Stage::Clip => Some((counts.clipped_rays, "ray")),
+            // Rays side by side take their steps together.
+            Stage::Cell if self.frame.engine == EngineChoice::Fast => {
+                Some((counts.primary_rays + counts.shadow_rays + counts.secondary_rays, "ray"))
+            }
             Stage::Cell => Some((counts.cells_visited, "step")),
             Stage::Solid => Some((counts.primitive_tests, "test")),
             Stage::Csg => Some((counts.csg_evaluations, "expression")),
@@ -132,6 +136,7 @@ impl Printed {
             name: "stage".into(),
             plan: "plan",
             expected: "expected".into(),
+            foreseen: String::new(),
             measured: ran(|_| "measured".into()),
             counted: ran(|_| "counted".into()),
             why: "why",
@@ -145,6 +150,7 @@ impl Printed {
                 name: format!("{:2} {}", s.stage.number(), s.stage.name()),
                 plan: verdict(s.needed),
                 expected: self.expected(s).map_or_else(String::new, time),
+                foreseen: counted(s.cost.map(|cost| (cost.count.round() as u64, cost.of))),
                 measured: self.ran.as_ref().map(|ran| match ran.time(s.stage) {
                     Duration::ZERO => String::new(),
                     took => time(ms(took)),
@@ -156,6 +162,7 @@ impl Printed {
                 name: format!("   - {}", t.name),
                 plan: verdict(t.needed),
                 expected: String::new(),
+                foreseen: String::new(),
                 measured: self.ran.as_ref().map(|_| String::new()),
                 counted: self.ran.as_ref().map(|ran| counted(ran.term(t))),
                 why: &t.why,
@@ -165,6 +172,7 @@ impl Printed {
             name: "total".into(),
             plan: "",
             expected: time(self.expected_total()),
+            foreseen: String::new(),
             measured: self
                 .ran
                 .as_ref()
@@ -175,12 +183,14 @@ impl Printed {
         let wide = |of: fn(&Row) -> usize| rows.iter().map(of).max().unwrap_or(0);
         let name = wide(|row| row.name.chars().count());
         let expected = wide(|row| row.expected.chars().count());
+        let foreseen = wide(|row| row.foreseen.chars().count());
         let measured = wide(|row| row.measured.as_ref().map_or(0, |m| m.chars().count()));
         let count = wide(|row| row.counted.as_ref().map_or(0, |c| c.chars().count()));
         let line = |row: &Row| {
-            let mut line = format!("{:name$}  {:8}  {:>expected$}", row.name, row.plan, row.expected);
+            let Row { expected: ms, foreseen: of, .. } = row;
+            let mut line = format!("{:name$}  {:8}  {ms:>expected$}  {of:<foreseen$}", row.name, row.plan);
             if let (Some(m), Some(c)) = (&row.measured, &row.counted) {
-                line += &format!("  {m:>measured$}  {c:>count$}");
+                line += &format!("  {m:>measured$}  {c:<count$}");
             }
             line += &format!("  {}", row.why);
             format!("{}\n", line.trim_end())
@@ -194,6 +204,8 @@ struct Row<'a> {
     name: String,
     plan: &'a str,
     expected: String,
+    /// How much of what that is for.
+    foreseen: String,
     measured: Option<String>,
     counted: Option<String>,
     why: &'a str,

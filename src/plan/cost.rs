@@ -34,11 +34,13 @@ impl Cost {
 /// Rays along each side of the picture that are held against the objects' boxes.
 const LOOKS: u32 = 16;
 
-/// Boxes of more objects are not looked at one by one: 16 × 16 rays against so many take some milliseconds.
+/// Of more objects some are looked at for all: 16 × 16 rays against so many boxes take some milliseconds.
 const LOOKED_AT: usize = 4096;
 
 // Shares, each the middle of what `--stats json` counts on the scenes inside the program and Haines's.
 
+/// Primitives of one object that a ray is tested against at most: the others are not where it passes.
+const SLICED: f64 = 4.0;
 /// Of the rays that pass the box of an object, those that meet one.
 const MEETS: f64 = 0.75;
 /// Of the mirror and Snell rays, those that meet something.
@@ -75,8 +77,19 @@ struct Rays {
     secondary: f64,
     /// Surfaces that are met by rays from the eye, or sent on.
     met: f64,
-    /// Objects whose boxes a ray passes.
-    passed: f64,
+}
+
+/// What rays pass that are held against the objects' boxes.
+#[derive(Clone, Copy, Debug, Default)]
+struct Look {
+    /// The share of the picture in which a ray passes any.
+    share: f64,
+    /// How many such a ray passes.
+    boxes: f64,
+    /// The share of these that have an expression.
+    composite: f64,
+    /// How many rays the material sends on of what stands first, in the mean.
+    sends: f64,
 }
 
 impl Plan {
@@ -90,27 +103,24 @@ impl Plan {
         dots: Size,
         nodes: usize,
     ) -> impl Fn(Stage) -> Option<Cost> + use<> {
-        let rays = self.rays_of(scene, assembly, lens, dots);
+        let look = look(scene, assembly, lens, dots);
+        let rays = self.rays_of(scene, assembly, &look, dots);
         let objects = assembly.objects.len() as f64;
-        let composites = assembly.objects.iter().filter(|o| matches!(o.body, Body::Composite { .. })).count();
-        let composite = if objects > 0.0 { composites as f64 / objects } else { 0.0 };
         let fast = self.engine == EngineChoice::Fast;
         let whole = self.structure == StructureChoice::None;
         let lamps = self.lamps.len() as f64;
         let build = if self.structure == StructureChoice::Boxes { BUILD_BOXES } else { BUILD_OTHER };
-        let leaves = assembly.primitives.len() as f64 / objects.max(1.0);
+        let leaves = (assembly.primitives.len() as f64 / objects.max(1.0)).min(SLICED);
         let alone = if fast { rays.secondary } else { rays.primary + rays.shadow + rays.secondary };
         let together = if fast { rays.primary + rays.shadow } else { 0.0 };
-        // A ray stops at what it meets, about halfway.
-        let asked = if whole { objects } else { 0.5 * (1.0 + rays.passed) };
-        let (tests, evaluations) = (alone * asked, alone * asked * composite);
-        // Eight ways at each node, and as many nodes beside the way as on it.
-        let steps = 2.0 * (1.0 + libm::log2(nodes.max(1) as f64) / 3.0);
-        let tested = TEST * leaves.min(4.0) + EVALUATION * composite;
-        let cell = if fast {
-            let tile = WALK_IN_BUNDLE + TEST_IN_BUNDLE * asked * leaves.min(4.0);
-            let all = together * tile + alone * (steps * CELL + asked * tested);
-            (together + alone, "ray", all)
+        // A ray ends at what it meets, about halfway.
+        let asked = if whole { objects } else { 0.5 * (1.0 + look.boxes) };
+        let (tests, evaluations) = (alone * asked * leaves, alone * asked * look.composite);
+        // Eight ways at each node.
+        let steps = 1.0 + libm::log2(nodes.max(1) as f64);
+        let tile = WALK_IN_BUNDLE + TEST_IN_BUNDLE * asked * leaves;
+        let (ways, of_ways, walked) = if fast {
+            (together + alone, "ray", together * tile + alone * steps * CELL)
         } else {
             (alone * steps, "step", alone * steps * CELL)
         };
@@ -123,72 +133,83 @@ impl Plan {
             }
             Stage::Ray if fast => of(rays.primary, "ray", RAY_IN_BUNDLE),
             Stage::Ray => of(rays.primary, "ray", RAY),
-            Stage::Cell if !is_empty && !whole => {
-                let (count, what, all) = cell;
-                of(count, what, if count > 0.0 { all / count } else { 0.0 })
-            }
-            Stage::Solid if !is_empty && !fast => of(tests, "test", TEST),
-            Stage::Csg if composites > 0 && !fast => of(evaluations, "expression", EVALUATION),
+            Stage::Cell if !whole && ways > 0.0 => of(ways, of_ways, walked / ways),
+            Stage::Solid if tests > 0.0 => of(tests, "test", TEST),
+            Stage::Csg if evaluations > 0.0 => of(evaluations, "expression", EVALUATION),
             Stage::Shade if !is_empty => of(rays.met, "surface", surface + lamps * light),
             _ => None,
         }
     }
 
-    fn rays_of(&self, scene: &Scene, assembly: &Assembly, lens: &Lens, dots: Size) -> Rays {
+    fn rays_of(&self, scene: &Scene, assembly: &Assembly, look: &Look, dots: Size) -> Rays {
         let per_dot =
             if self.samples == 1 { 1.0 } else { 1.0 + f64::from(self.samples) * f64::from(self.samples) };
         let primary = dots.area() as f64 * per_dot;
-        let (share, passed) = looked(assembly, lens, dots);
-        let first = primary * share * MEETS;
+        let first = primary * look.share * MEETS;
         let (mut secondary, mut met) = (0.0, first);
         if let Some(sent) = &self.secondary {
-            let materials = || assembly.primitives.iter().map(|p| &scene.materials[p.material.0 as usize]);
-            let ways = |kr: f64, kt: f64| f64::from(u8::from(kr > 0.0) + u8::from(kt > 0.0));
-            let each = materials().map(|m| ways(m.kr, m.kt)).sum::<f64>() / materials().count().max(1) as f64;
-            let most = materials().map(|m| m.kr.max(m.kt)).fold(0.0, f64::max);
-            let (mut rays, mut weight) = (first * each, most);
+            let shares = assembly.primitives.iter().map(|p| &scene.materials[p.material.0 as usize]);
+            let most = shares.map(|m| m.kr.max(m.kt)).fold(0.0, f64::max);
+            let (mut rays, mut weight) = (first * look.sends, most);
             for _ in 0..sent.generations {
                 if weight < sent.least_weight {
                     break;
                 }
                 secondary += rays;
                 met += rays * SENT_MEETS;
-                rays *= SENT_MEETS * each;
+                rays *= SENT_MEETS * look.sends;
                 weight *= most;
             }
         }
         let shadow = if self.shadows { met * self.lamps.len() as f64 * FACES } else { 0.0 };
-        Rays { primary, shadow, secondary, met, passed }
+        Rays { primary, shadow, secondary, met }
     }
 }
 
-/// The share of the picture in which a ray passes the box of an object, and how many boxes such a ray passes.
-fn looked(assembly: &Assembly, lens: &Lens, dots: Size) -> (f64, f64) {
-    let objects = assembly.objects.len();
-    let (mut rays, mut boxes) = (0_u32, 0_usize);
+/// Holds rays against the objects' boxes.
+fn look(scene: &Scene, assembly: &Assembly, lens: &Lens, dots: Size) -> Look {
+    let every = assembly.objects.len() / LOOKED_AT + 1;
+    let (mut rays, mut boxes, mut composites, mut first, mut sends) = (0_u32, 0_u32, 0_u32, 0_u32, 0_u32);
     for (i, j) in (0..LOOKS).flat_map(|j| (0..LOOKS).map(move |i| (i, j))) {
         let place = |k: u32, side: u32| (f64::from(k) + 0.5) / f64::from(LOOKS) * f64::from(side);
         let ray = assembly.ray(&lens.ray(place(i, dots.width), place(j, dots.height)));
-        let met = if !passes(&ray, &assembly.limit) {
-            0
-        } else if objects > LOOKED_AT {
-            // So many stand on a line through as many that fill a cube.
-            libm::cbrt(objects as f64) as usize
-        } else {
-            assembly.objects.iter().filter(|object| passes(&ray, &object.bounds)).count()
-        };
-        rays += u32::from(met > 0);
-        boxes += met;
+        if passing(&ray, &assembly.limit).is_none() {
+            continue;
+        }
+        let mut nearest = None;
+        for (index, object) in assembly.objects.iter().enumerate().step_by(every) {
+            let Some(from) = passing(&ray, &object.bounds) else { continue };
+            boxes += 1;
+            composites += u32::from(matches!(object.body, Body::Composite { .. }));
+            if nearest.is_none_or(|(other, _)| from < other) {
+                nearest = Some((from, index as u32));
+            }
+        }
+        // Where not all are looked at, a ray through the world is taken to meet one.
+        rays += u32::from(nearest.is_some() || every > 1);
+        if let Some((_, object)) = nearest
+            && let Some(&primitive) = assembly.primitives_of(object).first()
+        {
+            first += 1;
+            let material = &scene.materials[assembly.material(primitive).0 as usize];
+            sends += u32::from(material.kr > 0.0) + u32::from(material.kt > 0.0);
+        }
     }
-    (f64::from(rays) / f64::from(LOOKS * LOOKS), boxes as f64 / f64::from(rays.max(1)))
+    let ratio = |n: u32, of: u32| f64::from(n) / f64::from(of.max(1));
+    Look {
+        share: ratio(rays, LOOKS * LOOKS),
+        boxes: ratio(boxes, rays) * every as f64,
+        composite: ratio(composites, boxes),
+        sends: ratio(sends, first),
+    }
 }
 
-/// Whether a ray passes a box, but for rounding.
-fn passes(ray: &Ray, b: &Bounds) -> bool {
+/// Where a ray comes to a box that it passes; the last digits do not matter.
+fn passing(ray: &Ray, b: &Bounds) -> Option<f64> {
     let (mut from, mut to) = (0.0, f64::INFINITY);
     for axis in 0..3 {
         let [a, z] = [b.lo, b.hi].map(|side| (side[axis] - ray.o[axis]) / ray.d[axis]);
         (from, to) = (f64::max(from, a.min(z)), f64::min(to, a.max(z)));
     }
-    from <= to
+    (from <= to).then_some(from)
 }

@@ -109,7 +109,8 @@ impl Plan {
         let walk = match (is_empty, is_cut) {
             (true, _) => nothing(),
             (false, true) if self.engine == EngineChoice::Fast => {
-                "rays side by side, 32 × 32 in a tile, with SOLID and CSG; those that are unsure alone".into()
+                "rays side by side, 32 × 32 in a tile, through CELL, SOLID and CSG at once; others alone"
+                    .into()
             }
             (false, true) => {
                 "one ray after the other; it meets only what reaches into the cells on its way".into()
@@ -120,6 +121,8 @@ impl Plan {
             "the eye is in the world → no ray can miss it"
         } else if is_empty {
             "the world is empty → every ray ends here"
+        } else if self.engine == EngineChoice::Fast {
+            "the eye is outside the world → rays start near it, and a tile that misses its boxes ends"
         } else {
             "the eye is outside the world → a ray that misses its box ends here"
         };

@@ -71,7 +71,7 @@ impl Scale {
     #[inline(always)]
     fn bin(&self, item: &Reach) -> usize {
         match self.key {
-            Key::Center(axis) => self.whole((item.center(axis) - self.low) * self.per_bin),
+            Key::Center(axis) => self.bin_along(axis, item),
             // Bins by powers of four, from the longest down.
             Key::Size => {
                 let mut edge = self.low;
@@ -84,6 +84,11 @@ impl Scale {
                 bin
             }
         }
+    }
+
+    #[inline(always)]
+    fn bin_along(&self, axis: usize, item: &Reach) -> usize {
+        self.whole((item.center(axis) - self.low) * self.per_bin)
     }
 
     /// Not-a-number becomes 0. Converting to 32 bits is faster than to 64.
@@ -123,26 +128,22 @@ impl Split {
 
     #[inline(always)]
     fn parted_at_once<S: Simd>(&self, simd: S, items: &mut [Reach]) -> (usize, About, About) {
-        let middle = match self.scale.key {
-            // Each axis by itself, so that it is known where the loop is.
-            Key::Center(0) => {
-                self.moved(items, |scale, item| scale.whole((item.center(0) - scale.low) * scale.per_bin))
-            }
-            Key::Center(1) => {
-                self.moved(items, |scale, item| scale.whole((item.center(1) - scale.low) * scale.per_bin))
-            }
-            _ => self.moved(items, |scale, item| scale.bin(item)),
+        let scale = &self.scale;
+        // Each key by itself, so that it is not asked for in the loop.
+        let middle = match scale.key {
+            Key::Center(axis) => self.moved(items, |item| scale.bin_along(axis % 3, item)),
+            Key::Size => self.moved(items, |item| scale.bin(item)),
         };
         let (low, high) = items.split_at(middle);
         (middle, About::all(simd, low), About::all(simd, high))
     }
 
     #[inline(always)]
-    fn moved(&self, items: &mut [Reach], bin: impl Fn(&Scale, &Reach) -> usize) -> usize {
+    fn moved(&self, items: &mut [Reach], bin: impl Fn(&Reach) -> usize) -> usize {
         // Without a branch, which no processor could foretell.
         let mut middle = 0;
         for place in 0..items.len() {
-            let low = bin(&self.scale, &items[place]) <= self.last;
+            let low = bin(&items[place]) <= self.last;
             items.swap(place, middle);
             middle += usize::from(low);
         }
@@ -210,11 +211,8 @@ impl Bins {
     fn fill<S: Simd>(&mut self, simd: S, scale: &Scale, items: &[Reach]) {
         match scale.key {
             Key::Center(axis) => {
-                // As is known, but not to the compiler.
-                let axis = axis % 3;
                 for item in items {
-                    let place = (item.center(axis) - scale.low) * scale.per_bin;
-                    self.add(simd, scale.whole(place), item, 1);
+                    self.add(simd, scale.bin_along(axis % 3, item), item, 1);
                 }
             }
             Key::Size => {

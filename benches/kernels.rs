@@ -11,7 +11,7 @@ use std::hint::black_box;
 use std::ops::ControlFlow;
 
 use criterion::{BenchmarkId, Criterion, Throughput};
-use ray13::lattice::{Lattice, Structure, SubLattices, Tree};
+use ray13::lattice::{Boxes, Lattice, Structure, SubLattices, Tree};
 use ray13::math::{DVec3, Ray};
 use ray13::scene::Format;
 use ray13::solid::{Assembly, Body, Reach, Scratch, first_of_expression, first_of_span, first_of_surface};
@@ -119,9 +119,11 @@ fn walks(criterion: &mut Criterion) {
         group.throughput(Throughput::Elements(rays.len() as u64));
         let (tree, subs) = (Tree::new(&assembly), SubLattices::new(&assembly));
         let lattice = Lattice::new(&assembly).ok();
+        let boxes = Boxes::new(&assembly);
         let structures = [
             lattice.as_ref().map(|lattice| Structure::Lattice(lattice, &subs)),
             Some(Structure::Tree(&tree, &subs)),
+            Some(Structure::Boxes(&boxes, &subs)),
         ];
         for structure in structures.into_iter().flatten() {
             group.bench_with_input(BenchmarkId::new(structure.name(), objects), &rays, |bencher, rays| {
@@ -130,7 +132,7 @@ fn walks(criterion: &mut Criterion) {
                     for ray in rays {
                         let passed =
                             structure.walk(black_box(ray), 0.0, f64::INFINITY, &mut cells, |_, _| {
-                                ControlFlow::<()>::Continue(())
+                                ControlFlow::<(), f64>::Continue(f64::INFINITY)
                             });
                         black_box(passed);
                     }

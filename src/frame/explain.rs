@@ -8,7 +8,7 @@ use crate::tone::Tone;
 use super::{Request, Space, Studio};
 
 /// Nanoseconds of one thread for the levels and characters of a dot: the middle of what `plan --run` shows.
-const COMPOSE: f64 = 60.0;
+const COMPOSE: f64 = 14.0;
 
 impl Studio {
     /// All eleven stages of the picture that [`Studio::draw`] draws of the same request: which it needs, which it

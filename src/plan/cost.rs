@@ -48,32 +48,35 @@ const SENT_MEETS: f64 = 0.7;
 /// Of the lights, those that a surface faces.
 const FACES: f64 = 0.7;
 
-// Nanoseconds of one thread, each the middle of what `--run --threads 1` shows on the same scenes.
+// Nanoseconds of one thread, each the middle of what `--stats json --threads 1` shows on the same scenes, on a server
+// processor of 2024 with AVX-512.
 
-/// An object in a structure.
-const BUILD_BOXES: f64 = 700.0;
-const BUILD_OTHER: f64 = 5000.0;
+/// An object in boxes, and in a lattice or tree. Sub-lattices are not foreseen.
+const BUILD_BOXES: f64 = 500.0;
+const BUILD_CELLS: f64 = 5000.0;
 /// A ray from the eye, alone and in a bundle.
-const RAY: f64 = 60.0;
-const RAY_IN_BUNDLE: f64 = 4.0;
-/// A ray that goes alone: a cell or a node on its way, an object's primitive that it asks, an expression.
-const CELL: f64 = 20.0;
-const TEST: f64 = 40.0;
-const EVALUATION: f64 = 150.0;
-/// A ray in a bundle, with all that it asks: the share of the walk, and an object's primitive.
-const WALK_IN_BUNDLE: f64 = 15.0;
-const TEST_IN_BUNDLE: f64 = 8.0;
+const RAY: f64 = 45.0;
+const RAY_IN_BUNDLE: f64 = 9.0;
+/// Of a ray that goes alone: a cell or a node on its way, a primitive, an expression.
+const CELL: f64 = 28.0;
+const TEST: f64 = 35.0;
+const EVALUATION: f64 = 45.0;
+/// Of a ray in a bundle: its share of the walk, and a primitive, with its expression.
+const WALK_IN_BUNDLE: f64 = 60.0;
+const TEST_IN_BUNDLE: f64 = 15.0;
 /// A surface that is met, and a light on it.
-const SURFACE: f64 = 60.0;
-const LIGHT: f64 = 20.0;
-const SURFACE_IN_BUNDLE: f64 = 20.0;
-const LIGHT_IN_BUNDLE: f64 = 12.0;
+const SURFACE: f64 = 40.0;
+const LIGHT: f64 = 40.0;
+const SURFACE_IN_BUNDLE: f64 = 40.0;
+const LIGHT_IN_BUNDLE: f64 = 25.0;
 
 /// The rays of a picture, as far as they can be foreseen.
 #[derive(Clone, Copy, Debug)]
 struct Rays {
     primary: f64,
+    /// Towards lights, from what the eye sees, and from what rays that were sent on meet.
     shadow: f64,
+    shadow_of_sent: f64,
     secondary: f64,
     /// Surfaces that are met by rays from the eye, or sent on.
     met: f64,
@@ -109,9 +112,10 @@ impl Plan {
         let fast = self.engine == EngineChoice::Fast;
         let whole = self.structure == StructureChoice::None;
         let lamps = self.lamps.len() as f64;
-        let build = if self.structure == StructureChoice::Boxes { BUILD_BOXES } else { BUILD_OTHER };
+        let build = if self.structure == StructureChoice::Boxes { BUILD_BOXES } else { BUILD_CELLS };
         let leaves = (assembly.primitives.len() as f64 / objects.max(1.0)).min(SLICED);
-        let alone = if fast { rays.secondary } else { rays.primary + rays.shadow + rays.secondary };
+        let sent = rays.secondary + rays.shadow_of_sent;
+        let alone = if fast { sent } else { rays.primary + rays.shadow + sent };
         let together = if fast { rays.primary + rays.shadow } else { 0.0 };
         // A ray ends at what it meets, about halfway.
         let asked = if whole { objects } else { 0.5 * (1.0 + look.boxes) };
@@ -161,8 +165,9 @@ impl Plan {
                 weight *= most;
             }
         }
-        let shadow = if self.shadows { met * self.lamps.len() as f64 * FACES } else { 0.0 };
-        Rays { primary, shadow, secondary, met }
+        let lights = if self.shadows { self.lamps.len() as f64 * FACES } else { 0.0 };
+        let (shadow, shadow_of_sent) = (first * lights, (met - first) * lights);
+        Rays { primary, shadow, shadow_of_sent, secondary, met }
     }
 }
 

@@ -213,7 +213,7 @@ impl Beam {
         }
         let mut offsets = [infinite; 4];
         let (mut first, mut last, mut start) = (infinite, -infinite, -infinite);
-        for (bundle, reach) in live() {
+        for (bundle, reach) in bundles.filter(|(bundle, _)| bundle.live != 0) {
             for row in 0..ROWS {
                 let rays = bundle.load(simd, row);
                 let mut way = f64x8::splat(simd, WAY);
@@ -263,13 +263,12 @@ impl Beam {
     pub fn meets_boxes<S: Simd>(&self, simd: S, lo: &[f64x8<S>; 3], hi: &[f64x8<S>; 3]) -> Met<S> {
         let mut met = lo[0].is_at_most(hi[0]);
         for side in &self.sides {
-            met = met & !side.foremost(lo, hi).is_below(f64x8::splat(simd, side.offset));
+            met &= !side.foremost(lo, hi).is_below(f64x8::splat(simd, side.offset));
         }
         let forward = Plane { normal: self.axis, offset: 0.0 };
         let backward = Plane { normal: -self.axis, offset: 0.0 };
         let (farthest, nearest) = (forward.foremost(lo, hi), -backward.foremost(lo, hi));
-        met = met
-            & !farthest.is_below(f64x8::splat(simd, self.first))
+        met &= !farthest.is_below(f64x8::splat(simd, self.first))
             & !nearest.is_above(f64x8::splat(simd, self.last));
         Met { boxes: met.bits(), near: nearest - self.start }
     }

@@ -38,13 +38,15 @@ pub struct FanMet {
     pub near: [f32; FAN],
 }
 
-impl Fan {
+impl Default for Fan {
     /// No frustum at all.
-    pub fn new() -> Self {
+    fn default() -> Self {
         let planes = Planes { up: [[0.0; FAN]; 3], down: [[0.0; FAN]; 3], offset: [f32::INFINITY; FAN] };
         Self { planes: std::array::from_fn(|_| planes.clone()), start: [0.0; FAN] }
     }
+}
 
+impl Fan {
     /// Sets the frustums, up to [`FAN`] of them; those that are left over meet nothing.
     pub fn set(&mut self, beams: &[Beam]) {
         for lane in 0..FAN {

@@ -6,6 +6,7 @@ use std::ops::ControlFlow;
 use crate::math::{Bounds, DVec3, Ray};
 use crate::solid::{Assembly, Body, Expression, Object, Primitive, Pruned, Tree};
 
+use super::loose::{Loose, MANY};
 use super::planes::{Planes, SLACK, Step, slack};
 
 /// The most cells of one sub-lattice. Past it planes are left out, which costs tests but changes no hit: 64
@@ -22,8 +23,13 @@ const MOST_LEAVES: f64 = 4_194_304.0;
 const ALL_LEAVES: f64 = 4.0 * MOST_LEAVES;
 
 /// The sub-lattices of all composite objects.
-#[derive(Clone, Debug)]
-pub struct SubLattices(Vec<Option<SubLattice>>);
+#[derive(Debug)]
+pub struct SubLattices {
+    /// By object; empty where no object has one.
+    cells: Vec<Option<SubLattice>>,
+    /// By object: for beams, of those with many primitives; empty where there is none.
+    loose: Vec<Option<Loose>>,
+}
 
 impl SubLattices {
     /// Cuts every composite object of an assembly.
@@ -36,16 +42,33 @@ impl SubLattices {
                 SubLattice::new(tree, &assembly.primitives, &object.bounds, budget)
             }
         };
-        let all: Vec<_> = assembly.objects.iter().map(of).collect();
-        // Most large scenes have no composite object at all.
-        Self(if all.iter().all(Option::is_none) { Vec::new() } else { all })
+        let loose = |object: &Object| match &object.body {
+            Body::Composite { whole, .. } if whole.leaves.len() >= MANY => Some(Loose::new(object.bounds)),
+            _ => None,
+        };
+        Self {
+            cells: unless_none(assembly.objects.iter().map(of)),
+            loose: unless_none(assembly.objects.iter().map(loose)),
+        }
     }
 
     /// The sub-lattice of an object, where it has one.
     #[inline]
     pub fn of(&self, object: u32) -> Option<&SubLattice> {
-        self.0.get(object as usize)?.as_ref()
+        self.cells.get(object as usize)?.as_ref()
     }
+
+    /// The loose cells of an object, where it has some.
+    #[inline]
+    pub fn loose(&self, object: u32) -> Option<&Loose> {
+        self.loose.get(object as usize)?.as_ref()
+    }
+}
+
+/// Most large scenes have no composite object at all.
+fn unless_none<T>(all: impl Iterator<Item = Option<T>>) -> Vec<Option<T>> {
+    let all: Vec<_> = all.collect();
+    if all.iter().all(Option::is_none) { Vec::new() } else { all }
 }
 
 /// What one sub-lattice may hold.

@@ -80,8 +80,36 @@ impl Bounds {
     }
 
     /// The box around this box moved by `map`.
+    ///
+    /// Of a sum of rounded terms the least is that of the least terms, since rounding keeps the order of numbers: these are the
+    /// same bits as those of the box around the eight moved corners.
     #[must_use]
     pub fn mapped(&self, map: &DAffine3) -> Self {
-        Self::around(self.corners().map(|corner| map.transform_point3(corner)))
+        let along = |axis: usize| {
+            let (one, other) = (map.matrix3.col(axis) * self.lo[axis], map.matrix3.col(axis) * self.hi[axis]);
+            (one.min(other), one.max(other))
+        };
+        let [(x_lo, x_hi), (y_lo, y_hi), (z_lo, z_hi)] = [along(0), along(1), along(2)];
+        Self { lo: x_lo + y_lo + z_lo + map.translation, hi: x_hi + y_hi + z_hi + map.translation }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::DMat3;
+
+    #[test]
+    fn a_moved_box_is_the_box_around_its_moved_corners() {
+        let axis = DVec3::new(2.0, -3.0, 6.0) / 7.0;
+        for step in 0..100 {
+            let step = f64::from(step);
+            let turn = DMat3::from_axis_angle(axis, 0.7 * step);
+            let matrix3 = turn * DMat3::from_diagonal(DVec3::new(0.3, 1.0 + step, -1e-3));
+            let map = DAffine3 { matrix3, translation: axis * (step - 50.0) };
+            let b = Bounds::new(DVec3::new(-1.0, -0.1, 0.0), DVec3::new(0.7, 1.0, 0.3 + step));
+            let corners = b.corners().map(|corner| map.transform_point3(corner));
+            assert_eq!(b.mapped(&map), Bounds::around(corners));
+        }
     }
 }

@@ -23,19 +23,28 @@ impl Placement {
     /// it: both are exact, so no scale overflows.
     pub fn new(map: &DAffine3) -> Option<Self> {
         let linear = map.matrix3;
-        if !map.is_finite() || is_singular(&linear) {
+        if !map.is_finite() {
             return None;
         }
         let columns = power_of_two_near(column_sizes(&linear))?;
         let scaled = linear * DMat3::from_diagonal(columns.recip());
         let rows = power_of_two_near(column_sizes(&scaled.transpose()))?;
         let even = DMat3::from_diagonal(rows.recip()) * scaled;
-        let inverse = DMat3::from_diagonal(columns.recip())
-            * refined_inverse(&even)
-            * DMat3::from_diagonal(rows.recip());
+        let is_sturdy = even.determinant().abs() >= STURDY;
+        // Rounding can not make so large a determinant out of 0.
+        if !is_sturdy && is_singular(&linear) {
+            return None;
+        }
+        let even_inverse = if is_sturdy { even.inverse() } else { refined_inverse(&even) };
+        let inverse =
+            DMat3::from_diagonal(columns.recip()) * even_inverse * DMat3::from_diagonal(rows.recip());
         inverse.is_finite().then_some(Self { linear, inverse, center: map.translation })
     }
 }
+
+/// The determinant of a matrix whose rows and columns have magnitudes near 1 above which its inverse by cofactors is
+/// good enough.
+const STURDY: f64 = 0.5;
 
 /// The inverse of a matrix whose rows and columns have magnitudes near 1, off by at most 8 roundings of its entries.
 ///
@@ -44,14 +53,9 @@ impl Placement {
 /// precision (Wilkinson: Rounding Errors in Algebraic Processes, 1963; the sums after Ogita, Rump, Oishi: Accurate sum
 /// and dot product, SIAM J. Sci. Comput. 26, 2005).
 fn refined_inverse(even: &DMat3) -> DMat3 {
-    /// Above it cofactors are good enough.
-    const STURDY: f64 = 0.5;
     /// Each step squares what is left: from just below 1 it is rounding after so many.
     const STEPS: usize = 10;
     let mut inverse = even.inverse();
-    if even.determinant().abs() >= STURDY {
-        return inverse;
-    }
     let mut left = 1.0;
     for _ in 0..STEPS {
         let rest = DMat3::from_cols_array(&std::array::from_fn(|i| {
@@ -100,8 +104,17 @@ fn column_sizes(m: &DMat3) -> DVec3 {
 }
 
 /// For each size the power of two `s` with `1 ≤ size / s < 2`; `None` where a size is 0 or not finite.
+#[inline]
 fn power_of_two_near(sizes: DVec3) -> Option<DVec3> {
-    let exponent = |size: f64| libm::ldexp(1.0, libm::ilogb(size));
+    /// Of a normal number these bits alone are the power of two.
+    const EXPONENT: u64 = f64::INFINITY.to_bits();
+    let exponent = |size: f64| {
+        if size.is_normal() {
+            f64::from_bits(size.to_bits() & EXPONENT)
+        } else {
+            libm::ldexp(1.0, libm::ilogb(size))
+        }
+    };
     let usable = sizes.is_finite() && sizes.cmpgt(DVec3::ZERO).all();
     usable
         .then(|| DVec3::new(exponent(sizes.x), exponent(sizes.y), exponent(sizes.z)))

@@ -69,7 +69,7 @@ pub fn read_file(path: &Path, options: &ReadOptions) -> Result<Scene, ReadError>
         return Err(too_large(&name).into());
     }
     // The length above is a promise only of plain files: a pipe or a growing file is cut off here.
-    let mut bytes = Vec::new();
+    let mut bytes = Vec::with_capacity(metadata.len() as usize + 1);
     file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(file_error)?;
     Ok(read(&name, &bytes, options)?)
 }
@@ -108,7 +108,7 @@ fn text<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Diagnostics> {
         Diagnostics::whole(name, Diagnostic::error(0..0, message).help("a scene is UTF-8 text"))
     };
     let text = std::str::from_utf8(bytes).map_err(|error| no_text(error.valid_up_to(), "not UTF-8"))?;
-    match bytes.iter().position(|&byte| byte == 0) {
+    match text.find('\0') {
         Some(offset) => Err(no_text(offset, "0")),
         None => Ok(text),
     }

@@ -128,7 +128,7 @@ impl<E: Engine, C: Channel> Shader<'_, E, C> {
         &self,
         sent: &Sent,
         met: &Met,
-        change: Change,
+        change: &Change,
         own: C,
         memory: &mut Memory<E>,
         meter: &mut Meter<impl Probe>,

@@ -31,6 +31,8 @@ pub struct Shader<'a, E, C> {
     pub(super) shadows: bool,
     /// Whether light can come through anything.
     pub(super) glass: bool,
+    /// By object: whether light comes through any of its surfaces; empty where it comes through nothing.
+    pub(super) clear: Vec<bool>,
     pub(super) generations: u32,
     pub(super) least_weight: f64,
     /// The glass that the eye is in.
@@ -155,6 +157,11 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
             .lamps
             .iter()
             .map(|l| Lamp { at: assembly.datum.inward_near(l.at), light: C::source(l.light) });
+        let clear = |object: u32| {
+            let primitives = assembly.primitives_of(object).into_iter();
+            primitives.map(|p| assembly.material(p).0).any(|m| scene.materials[m as usize].kt > 0.0)
+        };
+        let objects = if plan.glass { assembly.objects.len() as u32 } else { 0 };
         let secondary = plan.secondary.as_ref();
         let around_eye = secondary.iter().flat_map(|s| &s.around_eye);
         Self {
@@ -167,6 +174,7 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
             depth: plan.depth,
             shadows: plan.shadows,
             glass: plan.glass,
+            clear: (0..objects).map(clear).collect(),
             generations: secondary.map_or(0, |s| s.generations),
             least_weight: secondary.map_or(0.0, |s| s.least_weight),
             around_eye: around_eye.map(|&(object, index)| Filling { object, index }).collect(),
@@ -212,7 +220,7 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
         if finish.kr > 0.0 || finish.kt > 0.0 {
             let change = self.change(&sent.inside, memory);
             let own = self.own_light(sent, met, memory, meter);
-            self.sending_surface(sent, met, change, own, memory, meter)
+            self.sending_surface(sent, met, &change, own, memory, meter)
         } else {
             self.own_light(sent, met, memory, meter)
         }
@@ -226,7 +234,7 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
         let mut sum = C::DARK;
         for lamp in 0..self.lamps.len() {
             let Some(towards) = self.towards(lamp, p, normal) else { continue };
-            let mut share = self.share(finish, towards.facing, towards.mirrored_cosine(normal, sent.ray.d));
+            let mut share = Self::share(finish, towards.facing, towards.mirrored_cosine(normal, sent.ray.d));
             if self.shadows && (finish.kd > 0.0 || finish.ks > 0.0) {
                 let ray = Ray::new(p, towards.d);
                 let visible = self.visibility(&ray, departure, towards.distance, memory, meter);
@@ -256,7 +264,7 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
 
     /// `kd·C·(L·N) + ks·cosⁿθ`: the share of a light that a surface sends to where it is seen from.
     #[inline]
-    pub(super) fn share(&self, finish: &Finish<C>, facing: f64, cosine: f64) -> C {
+    pub(super) fn share(finish: &Finish<C>, facing: f64, cosine: f64) -> C {
         let share = finish.color * (finish.kd * facing);
         if finish.ks > 0.0 && cosine > 0.0 {
             share + C::from_rgb(DVec3::ONE) * (finish.ks * power(cosine, finish.n))

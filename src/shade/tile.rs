@@ -7,7 +7,7 @@
 use crate::math::{BUNDLE, Bundle, Column, Columns, DVec3, Ray};
 use crate::solid::{Crossing, Departures, Form};
 use crate::stage::{Meter, Probe, Stage};
-use crate::trace::{Fast, Hit, Nearest, Shaft, TileMemory};
+use crate::trace::{Fast, Hit, Nearest, Shaft, Shone, TileMemory};
 
 use super::channel::Channel;
 use super::lit::{Lit, Surfaces};
@@ -222,8 +222,8 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         }
         if self.shadows {
             meter.at(Stage::Cell);
-            let at = self.lamps[lamp].at;
-            self.engine.blocked_of(&mut tile.shafts, &tile.departures, at, &mut tile.trace);
+            let shone = Shone { at: self.lamps[lamp].at, clear: &self.clear };
+            self.engine.blocked_of(&mut tile.shafts, &tile.departures, &shone, &mut tile.trace);
             meter.at(Stage::Shade);
         }
         for (k, shaft) in tile.shafts.iter().enumerate() {
@@ -235,7 +235,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
                 let mut visible = 1.0;
                 if self.shadows {
                     let blocked = shaft.blocked & bit != 0;
-                    if shaft.unsure & bit != 0 || (blocked && self.glass) {
+                    if !blocked && (shaft.unsure | shaft.tinted) & bit != 0 {
                         let met = met(tile, k, lane, [0.0; 2]);
                         let departure = self.departure(&met.hit, met.p, met.normal);
                         let (ray, distance) = (shaft.rays.ray(lane), shaft.distance.0[lane]);
@@ -251,7 +251,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
                 }
                 let finish = &self.finishes[tile.surfaces[k].finish[lane] as usize];
                 let (facing, cosine) = (tile.lit[k].facing.0[lane], tile.lit[k].cosine.0[lane]);
-                let share = self.share(finish, facing, cosine) * visible;
+                let share = Self::share(finish, facing, cosine) * visible;
                 sums[k][lane] = (sums[k][lane] + self.lamps[lamp].light * share).limited();
             }
         }
@@ -271,7 +271,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         let together = [(object, Crossing { t, error, primitive, surface, entering })];
         let change = self.change_at(&inside, &together, &mut memory.media);
         let sent = Sent { ray: *ray, travelled: 0.0, weight: 1.0, generation: 0, inside };
-        self.sending_surface(&sent, met, change, own, memory, meter)
+        self.sending_surface(&sent, met, &change, own, memory, meter)
     }
 }
 

@@ -8,7 +8,7 @@
 
 use robust::{Coord, orient2d};
 
-use crate::math::{Bounds, DVec3, Ray};
+use crate::math::{Bounds, DVec3, Number, Ray, Rays};
 
 /// The plane across a ray: two axes of the world sheared along it.
 pub(super) struct Across<'a> {
@@ -104,7 +104,24 @@ fn side(p: Coord<f64>, q: Coord<f64>) -> Option<bool> {
 
 /// The sine of the angle between a line and a plane above which their crossing is off by a thousand times a
 /// coordinate's error at most, and the corners of an outline can not say more.
-const STEEP: f64 = 1e-3;
+pub(super) const STEEP: f64 = 1e-3;
+
+/// Where lines meet a plane.
+pub(super) struct OnPlane<N> {
+    /// The sine of the angle between each and the plane, below 0 where the line comes against the normal.
+    pub towards: N,
+    pub t: N,
+    pub error: N,
+}
+
+/// Where lines meet the plane through `anchor` across `normal`, and how far that may be off, given how far coordinates
+/// may be.
+#[inline(always)]
+pub(super) fn on_plane<N: Number>(rays: &Rays<N>, normal: DVec3, anchor: DVec3, off: f64) -> OnPlane<N> {
+    let towards = rays.d.dot_one(normal);
+    let t = (rays.o.same(anchor) - rays.o).dot_one(normal) / towards;
+    OnPlane { towards, t, error: t.same(off) / towards.magnitude() }
+}
 
 /// Where a line that passes through an outline meets the plane through `anchor` across `normal`, and how far that may
 /// be off, given how far coordinates may be. Where the outline lies so nearly edge on that the plane leads away from
@@ -116,8 +133,7 @@ pub(super) fn plane_crossing(
     anchor: DVec3,
     off: f64,
 ) -> (f64, f64) {
-    let towards = normal.dot(ray.d);
-    let (t, error) = (normal.dot(anchor - ray.o) / towards, off / towards.abs());
+    let OnPlane { towards, t, error } = on_plane(&Rays::from(ray), normal, anchor, off);
     if towards.abs() > STEEP {
         return (t, error);
     }

@@ -3,6 +3,8 @@
 //! The world's numbers are brought to magnitudes near 1, by a power of two and, where the scene lies far from
 //! the origin, a shift: every later bound on rounding then holds at any scale and any distance from the origin.
 
+use rayon::prelude::*;
+
 use crate::math::{Bounds, DAffine3, DVec3, Placement, Ray};
 use crate::scene::{self, MaterialId, Scene, Solid};
 
@@ -14,6 +16,24 @@ use super::span::ROUNDING;
 /// Eyes and lights farther away than this, in the assembly's unit, stand here: the square of such a length does not
 /// overflow, and seen from the scene, whose size is about 1, the direction is the same within rounding.
 const FARTHEST: f64 = 1e100;
+
+/// Objects in a row that one thread looks at: few are done before another thread could begin.
+const STRETCH: usize = 4096;
+
+/// Every item, and its number, by `f`; by all threads where they are many.
+fn mapped<T: Sync, U: Send>(items: &[T], f: impl Fn(usize, &T) -> U + Sync) -> Vec<U> {
+    if items.len() < STRETCH {
+        return items.iter().enumerate().map(|(number, item)| f(number, item)).collect();
+    }
+    items.par_iter().enumerate().map(|(number, item)| f(number, item)).collect()
+}
+
+/// Those that are there, in the memory that held them all.
+fn present<T>(mut all: Vec<Option<T>>) -> Vec<T> {
+    all.retain(Option::is_some);
+    // `flatten` would take new memory.
+    all.into_iter().collect::<Option<_>>().unwrap_or_default()
+}
 
 /// The objects of a scene, ready for rays.
 #[derive(Clone, Debug)]
@@ -66,7 +86,45 @@ pub struct Datum {
     pub unit: f64,
 }
 
+impl Object {
+    /// The object of this number, whose primitives begin at `start`. `None` where it holds nothing.
+    fn new(number: usize, object: &scene::Object, start: usize, primitives: &[Primitive]) -> Option<Self> {
+        let tree = Tree::new(&object.solid, &mut (start as u32))?;
+        let bounds = tree.bounds(primitives);
+        let form = |index: u32| &primitives[index as usize].form;
+        let body = match tree {
+            Tree::Leaf(index) if form(index).is_convex() => Body::Single(index),
+            Tree::Leaf(index) if form(index).is_surface() => Body::Surface(index),
+            tree => Body::Composite { whole: Box::new(Expression::new(&tree)), tree: Box::new(tree) },
+        };
+        (!bounds.is_empty()).then_some(Self { number: number as u32, bounds, body })
+    }
+
+    fn is_composite(&self) -> bool {
+        matches!(self.body, Body::Composite { .. })
+    }
+}
+
 impl Datum {
+    /// The datum for a scene.
+    fn of(scene: &Scene) -> Self {
+        // What it shows, and all that is computed with.
+        let reach = |objects: &[scene::Object]| {
+            objects.iter().fold((Bounds::EMPTY, Bounds::EMPTY), |(seen, mut all), object| {
+                object.solid.visit(&mut |p| all = all.join(&p.shape.bounds().mapped(&p.map)));
+                (seen.join(&bounds_of(&object.solid)), all)
+            })
+        };
+        if scene.objects.len() < STRETCH {
+            let (seen, all) = reach(&scene.objects);
+            return Self::new(&seen, &all);
+        }
+        let reaches: Vec<_> = scene.objects.par_chunks(STRETCH).map(reach).collect();
+        let join = |(seen, all): (Bounds, Bounds), (s, a): &(Bounds, Bounds)| (seen.join(s), all.join(a));
+        let (seen, all) = reaches.iter().fold((Bounds::EMPTY, Bounds::EMPTY), join);
+        Self::new(&seen, &all)
+    }
+
     /// The datum for a scene that shows only in the box `b`, with cutters that reach to the box `all`.
     fn new(b: &Bounds, all: &Bounds) -> Self {
         // Cutters are computed with, too: where the body is small beside them, beyond all reason, the unit grows so
@@ -112,11 +170,14 @@ impl Datum {
         let map = DAffine3 { matrix3, translation: self.inward(p.map.translation) };
         // The scale is exact; a shift is rounded.
         let shifted = if self.origin == DVec3::ZERO { DVec3::ZERO } else { ROUNDING * map.translation.abs() };
+        let error = p.displacement() / self.unit + shifted;
+        if let Some(ball) = Form::ball(&p.shape, &map, error) {
+            return Some(ball);
+        }
         let place = Placement::new(&map).filter(|place| {
             // Lengths of the world in the unit space, whose squares must not overflow.
             place.inverse.to_cols_array().iter().all(|x| x.abs() <= FARTHEST)
         });
-        let error = p.displacement() / self.unit + shifted;
         match place {
             Some(place) => Some(Form::new(&p.shape, place, error)),
             // So thin beside the scene that no ray meets it, though its map has an inverse: a ball of no size.
@@ -167,47 +228,42 @@ pub enum AssemblyError {
 impl Assembly {
     /// Puts a scene together.
     pub fn new(scene: &Scene) -> Result<Self, AssemblyError> {
-        let (mut seen, mut all) = (Bounds::EMPTY, Bounds::EMPTY);
+        let datum = Datum::of(scene);
+        let mut parts = Vec::with_capacity(scene.objects.len());
+        // By object: where its primitives start; one more than there are objects.
+        let mut starts = Vec::with_capacity(scene.objects.len() + 1);
         for object in &scene.objects {
-            seen = seen.join(&bounds_of(&object.solid));
-            object.solid.visit(&mut |p| all = all.join(&p.shape.bounds().mapped(&p.map)));
+            starts.push(parts.len());
+            object.solid.visit(&mut |p| parts.push(p));
         }
-        let datum = Datum::new(&seen, &all);
-        let (mut primitives, mut objects) = (Vec::new(), Vec::new());
-        let mut limit = Bounds::EMPTY;
-        for (number, object) in scene.objects.iter().enumerate() {
-            let start = primitives.len();
-            let mut singular = None;
-            object.solid.visit(&mut |p| match datum.form(p) {
-                Some(form) => primitives.push(Primitive { form, material: p.material }),
-                None => singular = singular.or(Some(primitives.len() - start + 1)),
-            });
-            if let Some(primitive) = singular {
-                return Err(AssemblyError::Singular { object: number + 1, primitive });
-            }
-            u32::try_from(primitives.len()).map_err(|_| AssemblyError::TooMany)?;
-            let Some(tree) = Tree::new(&object.solid, &mut (start as u32)) else { continue };
-            let bounds = tree.bounds(&primitives);
-            if bounds.is_empty() {
-                continue;
-            }
-            let form = |index: u32| &primitives[index as usize].form;
-            let body = match tree {
-                Tree::Leaf(index) if form(index).is_convex() => Body::Single(index),
-                Tree::Leaf(index) if form(index).is_surface() => Body::Surface(index),
-                tree => Body::Composite { whole: Box::new(Expression::new(&tree)), tree: Box::new(tree) },
-            };
-            if let Body::Composite { .. } = body
-                && let Some(place) = primitives[start..].iter().position(|p| p.form.is_surface())
+        starts.push(parts.len());
+        u32::try_from(parts.len()).map_err(|_| AssemblyError::TooMany)?;
+        let placed =
+            |_, p: &&scene::Primitive| datum.form(p).map(|form| Primitive { form, material: p.material });
+        let primitives = mapped(&parts, placed);
+        if let Some(singular) = primitives.iter().position(Option::is_none) {
+            let object = starts.partition_point(|&start| start <= singular);
+            return Err(AssemblyError::Singular { object, primitive: singular - starts[object - 1] + 1 });
+        }
+        let primitives = present(primitives);
+        drop(parts);
+        let own = |number: usize| starts[number]..starts[number + 1];
+        let object =
+            |number, object: &scene::Object| Object::new(number, object, own(number).start, &primitives);
+        let objects = present(mapped(&scene.objects, object));
+        for Object { number, .. } in objects.iter().filter(|object| object.is_composite()) {
+            if let Some(surface) = primitives[own(*number as usize)].iter().position(|p| p.form.is_surface())
             {
-                return Err(AssemblyError::SurfaceInOperation { object: number + 1, primitive: place + 1 });
+                let (object, primitive) = (*number as usize + 1, surface + 1);
+                return Err(AssemblyError::SurfaceInOperation { object, primitive });
             }
-            limit = limit.join(&bounds);
-            objects.push(Object { number: number as u32, bounds, body });
         }
-        let off = primitives.iter().map(|p: &Primitive| p.form.off()).fold(0.0, f64::max);
-        primitives.shrink_to_fit();
-        objects.shrink_to_fit();
+        let limit = objects.iter().fold(Bounds::EMPTY, |limit, object| limit.join(&object.bounds));
+        let off = if primitives.len() < STRETCH {
+            primitives.iter().map(|p| p.form.off()).fold(0.0, f64::max)
+        } else {
+            primitives.par_iter().map(|p| p.form.off()).reduce(|| 0.0, f64::max)
+        };
         Ok(Self { primitives, objects, limit, off, datum })
     }
 

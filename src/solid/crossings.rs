@@ -128,20 +128,31 @@ impl BundleScratch {
     }
 }
 
-/// The first crossings of an expression of convex primitives within `reach`, for the rays of `wanted`.
+/// What is asked of an expression.
+#[derive(Clone, Copy, Debug)]
+pub struct Asked<'a> {
+    /// The rays.
+    pub bundle: &'a Bundle,
+    /// Which of them ask, a bit for each.
+    pub wanted: u64,
+    /// The surfaces that they leave; none for rays from the eye.
+    pub departures: Option<&'a Departures>,
+    /// The part of each.
+    pub reach: Reach,
+}
+
+/// The first crossings of an expression of convex primitives.
 ///
 /// Rays whose expression has a primitive that is not convex are unsure, all of them.
 pub fn first_of_expressions<S: Simd>(
     simd: S,
-    bundle: &Bundle,
-    wanted: u64,
+    asked: &Asked,
     expression: Flat,
     primitives: &[Primitive],
-    departures: Option<&Departures>,
-    reach: Reach,
     scratch: &mut BundleScratch,
     found: &mut Found,
 ) {
+    let Asked { bundle, wanted, departures, reach } = *asked;
     (found.any, found.unsure, found.entering) = (0, 0, 0);
     let form = |leaf: usize| &primitives[expression.leaves[leaf].primitive as usize].form;
     let leaves = expression.leaves.len();
@@ -160,7 +171,7 @@ pub fn first_of_expressions<S: Simd>(
     if some != 0 {
         simd.vectorize(
             #[inline(always)]
-            || decide(simd, some, expression, primitives, departures, reach, scratch, found),
+            || decide(simd, asked, some, (expression, primitives), scratch, found),
         );
     }
 }
@@ -193,14 +204,13 @@ struct Place {
 #[inline(always)]
 fn decide<S: Simd>(
     simd: S,
+    asked: &Asked,
     mut open: u64,
-    expression: Flat,
-    primitives: &[Primitive],
-    departures: Option<&Departures>,
-    reach: Reach,
+    (expression, primitives): (Flat, &[Primitive]),
     scratch: &mut BundleScratch,
     found: &mut Found,
 ) {
+    let Asked { departures, reach, .. } = *asked;
     let leaves = expression.leaves.len();
     let BundleScratch { known, places, inside, flipped, before, behind } = scratch;
     let mut sides = Leaves { spans: known.spans(), places };
@@ -276,7 +286,7 @@ fn next_place<S: Simd>(
     let leaves = expression.leaves.len();
     for leaf in 0..leaves {
         let pair = sides.of(leaf).sides();
-        if (pair[0].ahead | pair[1].ahead) >> shift & 0xFF == 0 {
+        if ((pair[0].ahead | pair[1].ahead) >> shift) as u8 == 0 {
             continue;
         }
         let form = &primitives[expression.leaves[leaf].primitive as usize].form;
@@ -312,7 +322,7 @@ fn next_place<S: Simd>(
         let own = primitives[expression.leaves[leaf].primitive as usize].form.off();
         let KnownSpans { enter, leave, .. } = sides.of_mut(leaf);
         for side in [enter, leave] {
-            let now = if (side.ahead >> shift & 0xFF) == 0 {
+            let now = if (side.ahead >> shift) as u8 == 0 {
                 0
             } else {
                 let (their_t, their_error) = (side.t.load(simd, row), side.error.load(simd, row));
@@ -326,7 +336,7 @@ fn next_place<S: Simd>(
                 let exact =
                     error.is_equal(f64x8::splat(simd, 0.0)) | their_error.is_equal(f64x8::splat(simd, 0.0));
                 let now = within & (same_slope | exact);
-                all_before = all_before & (!now | their_t.is_below(f64x8::splat(simd, reach.from)));
+                all_before &= !now | their_t.is_below(f64x8::splat(simd, reach.from));
                 u64::from(now.bits())
             };
             side.now = side.now & !(0xFF << shift) | now << shift;

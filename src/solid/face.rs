@@ -3,10 +3,10 @@
 //! A ray meets a polygon where its outline turns around it an odd number of times, decided exactly in the plane
 //! across the ray ([`super::across`]): of two polygons with a common edge exactly one is met there.
 
-use crate::math::{Bounds, DVec3, Placement, Ray};
+use crate::math::{Bounds, DVec3, Mask, Number, Placement, Ray, Rays};
 
-use super::across::{Across, plane_crossing};
-use super::span::{End, rounding_at};
+use super::across::{Across, OnPlane, STEEP, on_plane, plane_crossing};
+use super::span::{End, Ends, rounding_at};
 
 /// So many edges are looked at together: past twice as many, boxes around each group of them are asked first.
 const GROUP: usize = 32;
@@ -14,6 +14,15 @@ const GROUP: usize = 32;
 /// Corners that are written with six digits leave their plane by this much, in the assembly's unit. A polygon that
 /// is bent further is meant so.
 const WRITTEN: f64 = 1e-5;
+
+/// Where lines meet the plane of a polygon.
+pub(super) struct SteepCrossings<N: Number> {
+    pub end: Ends<N>,
+    /// Which come against the normal.
+    pub against: N::Mask,
+    /// Which are steep enough for the plane to say where: of the others `end` means nothing.
+    pub steep: N::Mask,
+}
 
 /// A polygon in the world.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,19 +75,41 @@ impl Face {
             return None;
         }
         let (t, error) = plane_crossing(ray, self.corners(), self.normal, self.middle, self.off);
-        let t = self.bent_box.as_ref().map_or(t, |b| nearest_within(b, ray, t));
+        let t = self.bent_box.as_ref().map_or(t, |b| nearest_within(b, &Rays::from(ray), t));
         Some(End { t, error, surface: 0 })
     }
 
-    fn surrounds(&self, across: &Across) -> bool {
-        if self.groups.is_empty() {
-            return across.crosses_odd(&self.outline);
+    /// Where lines through the outline meet the polygon: [`Face::crossing`] of those that are steep enough for their
+    /// plane to say it.
+    #[inline(always)]
+    pub(super) fn steep_crossings<N: Number>(&self, rays: &Rays<N>) -> SteepCrossings<N> {
+        let OnPlane { towards, t, error } = on_plane(rays, self.normal, self.middle, self.off);
+        let t = match &self.bent_box {
+            Some(b) => nearest_within(b, rays, t),
+            None => t,
+        };
+        SteepCrossings {
+            end: Ends { t, error, surface: t.same(0.0) },
+            against: towards.is_below(t.same(0.0)),
+            steep: towards.magnitude().is_above(t.same(STEEP)),
         }
+    }
+
+    /// Stretches of the outline, all of its edges together, each with a box around it where there are many.
+    #[inline(always)]
+    pub(super) fn stretches(&self) -> impl Iterator<Item = (Option<&Bounds>, &[DVec3])> {
+        let length = if self.groups.is_empty() { self.outline.len() } else { GROUP };
+        (0..self.outline.len() - 1).step_by(length).enumerate().map(move |(number, start)| {
+            let end = self.outline.len().min(start + length + 1);
+            (self.groups.get(number), &self.outline[start..end])
+        })
+    }
+
+    fn surrounds(&self, across: &Across) -> bool {
         let mut odd = false;
-        for (number, b) in self.groups.iter().enumerate() {
-            if across.may_cross(b) {
-                let start = number * GROUP;
-                odd ^= across.crosses_odd(&self.outline[start..self.outline.len().min(start + GROUP + 1)]);
+        for (b, corners) in self.stretches() {
+            if b.is_none_or(|b| across.may_cross(b)) {
+                odd ^= across.crosses_odd(corners);
             }
         }
         odd
@@ -118,17 +149,19 @@ impl Face {
 
 /// The place nearest to `t` on the ray within the box. A ray through an outline passes through the hull of its corners,
 /// and so through their box, but for rounding.
-fn nearest_within(b: &Bounds, ray: &Ray, t: f64) -> f64 {
-    let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+#[inline(always)]
+fn nearest_within<N: Number>(b: &Bounds, rays: &Rays<N>, t: N) -> N {
+    let infinite = t.same(f64::INFINITY);
+    let (mut low, mut high) = (-infinite, infinite);
     for axis in 0..3 {
-        let inverse = ray.d[axis].recip();
-        if inverse.is_finite() {
-            let (t1, t2) = ((b.lo[axis] - ray.o[axis]) * inverse, (b.hi[axis] - ray.o[axis]) * inverse);
-            low = low.max(t1.min(t2));
-            high = high.min(t1.max(t2));
-        }
+        let (o, inverse) = (rays.o.along(axis), t.same(1.0) / rays.d.along(axis));
+        let (t1, t2) = ((-o + b.lo[axis]) * inverse, (-o + b.hi[axis]) * inverse);
+        let finite = inverse.magnitude().is_below(infinite);
+        low = finite.choose(t1.smaller(t2).larger(low), low);
+        high = finite.choose(t1.larger(t2).smaller(high), high);
     }
-    if low <= high { t.clamp(low, high) } else { 0.5 * low + 0.5 * high }
+    let within = t.is_below(low).choose(low, t.is_above(high).choose(high, t));
+    low.is_at_most(high).choose(within, low * 0.5 + high * 0.5)
 }
 
 /// The normal of a closed outline by Newell's method: its components are the areas of the outline's shadows along

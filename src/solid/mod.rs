@@ -16,23 +16,29 @@ mod patch;
 mod primitive;
 mod prune;
 mod round;
+mod sheared;
 mod slabs;
 mod span;
 mod state;
 mod surface;
+mod surfaces;
+mod taper;
 #[cfg(test)]
 mod tests;
 mod tube;
+mod unit_space;
 
 pub use assembly::{Assembly, AssemblyError, Body, Datum, Object};
 pub use ball::Ball;
 pub use crossing::{
     Crossing, Firsts, Reach, Scratch, Starts, first_of_expression, first_of_span, firsts_of_spans,
 };
-pub use crossings::{BundleScratch, Departures, Found, first_of_expressions};
+pub use crossings::{Asked, BundleScratch, Departures, Found, first_of_expressions};
 pub use expression::{Child, Expression, Leaf, Pruned, Tree};
 pub(crate) use known::with_spans;
 pub use primitive::{Cover, Form, Primitive};
 pub use prune::{Flat, Left, Pruning, Remains};
+pub use sheared::Sheared;
 pub use span::{Departure, End, Ends, LIMIT, ROUNDING, Span, Spans, WORLD};
 pub use surface::first_of_surface;
+pub use surfaces::firsts_of_surface;

@@ -1,6 +1,8 @@
 //! One primitive, put into the world and specialised: only what its map requires is computed per ray.
 
-use crate::math::{Bounds, DMat3, DVec3, Number, Placement, Ray, Rays};
+use std::ops::RangeInclusive;
+
+use crate::math::{Bounds, DAffine3, DMat3, DVec3, Number, Placement, Ray, Rays};
 use crate::scene::{MaterialId, Shape};
 
 use super::ball::Ball;
@@ -22,14 +24,14 @@ pub struct Primitive {
     pub material: MaterialId,
 }
 
-/// The forms, each with its own intersection. Those of many numbers are boxed, so that a scene of a million spheres
-/// does not pay for them.
+/// The forms, each with its own intersection. Those of more numbers than a sphere's are boxed, so that a scene of a million
+/// spheres does not pay for them.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Form {
     /// A sphere.
     Ball(Ball),
     /// A box along the axes.
-    AxisBox(AxisBox),
+    AxisBox(Box<AxisBox>),
     /// A box in any position.
     SkewBox(Box<SkewBox>),
     /// An ellipsoid or frustum in any position.
@@ -57,26 +59,39 @@ pub enum Cover {
     Some,
 }
 
+/// Radii whose inverse maps are far from the limits of f64.
+const PLAIN: RangeInclusive<f64> = 1e-90..=1e90;
+
 impl Form {
+    /// A unit sphere that the map keeps round, which may be off by `error`: it needs no inverse. `None` for another shape,
+    /// or a map that wants a closer look.
+    pub fn ball(shape: &Shape, map: &DAffine3, error: DVec3) -> Option<Self> {
+        if !matches!(shape, Shape::Sphere) || !map.translation.is_finite() {
+            return None;
+        }
+        let radius = similarity(&map.matrix3).filter(|radius| PLAIN.contains(radius))?;
+        Some(Self::Ball(Ball::new(map.translation, radius, error)))
+    }
+
     /// The form of a unit shape at `place`, which may be off by `error`.
     pub fn new(shape: &Shape, place: Placement, error: DVec3) -> Self {
         match shape {
             Shape::Sphere => match similarity(&place.linear) {
                 Some(radius) => Self::Ball(Ball::new(place.center, radius, error)),
-                None => Self::Round(Box::new(Round::ellipsoid(place, error))),
+                None => Self::Round(Box::new(Round::ellipsoid(&place, error))),
             },
             Shape::Frustum { bottom, top } => {
-                Self::Round(Box::new(Round::frustum(place, *bottom, *top, error)))
+                Self::Round(Box::new(Round::frustum(&place, *bottom, *top, error)))
             }
             Shape::Cube => match axis_half(&place.linear) {
-                Some(half) => Self::AxisBox(AxisBox::new(place.center, half, error)),
+                Some(half) => Self::AxisBox(Box::new(AxisBox::new(place.center, half, error))),
                 None => Self::SkewBox(Box::new(SkewBox::new(place, error))),
             },
             Shape::Facets(unit) => Self::Facets(Box::new(Facets::new(unit, &place, error))),
             Shape::Mesh(unit) => Self::Mesh(Box::new(Mesh::new(unit, &place, error))),
             Shape::Face(corners) => Self::Face(Box::new(Face::new(corners.iter().copied(), &place, error))),
             Shape::Patch(corners) => Self::Patch(Box::new(Patch::new(corners, &place, error))),
-            Shape::Tube { bottom, top } => Self::Tube(Box::new(Tube::new(place, *bottom, *top, error))),
+            Shape::Tube { bottom, top } => Self::Tube(Box::new(Tube::new(&place, *bottom, *top, error))),
         }
     }
 

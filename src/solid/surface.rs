@@ -1,11 +1,12 @@
 //! Stage 7, SOLID: the first place along a ray where it meets a surface that bounds no solid.
 
-use crate::math::{Ray, Rays};
+use crate::math::{Number, Ray, Rays};
 use crate::stage::{Meter, Probe};
 
-use super::crossing::{Crossing, at_start};
+use super::crossing::{Crossing, Firsts, Starts, at_start, start_of};
 use super::primitive::{Form, Primitive};
-use super::span::{Departure, End};
+use super::span::{Departure, End, Ends};
+use super::tube::Tube;
 
 /// The first crossing of a surface. It enters where the ray comes against the surface's own normal.
 #[inline]
@@ -37,25 +38,36 @@ pub fn first_of_surface(
             end.filter(|end| !at_start(end)).map(|end| crossing(end, patch.face.normal().dot(ray.d) < 0.0))
         }
         Form::Tube(tube) => {
-            let found = tube.crossings(&Rays::from(ray));
-            let (enter, leave) =
-                (found.enters.then(|| found.enter.one()), found.leaves.then(|| found.leave.one()));
-            let ahead = |end: &End| !at_start(end);
-            match here {
-                None => {
-                    let enter = enter.filter(ahead).map(|end| crossing(end, true));
-                    enter.or_else(|| leave.filter(ahead).map(|end| crossing(end, false)))
-                }
-                // The start is where it went in: what is left is where it comes out, if that is another place.
-                Some(departure) if departure.inward && !found.one_way => {
-                    leave.filter(|end| end.t > 0.0).map(|end| crossing(end, false))
-                }
-                // Nor is the side of a convex solid by a ray to its outside.
-                Some(_) => None,
-            }
+            let starts = Starts {
+                here: here.is_some(),
+                inward: here.is_some_and(|d| d.inward),
+                off: departure.map(|d| d.off),
+            };
+            let first = firsts_of_tube(&Rays::from(ray), tube, &primitive.form, &starts);
+            first.any.then(|| crossing(first.end.one(), first.entering))
         }
         _ => None,
     }
+}
+
+/// The first crossings of a tube, which is the form itself.
+#[inline(always)]
+pub(super) fn firsts_of_tube<N: Number>(
+    rays: &Rays<N>,
+    tube: &Tube,
+    form: &Form,
+    starts: &Starts<N>,
+) -> Firsts<N> {
+    let found = tube.crossings(rays);
+    let (enter, leave) = (&found.enter, &found.leave);
+    let enter_ahead = !enter.t.is_at_most(start_of(enter.error, form, starts.off));
+    let leave_ahead = !leave.t.is_at_most(start_of(leave.error, form, starts.off));
+    let entering = !starts.here & found.enters & enter_ahead;
+    // A ray that starts on the tube went in there: what is left is where it comes out, if that is another place. A ray to
+    // the outside of a convex solid does not meet its side again.
+    let other = starts.inward & !found.one_way & leave.t.is_above(leave.t.same(0.0));
+    let leaving = found.leaves & ((starts.here & other) | (!starts.here & leave_ahead));
+    Firsts { end: Ends::choose(entering, found.enter, found.leave), entering, any: entering | leaving }
 }
 
 #[cfg(test)]

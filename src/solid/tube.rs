@@ -1,47 +1,126 @@
 //! Open tubes: the sides of cylinders, cones and frustums, seen from both sides.
 
-use crate::math::{Bounds, DVec3, Number, Placement, Rays};
+use crate::math::{Bounds, DAffine3, DMat3, DVec3, Mask, Number, Placement, Rays};
 
-use super::round::{Round, SIDE, SideCrossings};
+use super::span::{Ends, Spans};
+use super::taper::Taper;
+use super::unit_space::{UnitSpace, is_finite};
 
-/// The side of a unit frustum under an affine map.
+/// The side of a unit frustum under an affine map. Scenes of a million are made of them: the map out of the unit space,
+/// which no ray asks for, is not kept.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tube(Round);
+pub struct Tube {
+    space: UnitSpace,
+    taper: Taper,
+}
+
+/// Where a line crosses the side of a frustum between its caps.
+#[derive(Clone, Copy, Debug)]
+pub struct SideCrossings<N: Number> {
+    /// Into it.
+    pub enter: Ends<N>,
+    /// Whether there is such a place.
+    pub enters: N::Mask,
+    /// Out of it.
+    pub leave: Ends<N>,
+    /// Whether there is such a place.
+    pub leaves: N::Mask,
+    /// Whether the line crosses the whole cone, beyond the caps too, only once.
+    pub one_way: N::Mask,
+}
+
+impl<N: Number> SideCrossings<N> {
+    #[inline(always)]
+    fn none(like: N) -> Self {
+        let Spans { enter, leave, any } = Spans::none(like);
+        Self { enter, enters: any, leave, leaves: any, one_way: any }
+    }
+}
 
 impl Tube {
     /// The tube at `place`, which may be off by `map_error`, of radius `bottom` at z = −1 and `top` at z = 1.
-    pub fn new(place: Placement, bottom: f64, top: f64, map_error: DVec3) -> Self {
-        Self(Round::frustum(place, bottom, top, map_error))
+    pub fn new(place: &Placement, bottom: f64, top: f64, map_error: DVec3) -> Self {
+        Self { space: UnitSpace::new(place, map_error), taper: Taper::new(bottom, top) }
     }
 
-    /// Where the line of each ray goes in through the tube's wall, and where it comes out.
+    /// Where the line of each ray goes in through the tube's wall, and where it comes out. A line with only one crossing,
+    /// which is steeper than the wall or parallel to it, has only one of them.
     #[inline(always)]
     pub fn crossings<N: Number>(&self, rays: &Rays<N>) -> SideCrossings<N> {
-        self.0.side_crossings(rays)
+        let rays = self.space.centred(rays);
+        let near = !rays.pass_by();
+        if !near.any() {
+            return SideCrossings::none(rays.t);
+        }
+        let side = self.taper.sides(&rays);
+        let met = side.any & near;
+        SideCrossings {
+            enter: Ends { t: rays.t + side.enter.t, ..side.enter },
+            enters: met & rays.between_caps(side.enter.t),
+            leave: Ends { t: rays.t + side.leave.t, ..side.leave },
+            leaves: met & rays.between_caps(side.leave.t),
+            one_way: met & !(is_finite(side.enter.t) & is_finite(side.leave.t)),
+        }
     }
 
     /// The normal at a point of the tube, away from its axis, of length 1.
     pub fn normal(&self, p: DVec3) -> DVec3 {
-        self.0.normal(p, SIDE)
+        self.space.normal(self.taper.gradient(self.space.point(p)))
     }
 
     /// The box around it.
     pub fn bounds(&self) -> Bounds {
-        self.0.bounds()
+        self.linear().map_or(EVERYWHERE, |linear| self.taper.bounds(&linear, self.space.center))
     }
 
     /// How far a point of it may be off its place, by its map and by our own rounding.
     pub fn off(&self) -> f64 {
-        self.0.off()
+        self.space.displacement
     }
 
     /// How far it reaches along `v`: the greatest `p · v` of its points.
     pub fn support(&self, v: DVec3) -> f64 {
-        self.0.support(v)
+        match self.linear() {
+            Some(linear) => self.space.center.dot(v) + self.taper.support(linear.transpose() * v),
+            None => EVERYWHERE.hi.dot(v.abs()),
+        }
     }
 
     /// Whether the box is certainly off the tube: outside, or within it.
     pub fn misses(&self, b: &Bounds) -> bool {
-        self.0.misses(b) || self.0.covers(b)
+        let u = self.space.bounds(b);
+        self.taper.misses(&u) || self.taper.covers(&u)
+    }
+
+    /// From unit directions to world directions: the inverse of the map that rays go by, off by as much as that may be
+    /// of the one before it. `None` for a map that rounding made flat, so thin is it.
+    fn linear(&self) -> Option<DMat3> {
+        let back = DAffine3 { matrix3: self.space.inverse, translation: DVec3::ZERO };
+        Placement::new(&back).map(|place| place.inverse)
+    }
+}
+
+/// The world limit: a tube is seen, and all that is seen lies within.
+const EVERYWHERE: Bounds = Bounds::new(DVec3::splat(-2.0), DVec3::splat(2.0));
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tube_knows_how_far_it_reaches() {
+        // A cylinder of radius 0.3 along (2, 3, 6) / 7, half as long as that, around (1, −1, 0).
+        let axis = DVec3::new(2.0, 3.0, 6.0) / 7.0;
+        let (x, y) = axis.any_orthonormal_pair();
+        let center = DVec3::new(1.0, -1.0, 0.0);
+        let map = DAffine3 { matrix3: DMat3::from_cols(0.3 * x, 0.3 * y, 0.5 * axis), translation: center };
+        let tube = Tube::new(&Placement::new(&map).unwrap(), 1.0, 1.0, DVec3::ZERO);
+        let half = axis.map(|along| 0.5 * along + 0.3 * (1.0 - along * along).sqrt());
+        let off = 8.0 * f64::EPSILON;
+        assert!((tube.bounds().lo - (center - half)).abs().max_element() <= off);
+        assert!((tube.bounds().hi - (center + half)).abs().max_element() <= off);
+        for v in [DVec3::X, DVec3::Y, DVec3::Z] {
+            assert!((tube.support(v) - (center + half).dot(v)).abs() <= off);
+        }
     }
 }

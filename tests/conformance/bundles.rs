@@ -6,7 +6,7 @@ use ray13::plan::{EngineChoice, Options};
 use ray13::scene::{Camera, Primitive, Scene};
 use ray13::solid::Departures;
 use ray13::stage::{Meter, Silent};
-use ray13::trace::{Engine, Fast, Hit, Nearest, Shaft, TileMemory};
+use ray13::trace::{Engine, Fast, Hit, Nearest, Shaft, Shone, TileMemory};
 
 use crate::engine::{Cut, ExactEngine, Found, Range, Start, Subject, drawn};
 
@@ -105,7 +105,8 @@ impl Subject for FastEngine {
             let mut departures = Departures::NONE;
             departures.set(0, &departure);
             let mut shafts = [shaft];
-            engine.blocked_of(&mut shafts, &[departures], ray.at(distance), &mut tile);
+            let lamp = Shone { at: ray.at(distance), clear: &[] };
+            engine.blocked_of(&mut shafts, &[departures], &lamp, &mut tile);
             if shafts[0].unsure & 1 == 1 {
                 return engine.blocked(&ray, departure, distance, &mut memory, &mut meter);
             }

@@ -5,6 +5,8 @@
 //! and a node is asked by a few operations on eight numbers each.
 
 mod build;
+mod reach;
+mod split;
 mod walk;
 
 use fearless_simd::{Level, Simd, SimdBase, f64x8};
@@ -138,12 +140,14 @@ impl Boxes {
     /// its own computation misses the object's box by rounding.
     pub fn new(assembly: &Assembly) -> Self {
         let margin = DVec3::splat(slack(assembly.off));
-        Self::over(assembly.objects.iter().map(|object| object.bounds.padded(margin)))
+        let objects = &assembly.objects;
+        Self::over(objects.len(), |object| objects[object].bounds.padded(margin))
     }
 
-    /// The hierarchy over these boxes, numbered as they come.
-    fn over(boxes: impl Iterator<Item = Bounds>) -> Self {
-        Self { nodes: build::built(boxes), level: Level::new() }
+    /// The hierarchy over the boxes of so many objects.
+    fn over(count: usize, bounds: impl Fn(usize) -> Bounds + Sync) -> Self {
+        let level = Level::new();
+        Self { nodes: build::built(level, count, bounds), level }
     }
 
     /// All nodes. The root is the first; where there are no objects it is empty.

@@ -31,7 +31,7 @@ pub(super) fn cloud(n: usize, size: f64) -> Vec<Bounds> {
 }
 
 pub(super) fn over(boxes: &[Bounds]) -> Boxes {
-    Boxes::over(boxes.iter().copied())
+    Boxes::over(boxes.len(), |object| boxes[object])
 }
 
 /// Checks that every box has one place, and every node's box holds its children; returns the depth.
@@ -204,7 +204,7 @@ const PAD: f64 = 1e-13;
 fn rays_visit_every_box_that_they_meet_once() {
     for size in [0.0, 0.01, 0.3] {
         let boxes = cloud(2000, size);
-        let of = Boxes::over(boxes.iter().map(|b| b.padded(DVec3::splat(PAD))));
+        let of = Boxes::over(boxes.len(), |object| boxes[object].padded(DVec3::splat(PAD)));
         let mut met = 0;
         for ray in rays(&boxes) {
             for to in [f64::INFINITY, 0.5] {

@@ -48,9 +48,9 @@ impl<'a> Entity<'_, 'a> {
     #[inline]
     pub fn number(&mut self, name: impl Fn() -> String) -> Result<Number<'a>, Reported> {
         let Some(token) = self.tokens.peek() else { return Err(self.cut_off(&name())) };
-        match token.word.parse::<f64>() {
+        match token.number() {
             // `inf` and `nan` are numbers for Rust; here they are words.
-            Ok(value) if value.is_finite() && token.begins_a_number() => {
+            Some(value) if value.is_finite() && token.begins_a_number() => {
                 self.tokens.take();
                 Ok(Number { value, token })
             }

@@ -25,6 +25,11 @@ impl Lamps {
         Ok(())
     }
 
+    /// The same with those of what follows in the file.
+    pub fn append(&mut self, mut next: Self) {
+        self.lamps.append(&mut next.lamps);
+    }
+
     /// Lights the scene. The format's own rule: each of L lights whose intensity is not given has √L / 2L, and so
     /// has the ambient light. A file without lights leaves both as they are.
     pub fn finish(self, scene: &mut Scene) {
@@ -46,7 +51,8 @@ impl Lamps {
 /// The materials, each stored once.
 #[derive(Debug, Default)]
 pub struct Fills {
-    materials: Vec<Material>,
+    /// Of each; `None` is ray13's own, for what comes before the first `f`.
+    numbers: Vec<Option<[f64; 8]>>,
     /// By their bits. Only asked by key, so that its order plays no part.
     known: HashMap<[u64; 8], MaterialId>,
     current: Option<MaterialId>,
@@ -73,21 +79,38 @@ impl Fills {
         if ks + kt > 1.0 {
             self.too_bright.get_or_insert_with(|| entity.keyword.span());
         }
-        let next = MaterialId(self.materials.len() as u32);
+        self.current = Some(self.id(values));
+        Ok(())
+    }
+
+    fn id(&mut self, values: [f64; 8]) -> MaterialId {
+        let next = MaterialId(self.numbers.len() as u32);
         let id = *self.known.entry(values.map(f64::to_bits)).or_insert(next);
         if id == next {
-            self.materials.push(material(values));
+            self.numbers.push(Some(values));
         }
-        self.current = Some(id);
-        Ok(())
+        id
     }
 
     /// The material of what comes next: the last that was read, else ray13's own.
     pub fn current(&mut self) -> MaterialId {
         *self.current.get_or_insert_with(|| {
-            self.materials.push(Material::default());
-            MaterialId(self.materials.len() as u32 - 1)
+            self.numbers.push(None);
+            MaterialId(self.numbers.len() as u32 - 1)
         })
+    }
+
+    /// The same with those of what follows in the file, and which of them each of those now is. What came before the first
+    /// `f` there has the material that was the last here.
+    pub fn append(&mut self, next: Self) -> Vec<MaterialId> {
+        let of = |fill: Option<[f64; 8]>| match fill {
+            Some(values) => self.id(values),
+            None => self.current(),
+        };
+        let ids: Vec<MaterialId> = next.numbers.into_iter().map(of).collect();
+        self.current = next.current.map(|MaterialId(id)| ids[id as usize]).or(self.current);
+        self.too_bright = self.too_bright.take().or(next.too_bright);
+        ids
     }
 
     /// All of them, and a note of what was taken differently.
@@ -95,7 +118,7 @@ impl Fills {
         if let Some(place) = self.too_bright {
             sink.note(Diagnostic::note(place, "where Ks + T is above 1, only 1 - T is mirrored"));
         }
-        self.materials
+        self.numbers.into_iter().map(|fill| fill.map_or_else(Material::default, material)).collect()
     }
 }
 

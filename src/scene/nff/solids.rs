@@ -1,6 +1,6 @@
 //! `s`, `c`, `p` and `pp`: what is seen.
 
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
 
 use crate::math::{DAffine3, DMat3, DVec3, Placement};
@@ -14,6 +14,9 @@ use super::polygon::{drop_repeated, has_area};
 
 /// The shortest corner that can be written: three digits, each with a blank.
 const CORNER_BYTES: usize = 6;
+
+/// Lengths whose reciprocals and products of three are far from the limits of f64.
+const PLAIN: RangeInclusive<f64> = 1e-90..=1e90;
 
 /// The objects, in file order.
 #[derive(Debug, Default)]
@@ -58,7 +61,9 @@ impl Solids {
         let (x, y) = (half / size).normalize_or(DVec3::Z).any_orthonormal_pair();
         let linear = DMat3::from_cols(x * largest, y * largest, half);
         let map = DAffine3::from_mat3_translation(linear, 0.5 * base + 0.5 * apex);
-        if Placement::new(&map).is_none() {
+        // Three columns at right angles, neither long nor short: the map has an inverse.
+        let is_plain = [largest, size].iter().all(|length| PLAIN.contains(length));
+        if !is_plain && Placement::new(&map).is_none() {
             return Err(entity.wrong(entity.keyword, "it is smaller than a 64-bit float holds"));
         }
         let shape = Shape::Tube { bottom: bottom.value / largest, top: top.value / largest };
@@ -127,6 +132,28 @@ impl Solids {
     fn leave_out(&mut self, entity: &Entity) {
         self.without_area += 1;
         self.first_without_area.get_or_insert_with(|| entity.keyword.span());
+    }
+
+    /// The same with those of what follows in the file, whose materials are now `ids`.
+    pub fn append(&mut self, next: Self, ids: &[MaterialId]) {
+        self.objects.extend(next.objects.into_iter().map(|mut object| {
+            if let Solid::Primitive(primitive) = &mut object.solid {
+                primitive.material = ids[primitive.material.0 as usize];
+            }
+            object
+        }));
+        self.without_area += next.without_area;
+        self.first_without_area = self.first_without_area.take().or(next.first_without_area);
+    }
+
+    /// How many objects there are.
+    pub fn len(&self) -> usize {
+        self.objects.len()
+    }
+
+    /// Makes room for objects to come.
+    pub fn reserve(&mut self, objects: usize) {
+        self.objects.reserve_exact(objects);
     }
 
     /// All objects, and a note of what was left out.

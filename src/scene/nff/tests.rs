@@ -1,5 +1,6 @@
 //! Small files, and what is wrong with small files.
 
+use super::{Reader, in_stretches};
 use crate::math::DVec3;
 use crate::scene::{
     Anchor, Diagnostics, FieldSpan, Format, Material, MaterialId, Primitive, ReadOptions, Scene, Shape, Solid,
@@ -169,4 +170,50 @@ fn a_mirror_has_no_more_than_glass_leaves() {
     let shares: Vec<_> = scene.materials.iter().map(|m| (m.ks, m.kr, m.kt)).collect();
     assert_eq!(shares, [(0.7, 0.4, 0.6), (0.1, 0.1, 0.9)]);
     assert_eq!(scene.notes, ["line 1: where Ks + T is above 1, only 1 - T is mirrored"]);
+}
+
+/// Entities of every kind, some with a remark, one after the other in an order of their own.
+fn long_text(lines: usize) -> String {
+    const LINES: [&str; 12] = [
+        "s 0 0 0 1",
+        "f 1 .5 0 .5 .25 30 0 0",
+        "c 0 0 0 2 # s 1 1 1 1\n  0 0 4 1",
+        "l 1 2\n 3",
+        "p 3 0 0 0 1 0 0\n 0 1 0",
+        "# s s s\n",
+        "f 0 .5 1 .5 .75 30 .5 1",
+        "b .1 .2 .3",
+        "l 1 2 3 .5 .5 .5 s 5 5 5 1",
+        "p 3 0 0 0 1 0 0 2 0 0",
+        "v from 0 -5 0 at 0 0 0 up 0 0 1 angle 45",
+        "pp 3 0 0 0 0 0 1 1 0 0 0 0 1 0 1 0 0 0 1",
+    ];
+    // 5 and 12 have no common factor; the third power mixes the order from round to round.
+    (0..lines).map(|i| format!("{}\n", LINES[(5 * i + i * i * i / 12) % LINES.len()])).collect()
+}
+
+#[test]
+fn a_text_read_in_stretches_means_the_same() {
+    for lines in [1, 40, 300] {
+        let text = long_text(lines);
+        let whole = Reader::of(&text, 0..text.len()).finish("test", &text).unwrap();
+        for bytes in [1, 10, 100, 1000] {
+            let Some(read) = in_stretches(&text, bytes) else {
+                assert!(lines == 1 || text.len() < 2 * bytes, "{bytes} of {}", text.len());
+                continue;
+            };
+            assert_eq!(read.finish("test", &text).unwrap(), whole, "{lines} lines by {bytes} bytes");
+        }
+    }
+}
+
+#[test]
+fn errors_of_a_long_text_are_those_of_one_thread() {
+    for wrong in ["s 0 0 0", "s 0 0 0 -1", "5", "s 0 0 x 1", "q"] {
+        let text = format!("{0}{wrong}\n{0}{wrong}\n{0}", long_text(50));
+        assert!(in_stretches(&text, 100).is_none());
+        let found = Reader::of(&text, 0..text.len()).finish("test.nff", &text);
+        assert_eq!(read(&text), found);
+        assert!(found.is_err());
+    }
 }

@@ -6,23 +6,26 @@
 
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 
-use crate::lattice::{Beam, Child, SLACK, Spread};
+use crate::lattice::{Beam, Child, MANY, SLACK, Spread};
 use crate::math::{Bundle, Columns, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
 use crate::solid::{
-    Ball, Body, Firsts, Flat, Form, Found, Left, Reach, Spans, Starts, first_of_expressions,
-    first_of_surface, firsts_of_spans, with_spans,
+    Asked, Ball, Body, Firsts, Flat, Form, Found, Left, Reach, Spans, Starts, first_of_expressions,
+    firsts_of_spans, firsts_of_surface, with_spans,
 };
-use crate::stage::{Meter, Silent};
 
 use super::Fast;
 use super::memory::TileMemory;
 use super::nearest::{Nearest, Offer};
 use super::thin::Thin;
-use super::walk::{bounds_between, push_nearest_last, through, touching};
+use super::walk::{Whole, asking, begin, bounds_between, push_nearest_last, through};
 
 /// The most leaves of an expression that are asked at once, rather than the way being cut into shorter slices: more
 /// cost more than a slice does.
 pub(super) const FEW: usize = 4;
+
+/// The most objects that the bundles of a tile are asked about, one after the other. So many take about a tenth of the
+/// time that the tile's rays take one by one: where a dot holds many objects, rays have no company.
+const CROWD: u64 = 1536;
 
 /// How often the way through an object is halved at most: into 64 slices, about as many as a sub-lattice has cells.
 pub(super) const HALVINGS: u32 = 6;
@@ -38,7 +41,7 @@ impl Fast<'_> {
         memory: &mut TileMemory,
     ) {
         let whole = beam_of_tile(simd, bundles);
-        let TileMemory { beams, far, thin, fan, stack, .. } = memory;
+        let TileMemory { beams, thin, fan, .. } = memory;
         beams.clear();
         for bundle in bundles {
             beams.push(beam_of(simd, bundle));
@@ -48,6 +51,8 @@ impl Fast<'_> {
         for (thin, bundle) in thin.iter_mut().zip(bundles) {
             thin.set(simd, bundle);
         }
+        memory.forget_sheared(bundles.len());
+        let TileMemory { far, stack, .. } = memory;
         far.clear();
         far.extend(bundles.iter().map(|b| if b.live == 0 { f64::NEG_INFINITY } else { f64::INFINITY }));
         for found in &mut *nearest {
@@ -55,6 +60,7 @@ impl Fast<'_> {
         }
         stack.clear();
         stack.push((f64::NEG_INFINITY, 0));
+        let mut asked = 0;
         while let Some((near, node)) = memory.stack.pop() {
             let farthest = memory.far.iter().fold(f64::NEG_INFINITY, |most, &far| f64::max(most, far));
             if near > farthest + self.slack {
@@ -70,16 +76,23 @@ impl Fast<'_> {
                 objects &= objects - 1;
                 let Some(Child::Object(object)) = node.child(slot) else { continue };
                 let (lo, hi) = node.corners(slot);
-                let asked = memory.fan.meets(simd, lo, hi);
-                let mut left = asked.frustums;
+                let met = memory.fan.meets(simd, lo, hi);
+                let mut left = met.frustums;
                 while left != 0 {
                     let k = left.trailing_zeros() as usize;
                     left &= left - 1;
-                    if f64::from(asked.near[k]) <= memory.far[k] + self.slack {
+                    if f64::from(met.near[k]) <= memory.far[k] + self.slack {
+                        asked += 1;
                         self.object_of_bundle(simd, object, &bundles[k], &mut nearest[k], memory, k);
                         memory.far[k] = nearest[k].farthest(simd, &bundles[k]);
                     }
                 }
+            }
+            if asked > CROWD {
+                for (found, bundle) in nearest.iter_mut().zip(bundles) {
+                    found.unsure = bundle.live;
+                }
+                return;
             }
             push_nearest_last(&mut memory.stack, node, &met);
         }
@@ -104,7 +117,7 @@ impl Fast<'_> {
                     let thin = &memory.thin[k];
                     simd.vectorize(
                         #[inline(always)]
-                        || self.ball(simd, (ball, form), thin, bundle, nearest, [object, *index]),
+                        || ball_of_bundle(simd, (ball, form), thin, bundle, nearest, [object, *index]),
                     );
                 } else {
                     single(simd, form, bundle, nearest, object, *index);
@@ -113,66 +126,19 @@ impl Fast<'_> {
             Body::Surface(index) => {
                 memory.counts.primitive_tests += 1;
                 let primitive = &primitives[*index as usize];
+                let TileMemory { sheared, found, .. } = memory;
+                let sheared = &mut sheared[k];
                 let bounds = self.assembly.objects[object as usize].bounds.padded(DVec3::splat(self.slack));
-                let found = &mut memory.found;
-                (found.any, found.entering) = (0, 0);
-                let mut rest = touching(simd, bundle, &bounds);
-                while rest != 0 {
-                    let lane = rest.trailing_zeros() as usize;
-                    rest &= rest - 1;
-                    let ray = bundle.ray(lane);
-                    if let Some(c) = first_of_surface(&ray, primitive, *index, None, &mut Meter::new(Silent))
-                    {
-                        found.set(lane, &c);
-                    }
-                }
+                let wanted = asking(simd, bundle, &primitive.form, &bounds);
+                firsts_of_surface(simd, bundle, wanted, (primitive, *index), None, sheared, found);
                 if found.any != 0 {
                     offer_found(simd, found, object, nearest);
                 }
             }
             Body::Composite { whole, .. } => {
                 let to = memory.far[k] + self.slack;
-                self.composite(simd, object, Flat::from(&**whole), bundle, to, nearest, memory);
+                self.composite(simd, (object, Flat::from(&**whole)), bundle, to, nearest, memory);
             }
-        }
-    }
-
-    /// The first hits of a bundle with a ball.
-    #[inline(always)]
-    fn ball<S: Simd>(
-        &self,
-        simd: S,
-        (ball, form): (&Ball, &Form),
-        thin: &Thin,
-        bundle: &Bundle,
-        nearest: &mut Nearest,
-        [object, index]: [u32; 2],
-    ) {
-        let near = thin.near(simd, ball.center, ball.radius);
-        if near == 0 {
-            return;
-        }
-        let no = mask64x8::splat(simd, false);
-        let zero = f64x8::splat(simd, 0.0);
-        let primitive = f64x8::splat(simd, f64::from(index));
-        let start = f64x8::splat(simd, 2.0 * ball.most_error());
-        for row in 0..ROWS {
-            if (near >> (row * LANES)) as u8 == 0 {
-                continue;
-            }
-            let spans = ball.spans(&bundle.load(simd, row));
-            if !spans.any.any() {
-                continue;
-            }
-            let ahead = spans.enter.t.is_above(start);
-            let met = if (spans.any & !ahead).any() {
-                let starts = Starts { here: no, inward: no, off: None };
-                let Firsts { end, entering, any } = firsts_of_spans(spans, form, &starts);
-                Offer { any, t: end.t, entering, object, primitive, surface: zero }
-            } else {
-                Offer { any: spans.any, t: spans.enter.t, entering: !no, object, primitive, surface: zero }
-            };
-            nearest.offer(simd, row, &met);
         }
     }
 
@@ -181,8 +147,7 @@ impl Fast<'_> {
     fn composite<S: Simd>(
         &self,
         simd: S,
-        object: u32,
-        expression: Flat,
+        (object, expression): (u32, Flat),
         bundle: &Bundle,
         to: f64,
         nearest: &mut Nearest,
@@ -191,8 +156,47 @@ impl Fast<'_> {
         let bounds = &self.assembly.objects[object as usize].bounds.padded(DVec3::splat(self.slack));
         let Some((open, from, end)) = through(simd, bundle, bounds) else { return };
         memory.scratch.start();
-        let mut slicing = Slicing { fast: self, simd, bundle, object, open, nearest };
+        let whole = self.subs.loose(object).map(|loose| (loose, expression));
+        let mut slicing = Slicing { fast: self, whole, simd, bundle, object, open, nearest };
         slicing.slice(expression, (from, end.min(to)), HALVINGS, memory);
+    }
+}
+
+/// The first hits of a bundle with a ball.
+#[inline(always)]
+fn ball_of_bundle<S: Simd>(
+    simd: S,
+    (ball, form): (&Ball, &Form),
+    thin: &Thin,
+    bundle: &Bundle,
+    nearest: &mut Nearest,
+    [object, index]: [u32; 2],
+) {
+    let near = thin.near(simd, ball.center, ball.radius);
+    if near == 0 {
+        return;
+    }
+    let no = mask64x8::splat(simd, false);
+    let zero = f64x8::splat(simd, 0.0);
+    let primitive = f64x8::splat(simd, f64::from(index));
+    let start = f64x8::splat(simd, 2.0 * ball.most_error());
+    for row in 0..ROWS {
+        if (near >> (row * LANES)) as u8 == 0 {
+            continue;
+        }
+        let spans = ball.spans(&bundle.load(simd, row));
+        if !spans.any.any() {
+            continue;
+        }
+        let ahead = spans.enter.t.is_above(start);
+        let met = if (spans.any & !ahead).any() {
+            let starts = Starts { here: no, inward: no, off: None };
+            let Firsts { end, entering, any } = firsts_of_spans(spans, form, &starts);
+            Offer { any, t: end.t, entering, object, primitive, surface: zero }
+        } else {
+            Offer { any: spans.any, t: spans.enter.t, entering: !no, object, primitive, surface: zero }
+        };
+        nearest.offer(simd, row, &met);
     }
 }
 
@@ -232,6 +236,7 @@ fn corners(bundle: &Bundle, lanes: [usize; 4]) -> Option<(DVec3, [DVec3; 4])> {
 /// Whose way is cut into slices.
 struct Slicing<'a, S> {
     fast: &'a Fast<'a>,
+    whole: Option<Whole<'a>>,
     simd: S,
     bundle: &'a Bundle,
     object: u32,
@@ -250,6 +255,14 @@ impl<S: Simd> Slicing<'_, S> {
         // A crossing may be computed `slack` outside its slice; twice that keeps its whole cluster.
         let margin = DVec3::splat(2.0 * self.fast.slack);
         let b = bounds_between(self.simd, self.bundle, from, to).padded(margin);
+        let Some(expression) = begin(self.whole, expression, primitives, &b) else { return };
+        // The way is cut before much is pruned: shorter slices begin with less.
+        if expression.leaves.len() > 2 * MANY && halvings > 0 {
+            let middle = 0.5 * (from + to);
+            self.slice(expression, (from, middle), halvings - 1, memory);
+            self.slice(expression, (middle, to), halvings - 1, memory);
+            return;
+        }
         let mut remains = memory.remains.pop().unwrap_or_default();
         if expression.pruned(primitives, &b, &mut memory.pruning, &mut remains) == Left::Some {
             let left = Flat::from(&remains);
@@ -271,7 +284,8 @@ impl<S: Simd> Slicing<'_, S> {
         memory.counts.primitive_tests += expression.leaves.len() as u64;
         memory.counts.csg_evaluations += 1;
         let TileMemory { scratch, found, .. } = memory;
-        first_of_expressions(simd, bundle, self.open, expression, primitives, None, reach, scratch, found);
+        let asked = Asked { bundle, wanted: self.open, departures: None, reach };
+        first_of_expressions(simd, &asked, expression, primitives, scratch, found);
         self.nearest.unsure |= found.unsure;
         self.open &= !(found.unsure | found.any);
         if found.any != 0 {
@@ -286,6 +300,9 @@ fn offer_found<S: Simd>(simd: S, found: &Found, object: u32, nearest: &mut Neare
         #[inline(always)]
         || {
             for row in 0..ROWS {
+                if (found.any >> (row * LANES)) as u8 == 0 {
+                    continue;
+                }
                 let met = Offer {
                     any: row_of(simd, found.any, row),
                     t: found.t.load(simd, row),

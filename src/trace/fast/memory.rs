@@ -1,7 +1,7 @@
 //! Memory of one worker.
 
 use crate::lattice::{Beam, Fan};
-use crate::solid::{BundleScratch, Found, Pruning, Remains};
+use crate::solid::{BundleScratch, Found, Pruning, Remains, Sheared};
 use crate::stage::Counts;
 
 use super::thin::Thin;
@@ -14,6 +14,8 @@ pub struct TileMemory {
     pub(super) far: Vec<f64>,
     pub(super) thin: Vec<Thin>,
     pub(super) fan: Fan,
+    /// By bundle: the planes across its rays, where they were asked for.
+    pub(super) sheared: Vec<Sheared>,
     /// Nodes to be walked, and how near they are at least.
     pub(super) stack: Vec<(f64, u32)>,
     pub(super) scratch: BundleScratch,
@@ -29,6 +31,12 @@ impl TileMemory {
     pub fn counts_mut(&mut self) -> &mut Counts {
         &mut self.counts
     }
+
+    /// Forgets the planes across the rays of the last tile; this one has so many bundles.
+    pub(super) fn forget_sheared(&mut self, bundles: usize) {
+        self.sheared.clear();
+        self.sheared.resize(bundles, Sheared::UNKNOWN);
+    }
 }
 
 impl Default for TileMemory {
@@ -37,7 +45,8 @@ impl Default for TileMemory {
             beams: Vec::new(),
             far: Vec::new(),
             thin: Vec::new(),
-            fan: Fan::new(),
+            fan: Fan::default(),
+            sheared: Vec::new(),
             stack: Vec::new(),
             scratch: BundleScratch::default(),
             found: Box::new(Found::NONE),

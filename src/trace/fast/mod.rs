@@ -15,7 +15,7 @@ mod walk;
 use fearless_simd::{Level, Simd, dispatch};
 
 use crate::lattice::{Boxes, Structure, SubLattices, slack};
-use crate::math::{Bundle, Column, Columns, DVec3, ROWS, Ray};
+use crate::math::{Bundle, Column, Columns, ROWS, Ray};
 use crate::solid::{Assembly, Crossing, Departure, Departures};
 use crate::stage::{Meter, Probe};
 
@@ -24,7 +24,7 @@ use super::{Engine, Exact, Hit, Memory};
 
 pub use memory::TileMemory;
 pub use nearest::Nearest;
-pub use shaft::Shaft;
+pub use shaft::{Shaft, Shone};
 
 /// The engine for tiles of rays, over an assembly and a hierarchy of its boxes.
 #[derive(Clone, Copy, Debug)]
@@ -32,6 +32,7 @@ pub struct Fast<'a> {
     exact: Exact<'a>,
     assembly: &'a Assembly,
     boxes: &'a Boxes,
+    subs: &'a SubLattices,
     /// How far apart two hits may seem that are one place.
     slack: f64,
     level: Level,
@@ -41,7 +42,7 @@ impl<'a> Fast<'a> {
     /// An engine over an assembly, at the SIMD width of this processor.
     pub fn new(assembly: &'a Assembly, boxes: &'a Boxes, subs: &'a SubLattices) -> Self {
         let exact = Exact::new(assembly, Structure::Boxes(boxes, subs));
-        Self { exact, assembly, boxes, slack: slack(assembly.off), level: Level::new() }
+        Self { exact, assembly, boxes, subs, slack: slack(assembly.off), level: Level::new() }
     }
 
     /// The same engine at another SIMD width. It finds the same bits.
@@ -76,13 +77,13 @@ impl<'a> Fast<'a> {
         }
     }
 
-    /// Which rays of a tile towards one light at `lamp` are blocked. Those that are unsure are to be asked of
+    /// Which rays of a tile towards one light are blocked, and which meet something that lets light through. Those that are unsure are to be asked of
     /// [`Engine::blocked`] one by one.
     pub fn blocked_of(
         &self,
         shafts: &mut [Shaft],
         departures: &[Departures],
-        lamp: DVec3,
+        lamp: &Shone,
         memory: &mut TileMemory,
     ) {
         dispatch!(self.level, simd => self.blocked_of_tile(simd, shafts, departures, lamp, memory));

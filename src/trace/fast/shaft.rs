@@ -6,19 +6,22 @@
 
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 
-use crate::lattice::{Beam, Child, SLACK};
+use crate::lattice::{Beam, Child, MANY, SLACK};
 use crate::math::{Bundle, Column, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
 use crate::solid::{
-    Ball, Body, Departures, Firsts, Flat, Form, Left, Reach, Spans, Starts, first_of_expressions,
-    first_of_surface, firsts_of_spans, with_spans,
+    Asked, Ball, Body, Departures, Firsts, Flat, Form, Found, Left, Reach, Spans, Starts,
+    first_of_expressions, firsts_of_spans, firsts_of_surface, with_spans,
 };
-use crate::stage::{Meter, Silent};
 
 use super::Fast;
 use super::first::{FEW, HALVINGS};
 use super::memory::TileMemory;
 use super::thin::Thin;
-use super::walk::{bounds_between, push_nearest_last, through, touching};
+use super::walk::{Whole, asking, begin, bounds_between, push_nearest_last, through};
+
+/// The most objects that the shafts of a tile are asked about, one after the other: as for rays from the eye, but rays
+/// towards a light take less time one by one, and there are more objects that they pass.
+const CROWD: u64 = 8192;
 
 /// Rays towards a light.
 #[derive(Clone, Debug)]
@@ -29,14 +32,25 @@ pub struct Shaft {
     pub distance: Column,
     /// Which of the rays are blocked.
     pub blocked: u64,
+    /// Which meet an object that lets light through.
+    pub tinted: u64,
     /// Which are to be asked one by one.
     pub unsure: u64,
+}
+
+/// A light, and what it shines through.
+#[derive(Clone, Copy, Debug)]
+pub struct Shone<'a> {
+    /// Where it stands.
+    pub at: DVec3,
+    /// By object: whether it lets light through; empty where none does.
+    pub clear: &'a [bool],
 }
 
 impl Shaft {
     /// No rays.
     pub const EMPTY: Self =
-        Self { rays: Bundle::EMPTY, distance: Column::filled(0.0), blocked: 0, unsure: 0 };
+        Self { rays: Bundle::EMPTY, distance: Column::filled(0.0), blocked: 0, tinted: 0, unsure: 0 };
 
     /// Gives those that do not ask the numbers of the first that does ([`Bundle::close`]).
     pub fn close(&mut self) {
@@ -56,6 +70,17 @@ impl Shaft {
     fn open(&self) -> u64 {
         self.rays.live & !(self.blocked | self.unsure)
     }
+
+    /// Notes the rays that meet something before they reach the light.
+    fn block(&mut self, found: &Found) {
+        let mut met = found.any;
+        while met != 0 {
+            let lane = met.trailing_zeros() as usize;
+            met &= met - 1;
+            let blocks = found.t.0[lane] + found.error.0[lane] < self.distance.0[lane];
+            self.blocked |= u64::from(blocks) << lane;
+        }
+    }
 }
 
 impl Fast<'_> {
@@ -66,14 +91,14 @@ impl Fast<'_> {
         simd: S,
         shafts: &mut [Shaft],
         departures: &[Departures],
-        lamp: DVec3,
+        lamp: &Shone,
         memory: &mut TileMemory,
     ) {
         let bundles = shafts.iter().map(|shaft| (&shaft.rays, &shaft.distance));
-        let whole = Beam::towards(simd, bundles.clone(), lamp);
+        let whole = Beam::towards(simd, bundles.clone(), lamp.at);
         memory.beams.clear();
         for one in bundles {
-            memory.beams.push(Beam::towards(simd, std::iter::once(one), lamp));
+            memory.beams.push(Beam::towards(simd, std::iter::once(one), lamp.at));
         }
         memory.fan.set(&memory.beams);
         let mut open = 0_u16;
@@ -87,9 +112,17 @@ impl Fast<'_> {
         for (thin, shaft) in memory.thin.iter_mut().zip(&*shafts) {
             thin.set(simd, &shaft.rays);
         }
+        memory.forget_sheared(shafts.len());
         memory.stack.clear();
         memory.stack.push((f64::NEG_INFINITY, 0));
+        let mut asked = 0;
         while let Some((_, node)) = memory.stack.pop() {
+            if asked > CROWD {
+                for shaft in shafts {
+                    shaft.unsure |= shaft.open();
+                }
+                return;
+            }
             let node = &self.boxes.nodes()[node as usize];
             memory.counts.cells_visited += 1;
             let (lo, hi) = node.sides(simd);
@@ -104,7 +137,14 @@ impl Fast<'_> {
                 while left != 0 {
                     let k = left.trailing_zeros() as usize;
                     left &= left - 1;
+                    asked += 1;
+                    let before = shafts[k].blocked;
                     self.object_in_shaft(simd, object, &mut shafts[k], &departures[k], memory, k);
+                    if lamp.clear.get(object as usize).is_some_and(|&clear| clear) {
+                        let shaft = &mut shafts[k];
+                        shaft.tinted |= shaft.blocked & !before;
+                        shaft.blocked = before;
+                    }
                     if shafts[k].open() == 0 {
                         open &= !(1 << k);
                     }
@@ -189,17 +229,14 @@ impl Fast<'_> {
             }
             Body::Surface(index) => {
                 memory.counts.primitive_tests += 1;
+                let primitive = &primitives[*index as usize];
+                let TileMemory { sheared, found, .. } = memory;
                 let bounds = own.bounds.padded(DVec3::splat(self.slack));
-                let mut rest = touching(simd, &shaft.rays, &bounds) & shaft.open();
-                while rest != 0 {
-                    let lane = rest.trailing_zeros() as usize;
-                    rest &= rest - 1;
-                    let (ray, departure) = (shaft.rays.ray(lane), departures.get(lane));
-                    let (primitive, mut meter) = (&primitives[*index as usize], Meter::new(Silent));
-                    let met = first_of_surface(&ray, primitive, *index, Some(departure), &mut meter);
-                    let blocks = met.is_some_and(|c| c.t + c.error < shaft.distance.0[lane]);
-                    shaft.blocked |= u64::from(blocks) << lane;
-                }
+                let wanted = asking(simd, &shaft.rays, &primitive.form, &bounds) & shaft.open();
+                let sheared = &mut sheared[k];
+                let departures = Some(departures);
+                firsts_of_surface(simd, &shaft.rays, wanted, (primitive, *index), departures, sheared, found);
+                shaft.block(found);
             }
             Body::Composite { whole, .. } => {
                 let bounds = own.bounds.padded(DVec3::splat(self.slack));
@@ -207,8 +244,10 @@ impl Fast<'_> {
                 let to = to.min(shaft.distance.0.iter().copied().fold(0.0, f64::max));
                 let open = open & shaft.open();
                 memory.scratch.start();
-                let mut slicing = Slicing { fast: self, simd, shaft, departures, open };
-                slicing.slice(Flat::from(&**whole), (from, to), HALVINGS, memory);
+                let expression = Flat::from(&**whole);
+                let whole = self.subs.loose(object).map(|loose| (loose, expression));
+                let mut slicing = Slicing { fast: self, whole, simd, shaft, departures, open };
+                slicing.slice(expression, (from, to), HALVINGS, memory);
             }
         }
     }
@@ -217,6 +256,7 @@ impl Fast<'_> {
 /// Whose way is cut into slices.
 struct Slicing<'a, S> {
     fast: &'a Fast<'a>,
+    whole: Option<Whole<'a>>,
     simd: S,
     shaft: &'a mut Shaft,
     departures: &'a Departures,
@@ -233,6 +273,14 @@ impl<S: Simd> Slicing<'_, S> {
         // As for the rays from the eye.
         let margin = DVec3::splat(2.0 * self.fast.slack);
         let b = bounds_between(self.simd, &self.shaft.rays, from, to).padded(margin);
+        let Some(expression) = begin(self.whole, expression, primitives, &b) else { return };
+        // The way is cut before much is pruned: shorter slices begin with less.
+        if expression.leaves.len() > 2 * MANY && halvings > 0 {
+            let middle = 0.5 * (from + to);
+            self.slice(expression, (from, middle), halvings - 1, memory);
+            self.slice(expression, (middle, to), halvings - 1, memory);
+            return;
+        }
         let mut remains = memory.remains.pop().unwrap_or_default();
         if expression.pruned(primitives, &b, &mut memory.pruning, &mut remains) == Left::Some {
             let left = Flat::from(&remains);
@@ -255,26 +303,11 @@ impl<S: Simd> Slicing<'_, S> {
         memory.counts.csg_evaluations += 1;
         let TileMemory { scratch, found, .. } = memory;
         let departures = Some(self.departures);
-        first_of_expressions(
-            simd,
-            &shaft.rays,
-            self.open,
-            expression,
-            primitives,
-            departures,
-            reach,
-            scratch,
-            found,
-        );
+        let asked = Asked { bundle: &shaft.rays, wanted: self.open, departures, reach };
+        first_of_expressions(simd, &asked, expression, primitives, scratch, found);
         shaft.unsure |= found.unsure;
         self.open &= !(found.unsure | found.any);
-        let mut met = found.any;
-        while met != 0 {
-            let lane = met.trailing_zeros() as usize;
-            met &= met - 1;
-            let blocks = found.t.0[lane] + found.error.0[lane] < shaft.distance.0[lane];
-            shaft.blocked |= u64::from(blocks) << lane;
-        }
+        shaft.block(found);
     }
 }
 

@@ -1,0 +1,161 @@
+//! Boxes in the form in which very many are joined and parted: one operation on all their sides.
+
+use fearless_simd::{Select, Simd, SimdBase, f64x4, f64x8};
+
+use crate::math::{Bounds, DVec3};
+
+/// Where the longest edge stands.
+const LONGEST: usize = 3;
+
+/// The first of the upper sides.
+const UPPER: usize = 4;
+
+/// Where an object's number stands.
+const OBJECT: usize = 7;
+
+/// A box as how far it reaches: along −x, −y and −z, its longest edge, and along x, y and z. Two are joined by the
+/// larger of each, the longest edge too: that of a joined one is the longest of any box in it.
+///
+/// The last number is an object's, by its bits, where the box is one's own; else it says nothing.
+#[derive(Clone, Copy)]
+#[repr(C, align(64))]
+pub struct Reach([f64; 8]);
+
+impl Reach {
+    pub const NOTHING: Self = Self([f64::NEG_INFINITY; 8]);
+
+    /// The box of an object.
+    pub fn new(b: &Bounds, object: u32) -> Self {
+        let [edge_x, edge_y, edge_z] = (b.hi - b.lo).to_array();
+        let longer = |a: f64, b: f64| if a > b { a } else { b };
+        let longest = longer(longer(edge_x, edge_y), edge_z);
+        let number = f64::from_bits(u64::from(object));
+        Self([-b.lo.x, -b.lo.y, -b.lo.z, longest, b.hi.x, b.hi.y, b.hi.z, number])
+    }
+
+    /// The object whose box it is.
+    #[inline]
+    pub fn object(&self) -> u32 {
+        self.0[OBJECT].to_bits() as u32
+    }
+
+    pub fn bounds(&self) -> Bounds {
+        Bounds::new(-DVec3::from_slice(&self.0), DVec3::from_slice(&self.0[UPPER..]))
+    }
+
+    /// The longest edge of any box in it.
+    #[inline(always)]
+    pub fn longest(&self) -> f64 {
+        self.0[LONGEST]
+    }
+
+    #[inline(always)]
+    pub fn load<S: Simd>(&self, simd: S) -> f64x8<S> {
+        f64x8::from_slice(simd, &self.0)
+    }
+
+    #[inline(always)]
+    pub fn store<S: Simd>(sides: f64x8<S>) -> Self {
+        let mut own = Self::NOTHING;
+        sides.store_slice(&mut own.0);
+        own
+    }
+
+    #[inline(always)]
+    pub fn join<S: Simd>(&mut self, simd: S, other: &Self) {
+        larger(self.load(simd), other.load(simd)).store_slice(&mut self.0);
+    }
+
+    #[inline(always)]
+    pub fn edge(&self, axis: usize) -> f64 {
+        self.0[axis] + self.0[axis + UPPER]
+    }
+
+    /// The edges of the whole.
+    #[inline(always)]
+    pub fn edges(&self) -> DVec3 {
+        DVec3::new(self.edge(0), self.edge(1), self.edge(2))
+    }
+
+    /// Twice the centre.
+    #[inline(always)]
+    pub fn center(&self, axis: usize) -> f64 {
+        self.0[axis + UPPER] - self.0[axis]
+    }
+
+    /// Twice the centre on all axes, and a number that says nothing.
+    #[inline(always)]
+    pub fn centers<S: Simd>(&self, simd: S) -> f64x4<S> {
+        let (lower, upper) = self.0.split_at(UPPER);
+        f64x4::from_slice(simd, upper) - f64x4::from_slice(simd, lower)
+    }
+
+    /// Half the surface, where it is not empty.
+    #[inline(always)]
+    pub fn area(&self) -> f64 {
+        let [x, y, z] = [self.edge(0), self.edge(1), self.edge(2)];
+        x * y + y * z + z * x
+    }
+}
+
+/// The larger of each two; the own one where the other is no number.
+#[inline(always)]
+fn larger<S: Simd>(own: f64x8<S>, other: f64x8<S>) -> f64x8<S> {
+    other.simd_gt(own).select(other, own)
+}
+
+/// What is known of a range of boxes.
+#[derive(Clone, Copy)]
+pub struct About {
+    pub reach: Reach,
+    /// The least of twice their centres, by axis; the last number says nothing.
+    low: [f64; 4],
+    /// The largest.
+    high: [f64; 4],
+}
+
+impl About {
+    pub const NOTHING: Self =
+        Self { reach: Reach::NOTHING, low: [f64::INFINITY; 4], high: [f64::NEG_INFINITY; 4] };
+
+    /// What is known of all these.
+    #[inline(always)]
+    pub fn all<S: Simd>(simd: S, items: &[Reach]) -> Self {
+        let mut reach = Reach::NOTHING.load(simd);
+        let mut low = f64x4::splat(simd, f64::INFINITY);
+        let mut high = f64x4::splat(simd, f64::NEG_INFINITY);
+        for item in items {
+            reach = larger(reach, item.load(simd));
+            let centers = item.centers(simd);
+            low = centers.simd_lt(low).select(centers, low);
+            high = centers.simd_gt(high).select(centers, high);
+        }
+        let mut about = Self { reach: Reach::store(reach), ..Self::NOTHING };
+        low.store_slice(&mut about.low);
+        high.store_slice(&mut about.high);
+        about
+    }
+
+    /// What is known of two ranges together.
+    pub fn with<S: Simd>(mut self, simd: S, other: &Self) -> Self {
+        self.reach.join(simd, &other.reach);
+        for axis in 0..3 {
+            self.low[axis] = self.low[axis].min(other.low[axis]);
+            self.high[axis] = self.high[axis].max(other.high[axis]);
+        }
+        self
+    }
+
+    /// From where to where twice the centres reach along an axis.
+    #[inline(always)]
+    pub fn centers(&self, axis: usize) -> (f64, f64) {
+        (self.low[axis], self.high[axis])
+    }
+
+    /// The axis along which the centres reach farthest.
+    #[inline(always)]
+    pub fn widest(&self) -> usize {
+        let reach = |axis: usize| self.high[axis] - self.low[axis];
+        DVec3::new(reach(0), reach(1), reach(2)).max_position()
+    }
+}

@@ -1,0 +1,311 @@
+//! Stage 7, SOLID, for a bundle of rays: the first place along each where it meets a surface that bounds no solid.
+//!
+//! It does what [`super::surface`] does for one ray, and finds the same bits. The few rays of which eight at a time can
+//! not be certain, through an edge to within rounding or along a polygon's plane, are asked one by one.
+
+use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
+
+use crate::math::{Bundle, LANES, Mask, Number, ROWS};
+use crate::stage::{Meter, Silent};
+
+use super::crossing::{Firsts, Starts, start_of};
+use super::crossings::{Departures, Found};
+use super::face::{Face, SteepCrossings};
+use super::primitive::{Form, Primitive};
+use super::sheared::{Around, Sheared};
+use super::surface::{first_of_surface, firsts_of_tube};
+use super::tube::Tube;
+
+/// The first crossings of a surface, a primitive with its index, for the rays of `wanted`. `sheared` are the planes across the bundle's rays.
+pub fn firsts_of_surface<S: Simd>(
+    simd: S,
+    bundle: &Bundle,
+    wanted: u64,
+    (primitive, index): (&Primitive, u32),
+    departures: Option<&Departures>,
+    sheared: &mut Sheared,
+    found: &mut Found,
+) {
+    (found.any, found.unsure, found.entering) = (0, 0, 0);
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            let (here, inward) = departures.map_or((0, 0), |d| d.here(simd, index));
+            let asking = Asking { bundle, form: &primitive.form, index, here, inward, departures };
+            match &primitive.form {
+                Form::Face(face) => asking.polygon(simd, face, wanted, sheared, found),
+                Form::Patch(patch) => asking.polygon(simd, &patch.face, wanted, sheared, found),
+                Form::Tube(tube) => asking.tube(simd, tube, wanted, found),
+                _ => {}
+            }
+        },
+    );
+    let mut rest = std::mem::take(&mut found.unsure);
+    while rest != 0 {
+        let lane = rest.trailing_zeros() as usize;
+        rest &= rest - 1;
+        let departure = departures.map(|d| d.get(lane));
+        let ray = bundle.ray(lane);
+        if let Some(c) = first_of_surface(&ray, primitive, index, departure, &mut Meter::new(Silent)) {
+            found.set(lane, &c);
+        }
+    }
+}
+
+/// Those of a row among some rays of a bundle.
+#[inline(always)]
+fn rays_of_row<S: Simd>(simd: S, row: usize, rays: u64) -> mask64x8<S> {
+    mask64x8::from_bitmask(simd, rays >> (row * LANES) & 0xFF)
+}
+
+/// Who asks one surface.
+struct Asking<'a> {
+    bundle: &'a Bundle,
+    form: &'a Form,
+    index: u32,
+    /// The rays that start on it, and which of these go to its inside.
+    here: u64,
+    inward: u64,
+    departures: Option<&'a Departures>,
+}
+
+impl Asking<'_> {
+    #[inline(always)]
+    fn polygon<S: Simd>(&self, simd: S, face: &Face, wanted: u64, sheared: &mut Sheared, found: &mut Found) {
+        sheared.know(simd, self.bundle);
+        // A plane is not met again by a ray that leaves it.
+        let wanted = wanted & !self.here;
+        self.polygon_along::<S, 0>(simd, face, wanted, sheared, found);
+        self.polygon_along::<S, 1>(simd, face, wanted, sheared, found);
+        self.polygon_along::<S, 2>(simd, face, wanted, sheared, found);
+    }
+
+    /// For the rays that go farthest along axis `MAIN`.
+    #[inline(always)]
+    fn polygon_along<S: Simd, const MAIN: usize>(
+        &self,
+        simd: S,
+        face: &Face,
+        wanted: u64,
+        sheared: &Sheared,
+        found: &mut Found,
+    ) {
+        let rays = wanted & sheared.main(MAIN);
+        if rays == 0 {
+            return;
+        }
+        for row in 0..ROWS {
+            let asking = rays_of_row(simd, row, rays);
+            if !asking.any_true() {
+                continue;
+            }
+            let across = sheared.row::<S, MAIN>(simd, self.bundle, row);
+            let mut around = Around::nothing(simd);
+            for (b, corners) in face.stretches() {
+                if b.is_none_or(|b| across.may_cross(b)) {
+                    across.add(&mut around, corners);
+                }
+            }
+            let mut unsure = around.unsure & asking;
+            let odd = around.odd & asking & !unsure;
+            if odd.any_true() {
+                let SteepCrossings { end, against, steep } =
+                    face.steep_crossings(&self.bundle.load(simd, row));
+                unsure |= odd & !steep;
+                let before = end.t.is_at_most(start_of(end.error, self.form, self.off(simd, row)));
+                let any = odd & steep & !before;
+                self.put(simd, row, &Firsts { end, entering: against, any }, found);
+            }
+            found.unsure |= u64::from(unsure.bits()) << (row * LANES);
+        }
+    }
+
+    #[inline(always)]
+    fn tube<S: Simd>(&self, simd: S, tube: &Tube, wanted: u64, found: &mut Found) {
+        for row in 0..ROWS {
+            let asking = rays_of_row(simd, row, wanted);
+            if asking.any_true() {
+                let (here, inward) = (rays_of_row(simd, row, self.here), rays_of_row(simd, row, self.inward));
+                let starts = Starts { here, inward, off: self.off(simd, row) };
+                let firsts = firsts_of_tube(&self.bundle.load(simd, row), tube, self.form, &starts);
+                self.put(simd, row, &Firsts { any: firsts.any & asking, ..firsts }, found);
+            }
+        }
+    }
+
+    /// [`super::Departure::off`] of eight.
+    #[inline(always)]
+    fn off<S: Simd>(&self, simd: S, row: usize) -> Option<f64x8<S>> {
+        self.departures.map(
+            #[inline(always)]
+            |departures| departures.off.load(simd, row),
+        )
+    }
+
+    /// Notes the first crossings of a row.
+    #[inline(always)]
+    fn put<S: Simd>(&self, simd: S, row: usize, firsts: &Firsts<f64x8<S>>, found: &mut Found) {
+        let any = u64::from(firsts.any.bits()) << (row * LANES);
+        if any == 0 {
+            return;
+        }
+        found.t.store(row, firsts.end.t);
+        found.error.store(row, firsts.end.error);
+        found.surface.store(row, firsts.end.surface);
+        found.primitive.store(row, f64x8::splat(simd, f64::from(self.index)));
+        found.any |= any;
+        found.entering |= any & u64::from(firsts.entering.bits()) << (row * LANES);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use fearless_simd::{Level, dispatch};
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::math::{BUNDLE, DAffine3, DVec3, Placement, Ray};
+    use crate::scene::{Corner, MaterialId, Shape};
+    use crate::solid::Departure;
+
+    fn point() -> impl Strategy<Value = DVec3> {
+        // Round numbers make ties: corners in line with a ray, edges along axes.
+        let coordinate = || prop_oneof![-1.0..1.0_f64, (-4..=4_i8).prop_map(|i| f64::from(i) / 4.0)];
+        (coordinate(), coordinate(), coordinate()).prop_map(|(x, y, z)| DVec3::new(x, y, z))
+    }
+
+    /// Polygons, flat along an axis or as bent as their corners say, and tubes.
+    fn shape() -> impl Strategy<Value = Shape> {
+        let outline = || {
+            (prop::collection::vec(point(), 3..8), 0..4_usize).prop_map(|(mut corners, flat)| {
+                for p in &mut corners {
+                    if flat < 3 {
+                        p[flat] = 0.25;
+                    }
+                }
+                corners
+            })
+        };
+        prop_oneof![
+            outline().prop_map(|corners| Shape::Face(corners.into())),
+            outline().prop_map(|corners| {
+                let corner = |&place: &DVec3| Corner { place, normal: place };
+                Shape::Patch(corners.iter().map(corner).collect())
+            }),
+            (0.0..=1.0).prop_map(|top| Shape::Tube { bottom: 1.0, top }),
+            Just(Shape::Tube { bottom: 0.0, top: 1.0 }),
+            Just(Shape::Tube { bottom: 1.0, top: 1.0 }),
+        ]
+    }
+
+    /// A ray at or past what `shape` is made of: `aim` picks one of its points, and a place on the way to another.
+    fn ray_at(shape: &Shape, o: DVec3, (aim, share): (usize, f64), free: DVec3) -> Ray {
+        let corners = match shape {
+            Shape::Face(corners) => corners.to_vec(),
+            Shape::Patch(corners) => corners.iter().map(|corner| corner.place).collect(),
+            _ => vec![DVec3::ZERO, DVec3::X, DVec3::Z, DVec3::NEG_ONE],
+        };
+        let (a, b) = (corners[aim % corners.len()], corners[(aim + 1) % corners.len()]);
+        let (from, to) = match aim / 8 {
+            0 => (o, a),
+            1 => (o, a + (b - a) * share),
+            // Along an edge, and so along the plane where the outline is flat.
+            2 => (a, b),
+            3 => (corners.iter().sum::<DVec3>() / corners.len() as f64, a),
+            4 => (o, DVec3::new(o.x, o.y, -2.0)),
+            _ => (o, o + free),
+        };
+        Ray::new(from, (to - from).normalize_or(DVec3::X))
+    }
+
+    fn assert_like_alone(
+        primitive: &Primitive,
+        rays: &[Ray],
+        wanted: u64,
+        departures: Option<&Departures>,
+    ) -> Result<u32, TestCaseError> {
+        let mut bundle = Bundle::EMPTY;
+        for (lane, ray) in rays.iter().enumerate() {
+            bundle.set(lane, ray);
+        }
+        let mut met = 0;
+        for level in [Level::new(), Level::baseline()] {
+            let (mut sheared, mut found) = (Sheared::UNKNOWN, Found::NONE);
+            dispatch!(level, simd => firsts_of_surface(
+                simd, &bundle, wanted, (primitive, 3), departures, &mut sheared, &mut found,
+            ));
+            prop_assert_eq!((found.unsure, found.any & !wanted), (0, 0));
+            for (lane, ray) in rays.iter().enumerate().filter(|(lane, _)| wanted >> lane & 1 == 1) {
+                let departure = departures.map(|d| d.get(lane));
+                let alone = first_of_surface(ray, primitive, 3, departure, &mut Meter::new(Silent));
+                let together = (found.any >> lane & 1 == 1).then(|| {
+                    let numbers = [&found.t, &found.error, &found.primitive, &found.surface]
+                        .map(|column| column.0[lane].to_bits());
+                    (numbers, found.entering >> lane & 1 == 1)
+                });
+                let alone = alone.map(|c| {
+                    let numbers = [c.t, c.error, f64::from(c.primitive), f64::from(c.surface)];
+                    (numbers.map(f64::to_bits), c.entering)
+                });
+                prop_assert_eq!(together, alone, "{} {:?}", lane, ray);
+                met += u32::from(alone.is_some());
+            }
+        }
+        Ok(met)
+    }
+
+    fn primitive(shape: &Shape, map: &DAffine3) -> Primitive {
+        let form = Form::new(shape, Placement::new(map).unwrap(), DVec3::splat(1e-15));
+        Primitive { form, material: MaterialId(0) }
+    }
+
+    proptest! {
+        #[test]
+        fn eight_at_a_time_find_what_each_finds_alone(
+            shape in shape(),
+            turn in (point(), -3.0..3.0_f64),
+            aims in prop::collection::vec((point(), (0..48_usize, 0.0..1.0_f64), point()), BUNDLE),
+            wanted in any::<u64>(),
+            (here, inward, off) in (any::<u64>(), any::<u64>(), 0.0..1e-12_f64),
+        ) {
+            let map = DAffine3::from_axis_angle(turn.0.normalize_or(DVec3::Z), turn.1);
+            let map = if turn.1 > 0.0 { map } else { DAffine3::IDENTITY };
+            let primitive = primitive(&shape, &map);
+            let rays: Vec<Ray> = aims
+                .iter()
+                .map(|&(o, aim, free)| ray_at(&shape, o * 3.0, aim, free))
+                .map(|ray| Ray::new(map.transform_point3(ray.o), (map.matrix3 * ray.d).normalize()))
+                .collect();
+            assert_like_alone(&primitive, &rays, wanted, None)?;
+            let mut departures = Departures::NONE;
+            for lane in 0..BUNDLE {
+                let (primitive, inward) = (2 + (here >> lane & 1) as u32, inward >> lane & 1 == 1);
+                departures.set(lane, &Departure { primitive, surface: 0, inward, off });
+            }
+            assert_like_alone(&primitive, &rays, wanted, Some(&departures))?;
+        }
+    }
+
+    #[test]
+    fn outlines_in_groups_are_as_they_are_for_one_ray() {
+        let corner = |i: u32| {
+            let (sin, cos) = libm::sincos(f64::from(i) * std::f64::consts::TAU / 300.0);
+            DVec3::new(cos, sin, 0.1 * cos) * if i.is_multiple_of(2) { 1.0 } else { 0.8 }
+        };
+        let corners: Vec<DVec3> = (0..300).map(corner).collect();
+        let primitive = primitive(&Shape::Face(Arc::from(&corners[..])), &DAffine3::IDENTITY);
+        let mut met = 0;
+        for start in 0..75 {
+            let ray = |i: u32| {
+                let o = DVec3::new(0.1, 0.2, 3.0);
+                Ray::new(o, (corner(start * 4 + i % 8) * (0.8 + 0.04 * f64::from(i / 8)) - o).normalize())
+            };
+            let rays: Vec<Ray> = (0..64).map(ray).collect();
+            met += assert_like_alone(&primitive, &rays, u64::MAX, None).unwrap();
+        }
+        // Beyond the teeth, and between them, there is nothing.
+        assert!((75 * 64..75 * 128).contains(&met), "{met}");
+    }
+}

@@ -1,0 +1,159 @@
+//! The outline of a frustum: a radius that is linear in z, turned about the z axis.
+
+use crate::math::{Bounds, DMat3, DVec3, Mask, Number, Vector};
+
+use super::span::{Ends, Spans};
+use super::unit_space::Centred;
+
+/// The face number of the side of a frustum.
+pub(super) const SIDE: u32 = 0;
+
+/// `r(z) = middle + slope · z` for `|z| ≤ 1`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Taper {
+    middle: f64,
+    slope: f64,
+}
+
+impl Taper {
+    /// Of radius `bottom` at z = −1 and `top` at z = 1.
+    pub fn new(bottom: f64, top: f64) -> Self {
+        Self { middle: 0.5 * bottom + 0.5 * top, slope: 0.5 * top - 0.5 * bottom }
+    }
+
+    /// Outward from the side at a point of it; along the axis at the apex of a cone.
+    pub fn gradient(&self, q: DVec3) -> DVec3 {
+        let Self { middle, slope } = *self;
+        // The gradient of x² + y² − r(z)², with r taken from the point's own distance to the axis: on the surface they
+        // are equal, and this one can not turn inward.
+        let r = libm::hypot(q.x, q.y);
+        let side = DVec3::new(q.x, q.y, -slope * r);
+        if r > 0.0 && (middle + slope * q.z > 0.0 || r > f64::EPSILON) {
+            side
+        } else {
+            DVec3::Z * if slope < 0.0 { 1.0 } else { -1.0 }
+        }
+    }
+
+    /// The box around it under a map.
+    pub fn bounds(&self, linear: &DMat3, origin: DVec3) -> Bounds {
+        let rows = [linear.row(0), linear.row(1), linear.row(2)];
+        // The two discs: centre ± axis, half-width r · |(x, y) part of the row|.
+        let disc = |z: f64| {
+            let r = self.middle + self.slope * z;
+            let half = DVec3::from_array(rows.map(|row| r * libm::hypot(row.x, row.y)));
+            let center = origin + linear.z_axis * z;
+            Bounds::new(center - half, center + half)
+        };
+        disc(-1.0).join(&disc(1.0))
+    }
+
+    /// How far it reaches along `v`: the greatest `q · v` of its points.
+    pub fn support(&self, v: DVec3) -> f64 {
+        let disc = |z: f64| (self.middle + self.slope * z) * libm::hypot(v.x, v.y) + z * v.z;
+        disc(-1.0).max(disc(1.0))
+    }
+
+    /// Whether a box is certainly outside.
+    pub fn misses(&self, u: &Bounds) -> bool {
+        let nearest = DVec3::ZERO.clamp(u.lo, u.hi);
+        let widest = self.middle + (self.slope * u.lo.z.max(-1.0)).max(self.slope * u.hi.z.min(1.0));
+        u.lo.z > 1.0 || u.hi.z < -1.0 || nearest.truncate().length() > widest
+    }
+
+    /// Whether a box is certainly inside.
+    pub fn covers(&self, u: &Bounds) -> bool {
+        let farthest = u.farthest();
+        let narrowest = self.middle + (self.slope * u.lo.z).min(self.slope * u.hi.z);
+        farthest.z < 1.0 && farthest.truncate().length() < narrowest
+    }
+
+    /// The lines against `x² + y² ≤ ρ²`, `ρ = middle + slope · z ≥ 0`: where each is inside, counted from its point closest
+    /// to the unit origin. An end that there is not is infinite.
+    #[inline(always)]
+    pub fn sides<N: Number>(&self, rays: &Centred<N>) -> Spans<N> {
+        let Self { middle, slope } = *self;
+        let (o, d) = (rays.o, rays.d);
+        let (rho, d_rho) = (o.z * slope + middle, d.z * slope);
+        let a = d.x * d.x + d.y * d.y - d_rho * d_rho;
+        let b = o.x * d.x + o.y * d.y - rho * d_rho;
+        let c = o.x * o.x + o.y * o.y - rho * rho;
+        // b² − ac by Lagrange's identity for the form x² + y² − ρ²: differences of products of nearby lengths,
+        // never of their squares.
+        let across = d.x * o.y - d.y * o.x;
+        let along = (squared(d.x * rho - d_rho * o.x) + squared(d.y * rho - d_rho * o.y)).root();
+        let discriminant = (along - across.magnitude()) * (along + across.magnitude());
+        let off = DVec3::new(rays.off.x, rays.off.y, slope.abs() * rays.off.z);
+        let form = SideForm { o: Vector { z: rho, ..o }, d: Vector { z: d_rho, ..d } };
+        let zero = rays.t.same(0.0);
+        let (crosses, steeper) = (a.is_above(zero), a.is_below(zero));
+        // A chord is none where the form at its middle, −discriminant / a at t = −b / a, may be 0.
+        let is_chord =
+            discriminant.is_above(zero) & discriminant.is_above(a * form.off(-b / a, rays.seeming * off));
+        let is_number = discriminant.is_equal(discriminant);
+        let met = is_number & (!crosses | is_chord);
+        if !met.any() {
+            return Spans::none(rays.t);
+        }
+        // A line along or inside the cone always crosses it: below 0 there is rounding only.
+        let root = discriminant.larger(zero).root();
+        // The root whose terms do not cancel, and the other from the product c / a.
+        let q = -(b + root.signed_as(b));
+        let none = q.is_equal(zero);
+        let (t1, t2) = (none.choose(zero, q / a), none.choose(zero, c / q));
+        let ordered = t1.is_below(t2);
+        let (low, high) = (ordered.choose(t1, t2), ordered.choose(t2, t1));
+        let surface = rays.t.same(f64::from(SIDE));
+        let low = Ends { t: low, error: form.root_error(low, off, discriminant, root, a), surface };
+        let high = Ends { t: high, error: form.root_error(high, off, discriminant, root, a), surface };
+        if !(met & !crosses).any() {
+            return Spans { enter: low, leave: high, any: met };
+        }
+        // Parallel to the side, or to the axis of a cylinder: 2bt + c ≤ 0.
+        let t = c * -0.5 / b;
+        let once = Ends { t, error: form.off(t, off) * 0.5 / b.magnitude(), surface };
+        let line = Spans::line(rays.t);
+        // Steeper than the side: one crossing per nappe; only the one with ρ ≥ 0 is the solid's.
+        let widens = d_rho.is_above(zero);
+        let slanted = !b.is_equal(zero);
+        let leaves = b.is_above(zero);
+        let enter = Ends::choose(slanted & !leaves, once, line.enter);
+        let leave = Ends::choose(slanted & leaves, once, line.leave);
+        let enter = Ends::choose(steeper, Ends::choose(widens, high, line.enter), enter);
+        let leave = Ends::choose(steeper, Ends::choose(widens, line.leave, low), leave);
+        Spans {
+            enter: Ends::choose(crosses, low, enter),
+            leave: Ends::choose(crosses, high, leave),
+            any: met & (crosses | steeper | slanted | c.is_below(zero)),
+        }
+    }
+}
+
+/// The form x² + y² − ρ² along lines; ρ is the third component.
+struct SideForm<N> {
+    o: Vector<N>,
+    d: Vector<N>,
+}
+
+impl<N: Number> SideForm<N> {
+    /// How much a point at `t` that is moved by `off` changes the form: by (2|x| + off.x)·off.x, and so for y and ρ. Near
+    /// an apex hardly at all, and at the long end of an ellipse by the long axis' off only.
+    #[inline(always)]
+    fn off(&self, t: N, off: DVec3) -> N {
+        let p = (self.o + self.d * t).magnitude();
+        Vector { x: p.x * 2.0 + off.x, y: p.y * 2.0 + off.y, z: p.z * 2.0 + off.z }.dot_one(off)
+    }
+
+    /// How far a root at `t` may be off. The root of a number that is off by `form_off · |a|` is off by that over twice
+    /// the root, and never by more than the root of that: all there is to say at the apex, where the root is 0.
+    #[inline(always)]
+    fn root_error(&self, t: N, off: DVec3, discriminant: N, root: N, a: N) -> N {
+        let (form_off, a) = (self.off(t, off), a.magnitude());
+        discriminant.is_below(form_off * a).choose((form_off / a).root(), form_off * 0.5 / root)
+    }
+}
+
+#[inline(always)]
+fn squared<N: Number>(x: N) -> N {
+    x * x
+}

@@ -1,0 +1,108 @@
+//! The unit space of a curved shape: there the shape is round, and rays come to it.
+
+use crate::math::{Bounds, DMat3, DVec3, Number, Placement, Rays, Vector};
+
+use super::span::rounding_at;
+
+/// The way from the world into the unit space of a shape, and how far off that may lead.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct UnitSpace {
+    /// The world place of the unit origin.
+    pub center: DVec3,
+    /// From world directions to unit directions.
+    pub inverse: DMat3,
+    /// How far a point of the shape may be off its place, by its map and by our own rounding, along each axis of the unit
+    /// space: a coin has a sharp rim however thin it is, and a needle a sharp tip.
+    pub off: DVec3,
+    /// The same in the world, for all of it.
+    pub displacement: f64,
+    /// The least share of it that is our own rounding.
+    pub seeming: f64,
+}
+
+/// Rays in the unit space, re-centred: `o` is the point of each that is closest to the unit origin.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Centred<N> {
+    pub o: Vector<N>,
+    pub d: Vector<N>,
+    pub d_squared: N,
+    /// `t` of the closest point.
+    pub t: N,
+    /// How far `o` may be off along each axis.
+    pub off: DVec3,
+    /// The share of it that is our own rounding.
+    pub seeming: f64,
+}
+
+impl UnitSpace {
+    /// That of a shape at `place`, which may be off by `map_error`.
+    pub fn new(place: &Placement, map_error: DVec3) -> Self {
+        let Placement { inverse, center, .. } = *place;
+        let rows = [inverse.row(0), inverse.row(1), inverse.row(2)];
+        let seen = rounding_at(center.length());
+        let off = rows.map(|row| seen * row.length() + row.abs().dot(map_error));
+        let seeming = (0..3).map(|i| seen * rows[i].length() / off[i]).fold(1.0, f64::min);
+        let displacement = seen + map_error.length();
+        Self { center, inverse, off: DVec3::from_array(off), displacement, seeming }
+    }
+
+    /// Rays there.
+    #[inline(always)]
+    pub fn centred<N: Number>(&self, rays: &Rays<N>) -> Centred<N> {
+        let from_center = rays.o - self.center;
+        let o = from_center.mapped(&self.inverse);
+        let d = rays.d.mapped(&self.inverse);
+        let d_squared = d.length_squared();
+        let first = -o.dot(d) / d_squared;
+        let o = o + d * first;
+        let second = -o.dot(d) / d_squared;
+        let o = o + d * second;
+        Centred { o, d, d_squared, t: first + second, off: self.off, seeming: self.seeming }
+    }
+
+    /// A point of the world there.
+    pub fn point(&self, p: DVec3) -> DVec3 {
+        self.inverse * (p - self.center)
+    }
+
+    /// The normal in the world, of length 1, of a surface that rises along `gradient` there.
+    pub fn normal(&self, gradient: DVec3) -> DVec3 {
+        // A normal goes through the transposed inverse; scaled first, so that no square overflows.
+        let normal = self.inverse.transpose() * gradient;
+        let size = normal.abs().max_element();
+        (normal / size).normalize_or(DVec3::Z)
+    }
+
+    /// The box there around a box of the world.
+    pub fn bounds(&self, b: &Bounds) -> Bounds {
+        let inverse = &self.inverse;
+        let center = *inverse * (b.center() - self.center);
+        let half = inverse.x_axis.abs() * b.half().x
+            + inverse.y_axis.abs() * b.half().y
+            + inverse.z_axis.abs() * b.half().z;
+        Bounds::new(center - half, center + half)
+    }
+}
+
+impl<N: Number> Centred<N> {
+    /// Whether the places at `t` from the closest point are between the caps of a frustum.
+    #[inline(always)]
+    pub fn between_caps(&self, t: N) -> N::Mask {
+        let z = self.o.z + t * self.d.z;
+        is_finite(t) & z.magnitude().is_at_most(z.same(1.0))
+    }
+
+    /// Whether the line is certainly beside a frustum, which lies within √2 of the unit origin.
+    #[inline(always)]
+    pub fn pass_by(&self) -> N::Mask {
+        let off = self.off.element_sum();
+        // (√2 + off)² with 4 for 2√2.
+        self.o.length_squared().is_above(self.t.same(2.0 + off * (4.0 + off)))
+    }
+}
+
+/// Whether there is such a place: those that there are not are infinitely far away.
+#[inline(always)]
+pub(super) fn is_finite<N: Number>(t: N) -> N::Mask {
+    t.magnitude().is_below(t.same(f64::INFINITY))
+}

@@ -27,6 +27,8 @@ pub struct Fan {
     planes: [Planes; 6],
     /// A point is no nearer to the start of any ray than what it lies behind the last plane, and this.
     start: [f32; FAN],
+    /// Which frustums are there, a bit for each.
+    present: u16,
 }
 
 /// Which frustums of a fan may meet a box, a bit for each, and how near it is at least to the start of any ray of each.
@@ -42,18 +44,16 @@ impl Default for Fan {
     /// No frustum at all.
     fn default() -> Self {
         let planes = Planes { up: [[0.0; FAN]; 3], down: [[0.0; FAN]; 3], offset: [f32::INFINITY; FAN] };
-        Self { planes: std::array::from_fn(|_| planes.clone()), start: [0.0; FAN] }
+        Self { planes: std::array::from_fn(|_| planes.clone()), start: [0.0; FAN], present: 0 }
     }
 }
 
 impl Fan {
     /// Sets the frustums, up to [`FAN`] of them; those that are left over meet nothing.
     pub fn set(&mut self, beams: &[Beam]) {
-        for lane in 0..FAN {
-            let Some(beam) = beams.get(lane) else {
-                self.planes[0].offset[lane] = f32::INFINITY;
-                continue;
-            };
+        self.present = 0;
+        for (lane, beam) in beams.iter().enumerate().take(FAN) {
+            self.present |= 1 << lane;
             let (planes, start) = beam.planes();
             let backward = planes[5].0;
             for (k, (normal, offset)) in planes.into_iter().enumerate() {
@@ -76,7 +76,7 @@ impl Fan {
         let (lx, hx) = (f32x16::splat(simd, lo[0] as f32), f32x16::splat(simd, hi[0] as f32));
         let (ly, hy) = (f32x16::splat(simd, lo[1] as f32), f32x16::splat(simd, hi[1] as f32));
         let (lz, hz) = (f32x16::splat(simd, lo[2] as f32), f32x16::splat(simd, hi[2] as f32));
-        let mut met = u64::from(u16::MAX);
+        let mut met = u64::from(self.present);
         let mut last = lx;
         for planes in &self.planes {
             let foremost = f32x16::from_slice(simd, &planes.up[0]) * hx

@@ -110,7 +110,8 @@ impl Lit {
         shaft: &mut Shaft,
         level: Level,
     ) {
-        (shaft.rays.live, shaft.blocked, shaft.tinted, shaft.unsure) = (0, 0, 0, 0);
+        (shaft.rays.live, shaft.blocked, shaft.tinted) = (0, 0, 0);
+        (shaft.leaving, shaft.unsure) = (0, 0);
         if surfaces.hits == 0 {
             return;
         }

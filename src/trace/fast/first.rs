@@ -81,7 +81,9 @@ impl Fast<'_> {
                 while left != 0 {
                     let k = left.trailing_zeros() as usize;
                     left &= left - 1;
-                    if f64::from(met.near[k]) <= memory.far[k] + self.slack {
+                    // What is not a number is not known to be farther.
+                    let behind = f64::from(met.near[k]) > memory.far[k] + self.slack;
+                    if !behind {
                         asked += 1;
                         self.object_of_bundle(simd, object, &bundles[k], &mut nearest[k], memory, k);
                         memory.far[k] = nearest[k].farthest(simd, &bundles[k]);

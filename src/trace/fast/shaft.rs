@@ -34,6 +34,8 @@ pub struct Shaft {
     pub blocked: u64,
     /// Which meet an object that lets light through.
     pub tinted: u64,
+    /// Which of the blocked started inside of what blocks them.
+    pub leaving: u64,
     /// Which are to be asked one by one.
     pub unsure: u64,
 }
@@ -49,8 +51,14 @@ pub struct Shone<'a> {
 
 impl Shaft {
     /// No rays.
-    pub const EMPTY: Self =
-        Self { rays: Bundle::EMPTY, distance: Column::filled(0.0), blocked: 0, tinted: 0, unsure: 0 };
+    pub const EMPTY: Self = Self {
+        rays: Bundle::EMPTY,
+        distance: Column::filled(0.0),
+        blocked: 0,
+        tinted: 0,
+        leaving: 0,
+        unsure: 0,
+    };
 
     /// Gives those that do not ask the numbers of the first that does ([`Bundle::close`]).
     pub fn close(&mut self) {
@@ -79,6 +87,7 @@ impl Shaft {
             met &= met - 1;
             let blocks = found.t.0[lane] + found.error.0[lane] < self.distance.0[lane];
             self.blocked |= u64::from(blocks) << lane;
+            self.leaving |= u64::from(blocks) << lane & !found.entering;
         }
     }
 }
@@ -140,10 +149,17 @@ impl Fast<'_> {
                     asked += 1;
                     let before = shafts[k].blocked;
                     self.object_in_shaft(simd, object, &mut shafts[k], &departures[k], memory, k);
-                    if lamp.clear.get(object as usize).is_some_and(|&clear| clear) {
+                    if let Some(&clear) = lamp.clear.get(object as usize) {
                         let shaft = &mut shafts[k];
-                        shaft.tinted |= shaft.blocked & !before;
-                        shaft.blocked = before;
+                        let met = shaft.blocked & !before;
+                        if clear {
+                            shaft.tinted |= met;
+                            shaft.blocked = before;
+                        } else {
+                            // Where a ray leaves glass and an opaque solid together, the glass has the say.
+                            shaft.unsure |= met & shaft.leaving;
+                            shaft.blocked &= !shaft.unsure;
+                        }
                     }
                     if shafts[k].open() == 0 {
                         open &= !(1 << k);
@@ -195,8 +211,10 @@ impl Fast<'_> {
             if (met & !sure & !beside).any() {
                 let inward = mask64x8::from_bitmask(simd, departures.inward >> (row * LANES) & 0xFF);
                 let off = Some(departures.off.load(simd, row));
-                let Firsts { end, any, .. } = firsts_of_spans(spans, form, &Starts { here, inward, off });
+                let Firsts { end, any, entering } =
+                    firsts_of_spans(spans, form, &Starts { here, inward, off });
                 blocked = any & (end.t + end.error).is_below(distance);
+                shaft.leaving |= (u64::from((blocked & !entering).bits()) << (row * LANES)) & near;
             }
             shaft.blocked |= (u64::from(blocked.bits()) << (row * LANES)) & near;
         }
@@ -332,8 +350,9 @@ fn single<S: Simd>(simd: S, form: &Form, shaft: &mut Shaft, departures: &Departu
             let here = departures.primitive.load(simd, row).is_equal(f64x8::splat(simd, f64::from(index)));
             let off = Some(departures.off.load(simd, row));
             let starts = Starts { here, inward: row_of(simd, departures.inward, row), off };
-            let Firsts { end, any, .. } = firsts_of_spans(spans, form, &starts);
+            let Firsts { end, any, entering } = firsts_of_spans(spans, form, &starts);
             let blocked = any & (end.t + end.error).is_below(shaft.distance.load(simd, row));
+            shaft.leaving |= u64::from((blocked & !entering).bits()) << (row * LANES) & open;
             shaft.blocked |= u64::from(blocked.bits()) << (row * LANES) & open;
         }
     }

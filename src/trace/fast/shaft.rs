@@ -23,6 +23,9 @@ use super::walk::{Whole, asking, begin, bounds_between, push_nearest_last, throu
 /// towards a light take less time one by one, and there are more objects that they pass.
 const CROWD: u64 = 8192;
 
+/// So few rays of a block take less time one by one than their frustum does.
+const FEW_RAYS: u32 = 12;
+
 /// Rays towards a light.
 #[derive(Clone, Debug)]
 pub struct Shaft {
@@ -103,11 +106,22 @@ impl Fast<'_> {
         lamp: &Shone,
         memory: &mut TileMemory,
     ) {
-        let bundles = shafts.iter().map(|shaft| (&shaft.rays, &shaft.distance));
-        let whole = Beam::towards(simd, bundles.clone(), lamp.at);
+        for shaft in &mut *shafts {
+            if shaft.rays.live.count_ones() < FEW_RAYS {
+                shaft.unsure = shaft.rays.live;
+            }
+        }
+        let open = shafts.iter().filter(|shaft| shaft.open() != 0);
+        let whole = Beam::towards(simd, open.map(|shaft| (&shaft.rays, &shaft.distance)), lamp.at);
         memory.beams.clear();
-        for one in bundles {
-            memory.beams.push(Beam::towards(simd, std::iter::once(one), lamp.at));
+        for shaft in &*shafts {
+            // Of those that ask nothing any will do.
+            let beam = if shaft.open() == 0 {
+                whole
+            } else {
+                Beam::towards(simd, std::iter::once((&shaft.rays, &shaft.distance)), lamp.at)
+            };
+            memory.beams.push(beam);
         }
         memory.fan.set(&memory.beams);
         let mut open = 0_u16;

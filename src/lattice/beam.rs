@@ -5,8 +5,6 @@ use fearless_simd::{Simd, SimdBase, f64x8};
 use crate::math::{Bundle, Column, Columns, DVec3, Mask, Number, ROWS};
 use crate::solid::WORLD;
 
-use super::boxes::Node;
-
 /// A ray within the world, from anywhere that it may start at, has left it after so much of its way: the diameter of
 /// a ball of radius [`WORLD`].
 pub const WAY: f64 = 2.0 * WORLD;
@@ -251,14 +249,7 @@ impl Beam {
         ([a, b, c, d, (self.axis, self.first), (-self.axis, -self.last)], self.start)
     }
 
-    /// Which of a node's eight boxes the beam may meet. An empty slot is never met.
-    #[inline(always)]
-    pub fn meets<S: Simd>(&self, simd: S, node: &Node) -> Met<S> {
-        let (lo, hi) = node.sides(simd);
-        self.meets_boxes(simd, &lo, &hi)
-    }
-
-    /// Which of eight boxes, by axis, the beam may meet.
+    /// Which of eight boxes, by axis, the beam may meet. An empty one, whose sides are the wrong way round, is never met.
     #[inline(always)]
     pub fn meets_boxes<S: Simd>(&self, simd: S, lo: &[f64x8<S>; 3], hi: &[f64x8<S>; 3]) -> Met<S> {
         let mut met = lo[0].is_at_most(hi[0]);

@@ -194,13 +194,6 @@ impl Leaves<'_> {
     }
 }
 
-/// The place on each ray that is looked at: its first crossing.
-struct Place {
-    t: Column,
-    /// Up to which distance it lies at the start of the ray.
-    start: Column,
-}
-
 #[inline(always)]
 fn decide<S: Simd>(
     simd: S,
@@ -218,15 +211,13 @@ fn decide<S: Simd>(
     inside.resize(leaves, 0);
     flipped.resize(leaves, 0);
     evaluate(expression, inside, before);
-    let mut place = Place { t: Column::filled(0.0), start: Column::filled(0.0) };
     while open != 0 {
         let mut done = 0;
         let mut early = 0;
         for row in 0..ROWS {
             if (open >> (row * LANES)) as u8 != 0 {
                 let at = (simd, row, open);
-                let [ended, earlier] =
-                    next_place(at, &mut sides, expression, primitives, departures, reach, &mut place);
+                let [ended, earlier] = next_place(at, &mut sides, expression, primitives, departures, reach);
                 done |= ended;
                 early |= earlier;
             }
@@ -276,7 +267,6 @@ fn next_place<S: Simd>(
     primitives: &[Primitive],
     departures: Option<&Departures>,
     reach: Reach,
-    place: &mut Place,
 ) -> [u64; 2] {
     let shift = row * LANES;
     let departure_off = departures.map(|d| d.off.load(simd, row));
@@ -302,8 +292,6 @@ fn next_place<S: Simd>(
             }
         }
     }
-    place.t.store(row, t);
-    place.start.store(row, start);
     let open = row_of(simd, open, row);
     let ended = open & (t.is_equal(infinite) | t.is_above(f64x8::splat(simd, reach.to)));
     let limit = t + error;

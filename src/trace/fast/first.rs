@@ -6,29 +6,23 @@
 
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 
-use crate::lattice::{Beam, Child, MANY, SLACK, Spread};
-use crate::math::{Bundle, Columns, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
+use crate::lattice::{Beam, Child, SLACK, Spread};
+use crate::math::{Bounds, Bundle, Columns, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
 use crate::solid::{
-    Asked, Ball, Body, Firsts, Flat, Form, Found, Left, Reach, Spans, Starts, first_of_expressions,
+    Asked, Ball, Body, Firsts, Flat, Form, Found, Reach, Spans, Starts, first_of_expressions,
     firsts_of_spans, firsts_of_surface, with_spans,
 };
 
 use super::Fast;
 use super::memory::TileMemory;
 use super::nearest::{Nearest, Offer};
+use super::slices::{Slices, slices};
 use super::thin::Thin;
-use super::walk::{Whole, asking, begin, bounds_between, push_nearest_last, through};
-
-/// The most leaves of an expression that are asked at once, rather than the way being cut into shorter slices: more
-/// cost more than a slice does.
-pub(super) const FEW: usize = 4;
+use super::walk::{asking, bounds_between, push_nearest_last, through};
 
 /// The most objects that the bundles of a tile are asked about, one after the other. So many take about a tenth of the
 /// time that the tile's rays take one by one: where a dot holds many objects, rays have no company.
 const CROWD: u64 = 1536;
-
-/// How often the way through an object is halved at most: into 64 slices, about as many as a sub-lattice has cells.
-pub(super) const HALVINGS: u32 = 6;
 
 impl Fast<'_> {
     /// The first hits of the rays of a tile. `nearest` has as many as there are bundles.
@@ -159,8 +153,8 @@ impl Fast<'_> {
         let Some((open, from, end)) = through(simd, bundle, bounds) else { return };
         memory.scratch.start();
         let whole = self.subs.loose(object).map(|loose| (loose, expression));
-        let mut slicing = Slicing { fast: self, whole, simd, bundle, object, open, nearest };
-        slicing.slice(expression, (from, end.min(to)), HALVINGS, memory);
+        let mut slicing = Slicing { fast: self, simd, bundle, object, open, nearest };
+        slices(self, whole, &mut slicing, expression, (from, end.min(to)), memory);
     }
 }
 
@@ -238,7 +232,6 @@ fn corners(bundle: &Bundle, lanes: [usize; 4]) -> Option<(DVec3, [DVec3; 4])> {
 /// Whose way is cut into slices.
 struct Slicing<'a, S> {
     fast: &'a Fast<'a>,
-    whole: Option<Whole<'a>>,
     simd: S,
     bundle: &'a Bundle,
     object: u32,
@@ -247,36 +240,13 @@ struct Slicing<'a, S> {
     nearest: &'a mut Nearest,
 }
 
-impl<S: Simd> Slicing<'_, S> {
-    /// Looks at the way from `from` to `to`, nearest slices first.
-    fn slice(&mut self, expression: Flat, (from, to): (f64, f64), halvings: u32, memory: &mut TileMemory) {
-        if self.open == 0 || from > to {
-            return;
-        }
-        let primitives = &self.fast.assembly.primitives;
-        // A crossing may be computed `slack` outside its slice; twice that keeps its whole cluster.
-        let margin = DVec3::splat(2.0 * self.fast.slack);
-        let b = bounds_between(self.simd, self.bundle, from, to).padded(margin);
-        let Some(expression) = begin(self.whole, expression, primitives, &b) else { return };
-        // The way is cut before much is pruned: shorter slices begin with less.
-        if expression.leaves.len() > 2 * MANY && halvings > 0 {
-            let middle = 0.5 * (from + to);
-            self.slice(expression, (from, middle), halvings - 1, memory);
-            self.slice(expression, (middle, to), halvings - 1, memory);
-            return;
-        }
-        let mut remains = memory.remains.pop().unwrap_or_default();
-        if expression.pruned(primitives, &b, &mut memory.pruning, &mut remains) == Left::Some {
-            let left = Flat::from(&remains);
-            if left.leaves.len() <= FEW || halvings == 0 {
-                self.ask(left, (from, to), memory);
-            } else {
-                let middle = 0.5 * (from + to);
-                self.slice(left, (from, middle), halvings - 1, memory);
-                self.slice(left, (middle, to), halvings - 1, memory);
-            }
-        }
-        memory.remains.push(remains);
+impl<S: Simd> Slices for Slicing<'_, S> {
+    fn open(&self) -> u64 {
+        self.open
+    }
+
+    fn bounds(&self, from: f64, to: f64) -> Bounds {
+        bounds_between(self.simd, self.bundle, from, to)
     }
 
     fn ask(&mut self, expression: Flat, (from, to): (f64, f64), memory: &mut TileMemory) {

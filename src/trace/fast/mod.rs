@@ -9,6 +9,7 @@ mod first;
 mod memory;
 mod nearest;
 mod shaft;
+mod slices;
 mod thin;
 mod walk;
 

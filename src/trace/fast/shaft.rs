@@ -6,18 +6,18 @@
 
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 
-use crate::lattice::{Beam, Child, MANY, SLACK};
-use crate::math::{Bundle, Column, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
+use crate::lattice::{Beam, Child, SLACK};
+use crate::math::{Bounds, Bundle, Column, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
 use crate::solid::{
-    Asked, Ball, Body, Departures, Firsts, Flat, Form, Found, Left, Reach, Spans, Starts,
-    first_of_expressions, firsts_of_spans, firsts_of_surface, with_spans,
+    Asked, Ball, Body, Departures, Firsts, Flat, Form, Found, Reach, Spans, Starts, first_of_expressions,
+    firsts_of_spans, firsts_of_surface, with_spans,
 };
 
 use super::Fast;
-use super::first::{FEW, HALVINGS};
 use super::memory::TileMemory;
+use super::slices::{Slices, slices};
 use super::thin::Thin;
-use super::walk::{Whole, asking, begin, bounds_between, push_nearest_last, through};
+use super::walk::{asking, bounds_between, push_nearest_last, through};
 
 /// The most objects that the shafts of a tile are asked about, one after the other: as for rays from the eye, but rays
 /// towards a light take less time one by one, and there are more objects that they pass.
@@ -278,8 +278,8 @@ impl Fast<'_> {
                 memory.scratch.start();
                 let expression = Flat::from(&**whole);
                 let whole = self.subs.loose(object).map(|loose| (loose, expression));
-                let mut slicing = Slicing { fast: self, whole, simd, shaft, departures, open };
-                slicing.slice(expression, (from, to), HALVINGS, memory);
+                let mut slicing = Slicing { fast: self, simd, shaft, departures, open };
+                slices(self, whole, &mut slicing, expression, (from, to), memory);
             }
         }
     }
@@ -288,7 +288,6 @@ impl Fast<'_> {
 /// Whose way is cut into slices.
 struct Slicing<'a, S> {
     fast: &'a Fast<'a>,
-    whole: Option<Whole<'a>>,
     simd: S,
     shaft: &'a mut Shaft,
     departures: &'a Departures,
@@ -296,35 +295,13 @@ struct Slicing<'a, S> {
     open: u64,
 }
 
-impl<S: Simd> Slicing<'_, S> {
-    fn slice(&mut self, expression: Flat, (from, to): (f64, f64), halvings: u32, memory: &mut TileMemory) {
-        if self.open == 0 || from > to {
-            return;
-        }
-        let primitives = &self.fast.assembly.primitives;
-        // As for the rays from the eye.
-        let margin = DVec3::splat(2.0 * self.fast.slack);
-        let b = bounds_between(self.simd, &self.shaft.rays, from, to).padded(margin);
-        let Some(expression) = begin(self.whole, expression, primitives, &b) else { return };
-        // The way is cut before much is pruned: shorter slices begin with less.
-        if expression.leaves.len() > 2 * MANY && halvings > 0 {
-            let middle = 0.5 * (from + to);
-            self.slice(expression, (from, middle), halvings - 1, memory);
-            self.slice(expression, (middle, to), halvings - 1, memory);
-            return;
-        }
-        let mut remains = memory.remains.pop().unwrap_or_default();
-        if expression.pruned(primitives, &b, &mut memory.pruning, &mut remains) == Left::Some {
-            let left = Flat::from(&remains);
-            if left.leaves.len() <= FEW || halvings == 0 {
-                self.ask(left, (from, to), memory);
-            } else {
-                let middle = 0.5 * (from + to);
-                self.slice(left, (from, middle), halvings - 1, memory);
-                self.slice(left, (middle, to), halvings - 1, memory);
-            }
-        }
-        memory.remains.push(remains);
+impl<S: Simd> Slices for Slicing<'_, S> {
+    fn open(&self) -> u64 {
+        self.open
+    }
+
+    fn bounds(&self, from: f64, to: f64) -> Bounds {
+        bounds_between(self.simd, &self.shaft.rays, from, to)
     }
 
     fn ask(&mut self, expression: Flat, (from, to): (f64, f64), memory: &mut TileMemory) {

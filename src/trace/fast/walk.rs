@@ -2,9 +2,9 @@
 
 use fearless_simd::{Simd, SimdBase, f64x8};
 
-use crate::lattice::{Child, Loose, MANY, Met, Node, highest, lowest};
+use crate::lattice::{Child, Met, Node, highest, lowest};
 use crate::math::{Bounds, Bundle, DVec3, LANES, Mask, Number, ROWS};
-use crate::solid::{Flat, Form, Primitive};
+use crate::solid::Form;
 
 /// Puts the nodes among a node's children that were met on the stack, the nearest last.
 #[inline(always)]
@@ -97,20 +97,4 @@ pub fn bounds_between<S: Simd>(simd: S, bundle: &Bundle, from: f64, to: f64) -> 
             Bounds::new(DVec3::from_array(lo), DVec3::from_array(hi))
         },
     )
-}
-
-/// The expression of a whole object, and what is known of its parts.
-pub type Whole<'a> = (&'a Loose, Flat<'a>);
-
-/// What an expression in a box is to be pruned from: what is left of it already, or of the whole object in a cell around
-/// the box, whichever is less; none where there is no surface in that cell.
-pub fn begin<'e>(
-    whole: Option<Whole<'e>>,
-    left: Flat<'e>,
-    primitives: &[Primitive],
-    b: &Bounds,
-) -> Option<Flat<'e>> {
-    let Some((loose, whole)) = whole.filter(|_| left.leaves.len() >= MANY) else { return Some(left) };
-    let around = loose.around(whole, primitives, b)?;
-    Some(if around.leaves.len() < left.leaves.len() { around } else { left })
 }

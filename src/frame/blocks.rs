@@ -22,16 +22,16 @@ pub(super) struct Blocks<'a, 'b, C> {
 }
 
 /// What a worker of [`Blocks`] needs.
-pub(super) struct BlocksMemory<'b> {
+pub(super) struct BlocksMemory<'b, C> {
     alone: Memory<Fast<'b>>,
-    shading: TileShading,
+    shading: TileShading<C>,
     sight: Sight,
 }
 
 impl<'b, C: Channel> Tracer<C> for Blocks<'_, 'b, C> {
-    type Memory = BlocksMemory<'b>;
+    type Memory = BlocksMemory<'b, C>;
 
-    fn memory(&self) -> BlocksMemory<'b> {
+    fn memory(&self) -> BlocksMemory<'b, C> {
         let (shading, sight) = (TileShading::default(), Sight::default());
         BlocksMemory { alone: self.shader.memory(), shading, sight }
     }
@@ -39,7 +39,7 @@ impl<'b, C: Channel> Tracer<C> for Blocks<'_, 'b, C> {
     fn tile(
         &self,
         tile: &Tile,
-        memory: &mut BlocksMemory<'b>,
+        memory: &mut BlocksMemory<'b, C>,
         dots: &mut TileDots<C>,
         meter: &mut Meter<impl Probe>,
     ) {

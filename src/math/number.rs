@@ -6,10 +6,22 @@
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdMask, f64x8, mask64x8};
+use fearless_simd::{Bytes, Select, Simd, SimdBase, SimdFloat, SimdMask, f64x8, mask64x8, u64x8};
 
 /// How many rays are computed side by side.
 pub const LANES: usize = 8;
+
+/// Digits of a fraction behind its leading 1.
+const FRACTION: u32 = f64::MANTISSA_DIGITS - 1;
+
+/// The fraction's bits of 1.
+const ONE: u64 = 1.0_f64.to_bits();
+
+/// 2⁵²: beside it a number below 2⁵² stands in the last bits as a whole one.
+const WHOLE: f64 = (1_u64 << FRACTION) as f64;
+
+/// What is added to an exponent that is stored.
+const BIAS: f64 = (f64::MAX_EXP - 1) as f64;
 
 /// One number, or [`LANES`] of them.
 pub trait Number:
@@ -42,6 +54,12 @@ pub trait Number:
     /// `self · factor + term`, rounded once: in software where the processor has no such operation.
     #[must_use]
     fn fused(self, factor: Self, term: Self) -> Self;
+    /// Of a positive number that is not subnormal, `f · 2^e` with `1 ≤ f < 2`: the exponent e, and f.
+    #[must_use]
+    fn parts(self) -> (Self, Self);
+    /// `2^self` for whole numbers of −1022 to 1023.
+    #[must_use]
+    fn exponential(self) -> Self;
     /// `self < other`; false for not-a-number, as are all comparisons.
     fn is_below(self, other: Self) -> Self::Mask;
     /// `self ≤ other`.
@@ -99,6 +117,16 @@ impl Number for f64 {
     #[inline(always)]
     fn fused(self, factor: Self, term: Self) -> Self {
         libm::fma(self, factor, term)
+    }
+    #[inline(always)]
+    fn parts(self) -> (Self, Self) {
+        let bits = self.to_bits();
+        let exponent = Self::from_bits(bits >> FRACTION | WHOLE.to_bits()) - (WHOLE + BIAS);
+        (exponent, Self::from_bits(bits & !(u64::MAX << FRACTION) | ONE))
+    }
+    #[inline(always)]
+    fn exponential(self) -> Self {
+        Self::from_bits((self + (WHOLE + BIAS)).to_bits() << FRACTION)
     }
     #[inline(always)]
     fn is_below(self, other: Self) -> bool {
@@ -159,6 +187,18 @@ impl<S: Simd> Number for f64x8<S> {
     #[inline(always)]
     fn fused(self, factor: Self, term: Self) -> Self {
         self.mul_add_precise(factor, term)
+    }
+    #[inline(always)]
+    fn parts(self) -> (Self, Self) {
+        let bits: u64x8<S> = self.bitcast();
+        let exponent: Self = ((bits >> FRACTION) | WHOLE.to_bits()).bitcast();
+        let fraction: Self = ((bits & !(u64::MAX << FRACTION)) | ONE).bitcast();
+        (exponent - (WHOLE + BIAS), fraction)
+    }
+    #[inline(always)]
+    fn exponential(self) -> Self {
+        let bits: u64x8<S> = (self + (WHOLE + BIAS)).bitcast();
+        (bits << FRACTION).bitcast()
     }
     #[inline(always)]
     fn is_below(self, other: Self) -> mask64x8<S> {

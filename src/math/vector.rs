@@ -2,7 +2,7 @@
 //!
 //! Sums are taken in the order in which `glam` takes them, so that a vector of one has the bits of a `DVec3`.
 
-use std::ops::{Add, BitAnd, Mul, Neg, Sub};
+use std::ops::{Add, BitAnd, Div, Mul, Neg, Sub};
 
 use super::number::{Mask, Number};
 use super::{DMat3, DVec3, Ray};
@@ -38,6 +38,13 @@ impl From<DVec3> for Vector<f64> {
     #[inline(always)]
     fn from(v: DVec3) -> Self {
         Self { x: v.x, y: v.y, z: v.z }
+    }
+}
+
+impl From<Vector<f64>> for DVec3 {
+    #[inline(always)]
+    fn from(v: Vector<f64>) -> Self {
+        Self::new(v.x, v.y, v.z)
     }
 }
 
@@ -89,6 +96,16 @@ impl<N: Number> Vector<N> {
     #[inline(always)]
     pub fn length(self) -> N {
         self.length_squared().root()
+    }
+
+    /// The same at length 1; where its length is 0 or not finite, `fallback`.
+    #[inline(always)]
+    #[must_use]
+    pub fn normalized_or(self, fallback: Self) -> Self {
+        let zero = self.x.same(0.0);
+        let inverse = zero.same(1.0) / self.length();
+        let usable = inverse.is_below(zero.same(f64::INFINITY)) & inverse.is_above(zero);
+        Self::choose(usable, self * inverse, fallback)
     }
 
     /// The absolute values of its components.
@@ -150,6 +167,14 @@ impl<N: Number> Mul<N> for Vector<N> {
     #[inline(always)]
     fn mul(self, factor: N) -> Self {
         Self { x: self.x * factor, y: self.y * factor, z: self.z * factor }
+    }
+}
+
+impl<N: Number> Div<N> for Vector<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, by: N) -> Self {
+        Self { x: self.x / by, y: self.y / by, z: self.z / by }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Div, Mul};
 
-use crate::math::DVec3;
+use crate::math::{DVec3, Number};
 
 /// The shares of the linear primaries (sRGB, Rec. 709) in luminance.
 const LUMINANCE: DVec3 = DVec3::new(0.2126, 0.7152, 0.0722);
@@ -18,6 +18,12 @@ pub fn luminance(rgb: DVec3) -> f64 {
     rgb.dot(LUMINANCE)
 }
 
+/// The same, or as much of one part as may be where it is more.
+#[inline(always)]
+pub(super) fn limited<N: Number>(part: N) -> N {
+    part.smaller(part.same(BRIGHTEST))
+}
+
 /// An amount of linear light: its luminance as `f64`, or its three primaries as [`DVec3`].
 pub trait Channel:
     Copy
@@ -30,6 +36,15 @@ pub trait Channel:
 {
     /// No light.
     const DARK: Self;
+
+    /// How many numbers it is.
+    const PARTS: usize;
+
+    /// One of its numbers, `part` below [`Channel::PARTS`].
+    fn part(self, part: usize) -> f64;
+
+    /// The amount whose numbers are the first of these.
+    fn from_parts(parts: [f64; 3]) -> Self;
 
     /// From the three primaries.
     fn from_rgb(rgb: DVec3) -> Self;
@@ -53,6 +68,17 @@ pub trait Channel:
 
 impl Channel for f64 {
     const DARK: Self = 0.0;
+    const PARTS: usize = 1;
+
+    #[inline(always)]
+    fn part(self, _: usize) -> f64 {
+        self
+    }
+
+    #[inline(always)]
+    fn from_parts([gray, ..]: [f64; 3]) -> Self {
+        gray
+    }
 
     fn from_rgb(rgb: DVec3) -> Self {
         // Three equal channels are that gray; the weights' sum is 1 only within rounding.
@@ -75,6 +101,17 @@ impl Channel for f64 {
 
 impl Channel for DVec3 {
     const DARK: Self = DVec3::ZERO;
+    const PARTS: usize = 3;
+
+    #[inline(always)]
+    fn part(self, part: usize) -> f64 {
+        self[part]
+    }
+
+    #[inline(always)]
+    fn from_parts(parts: [f64; 3]) -> Self {
+        Self::from_array(parts)
+    }
 
     fn from_rgb(rgb: DVec3) -> Self {
         rgb

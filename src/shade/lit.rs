@@ -1,123 +1,48 @@
-//! How the surfaces that a bundle met lie to the rays and to a lamp: what [`super::surface`] computes for one, in the
-//! same order, for eight at a time.
+//! How the surfaces that a bundle met lie to a lamp, and the light that they get from it: what [`super::surface`] computes
+//! for one, in the same order, for eight at a time.
 
-use fearless_simd::{Level, Select, Simd, SimdBase, SimdMask, dispatch, f64x8, mask64x8};
+use fearless_simd::{Level, Select, Simd, SimdBase, dispatch, f64x8};
 
-use crate::math::{BUNDLE, Bundle, Column, Columns, DVec3, LANES, Mask, Number, ROWS, Vector};
-use crate::trace::{Nearest, Shaft};
+use crate::math::{Bundle, Column, Columns, DVec3, LANES, Mask, Number, ROWS, row_of};
+use crate::trace::Shaft;
 use crate::view::all_settled;
 
+use super::channel::{Channel, limited};
 use super::direction::WITHIN;
-use super::surface::NEAREST;
-
-/// The surfaces that a bundle met.
-#[derive(Clone, Debug)]
-pub(super) struct Surfaces {
-    /// Which rays met one.
-    pub hits: u64,
-    /// Where.
-    pub p: [Column; 3],
-    /// Before [`Surfaces::turn`] the surface's own normal, or the centre of a ball; then the normal, turned to the side that
-    /// the ray comes from, of length 1.
-    pub normal: [Column; 3],
-    /// Of a ball.
-    pub radius: Column,
-    /// 1 where the surface answers light, 0 where it does not.
-    pub shines: Column,
-    /// The number of its material.
-    pub finish: [u32; BUNDLE],
-}
+use super::power::power;
+use super::surface::{Finish, NEAREST};
+use super::surfaces::Surfaces;
 
 /// How the surfaces of a bundle lie to a lamp.
 #[derive(Clone, Debug)]
 pub(super) struct Lit {
     /// `L·N`.
-    pub facing: Column,
+    facing: Column,
     /// The cosine of the angle between the mirrored light and the way to the eye, at most 1.
-    pub cosine: Column,
-}
-
-impl Surfaces {
-    pub const NONE: Self = Self {
-        hits: 0,
-        p: [Column::filled(0.0); 3],
-        normal: [Column::filled(0.0); 3],
-        radius: Column::filled(1.0),
-        shines: Column::filled(0.0),
-        finish: [0; BUNDLE],
-    };
-
-    /// The points at which rays met something.
-    pub fn met(&mut self, bundle: &Bundle, nearest: &Nearest, level: Level) {
-        dispatch!(level, simd => self.points(simd, bundle, nearest));
-        self.hits &= bundle.live & !nearest.unsure;
-    }
-
-    #[inline(always)]
-    fn points<S: Simd>(&mut self, simd: S, bundle: &Bundle, nearest: &Nearest) {
-        self.hits = 0;
-        for row in 0..ROWS {
-            let t = nearest.t.load(simd, row);
-            let met = t.is_below(t.same(f64::INFINITY));
-            self.hits |= u64::from(met.bits()) << (row * LANES);
-            self.p.store(row, bundle.load(simd, row).at(t));
-        }
-    }
-
-    /// Turns the normals to the side that the rays come from. Answers for which rays that is the inside. The normals of
-    /// `balls` are still their centres.
-    pub fn turn(&mut self, bundle: &Bundle, balls: u64, level: Level) -> u64 {
-        dispatch!(level, simd => self.turned(simd, bundle, balls))
-    }
-
-    #[inline(always)]
-    fn turned<S: Simd>(&mut self, simd: S, bundle: &Bundle, balls: u64) -> u64 {
-        let mut inward = 0;
-        for row in 0..ROWS {
-            if (self.hits >> (row * LANES)) as u8 == 0 {
-                continue;
-            }
-            let d = bundle.d.load(simd, row);
-            let own = self.normal.load(simd, row);
-            let from_center = self.p.load(simd, row) - own;
-            let radius = self.radius.load(simd, row);
-            let of_ball =
-                Vector { x: from_center.x / radius, y: from_center.y / radius, z: from_center.z / radius };
-            let is_ball: mask64x8<S> = mask64x8::from_bitmask(simd, balls >> (row * LANES) & 0xFF);
-            let own = Vector::choose(is_ball, of_ball, own);
-            // As `normalize_or`: a length that is 0, or not finite, gives the fallback.
-            let inverse = own.x.same(1.0) / own.length();
-            let zero = own.x.same(0.0);
-            let usable = inverse.is_below(zero.same(f64::INFINITY)) & inverse.is_above(zero);
-            let normal = Vector::choose(usable, own * inverse, -d);
-            let away = normal.dot(d).is_above(zero);
-            self.normal.store(row, Vector::choose(away, -normal, normal));
-            inward |= u64::from(away.bits()) << (row * LANES);
-        }
-        inward
-    }
+    cosine: Column,
+    /// V, where anything lets light through.
+    pub visible: Column,
 }
 
 impl Lit {
-    pub const NONE: Self = Self { facing: Column::filled(0.0), cosine: Column::filled(0.0) };
+    pub const NONE: Self =
+        Self { facing: Column::filled(0.0), cosine: Column::filled(0.0), visible: Column::filled(1.0) };
 
-    /// The ways from the surfaces to a lamp. Those that face it ask for it.
+    /// The ways from the surfaces to a lamp. Those among `shines` that face it ask for it.
     pub fn light(
         &mut self,
         lamp: DVec3,
         bundle: &Bundle,
         surfaces: &Surfaces,
+        shines: u64,
         shaft: &mut Shaft,
         level: Level,
     ) {
-        (shaft.rays.live, shaft.blocked, shaft.tinted) = (0, 0, 0);
-        (shaft.leaving, shaft.unsure) = (0, 0);
-        if surfaces.hits == 0 {
-            return;
+        shaft.clear();
+        if shines != 0 {
+            dispatch!(level, simd => self.lit(simd, lamp, bundle, surfaces, shines, shaft));
+            shaft.close();
         }
-        dispatch!(level, simd => self.lit(simd, lamp, bundle, surfaces, shaft));
-        shaft.rays.live &= surfaces.hits;
-        shaft.close();
     }
 
     #[inline(always)]
@@ -127,23 +52,21 @@ impl Lit {
         lamp: DVec3,
         bundle: &Bundle,
         surfaces: &Surfaces,
+        shines: u64,
         shaft: &mut Shaft,
     ) {
         for row in 0..ROWS {
-            if (surfaces.hits >> (row * LANES)) as u8 == 0 {
+            if (shines >> (row * LANES)) as u8 == 0 {
                 continue;
             }
             let p = surfaces.p.load(simd, row);
             let normal = surfaces.normal.load(simd, row);
             let way = p.same(lamp) - p;
             let distance = way.length();
-            let d = Vector { x: way.x / distance, y: way.y / distance, z: way.z / distance };
-            let d = all_settled(d, WITHIN);
+            let d = all_settled(way / distance, WITHIN);
             let facing = d.dot(normal);
             let zero = f64x8::splat(simd, 0.0);
-            let asks = facing.is_above(zero)
-                & !distance.is_below(zero.same(NEAREST))
-                & surfaces.shines.load(simd, row).is_above(zero);
+            let asks = facing.is_above(zero) & !distance.is_below(zero.same(NEAREST));
             let mirrored = normal * (facing * 2.0) - d;
             let cosine = -mirrored.dot(bundle.d.load(simd, row));
             let one = zero.same(1.0);
@@ -153,6 +76,93 @@ impl Lit {
             shaft.rays.d.store(row, d);
             shaft.distance.store(row, distance);
             shaft.rays.live |= u64::from(asks.bits()) << (row * LANES);
+        }
+        shaft.rays.live &= shines;
+    }
+
+    /// Adds what a lamp of this light gives to the rays of `lanes`, which met a surface of one material. `sum` has a column
+    /// for each part of light. `dimmed`: V is not 1 everywhere.
+    pub fn add<C: Channel>(
+        &self,
+        light: C,
+        finish: &Finish<C>,
+        lanes: u64,
+        dimmed: bool,
+        sum: &mut [Column],
+        level: Level,
+    ) {
+        dispatch!(level, simd => self.added(simd, light, finish, lanes, dimmed, sum));
+    }
+
+    #[inline(always)]
+    fn added<S: Simd, C: Channel>(
+        &self,
+        simd: S,
+        light: C,
+        finish: &Finish<C>,
+        lanes: u64,
+        dimmed: bool,
+        sum: &mut [Column],
+    ) {
+        let zero = f64x8::splat(simd, 0.0);
+        for row in 0..ROWS {
+            if (lanes >> (row * LANES)) as u8 == 0 {
+                continue;
+            }
+            let which = row_of(simd, lanes, row);
+            let diffuse = self.facing.load(simd, row) * finish.kd;
+            let mut highlight = zero;
+            if finish.ks > 0.0 {
+                let cosine = self.cosine.load(simd, row);
+                let towards = which & cosine.is_above(zero);
+                if towards.any() {
+                    highlight = towards.choose(power(cosine, finish.n) * finish.ks, zero);
+                }
+            }
+            for part in 0..C::PARTS {
+                let mut share = diffuse * finish.color.part(part) + highlight;
+                if dimmed {
+                    share = share * self.visible.load(simd, row);
+                }
+                let more = limited(sum[part].load(simd, row) + share * light.part(part));
+                sum[part].put(simd, row, which, more);
+            }
+        }
+    }
+}
+
+/// From the sums over all lamps to the light of a surface: what is left of it after the way from the eye, and the light from
+/// all around.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Gathering<C> {
+    /// The constant of the depth term, in the scene's unit.
+    pub depth: Option<f64>,
+    /// The assembly's unit in the scene's.
+    pub unit: f64,
+    /// Ambient light, as the surface sends it on.
+    pub ambient: C,
+}
+
+impl<C: Channel> Gathering<C> {
+    /// Of the rays of `lanes`.
+    pub fn gather(&self, lanes: u64, way: &Column, sum: &mut [Column], level: Level) {
+        dispatch!(level, simd => self.gathered(simd, lanes, way, sum));
+    }
+
+    #[inline(always)]
+    fn gathered<S: Simd>(&self, simd: S, lanes: u64, way: &Column, sum: &mut [Column]) {
+        for row in 0..ROWS {
+            if (lanes >> (row * LANES)) as u8 == 0 {
+                continue;
+            }
+            for part in 0..C::PARTS {
+                let mut light = sum[part].load(simd, row);
+                if let Some(k) = self.depth {
+                    light = limited(light / (way.load(simd, row) * self.unit + k));
+                }
+                let ambient = light.same(self.ambient.part(part));
+                sum[part].put(simd, row, row_of(simd, lanes, row), limited(ambient + light));
+            }
         }
     }
 }

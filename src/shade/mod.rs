@@ -5,9 +5,12 @@ mod direction;
 mod lit;
 mod media;
 mod path;
+mod power;
 mod shadow;
 mod surface;
+mod surfaces;
 mod tile;
+mod wave;
 
 pub use channel::{Channel, luminance};
 pub use path::{Kind, Leg};

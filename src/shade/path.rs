@@ -65,14 +65,14 @@ impl Sent {
 
 /// The rays that a surface sends on, each with its share.
 #[derive(Clone, Copy, Debug)]
-struct Onward {
-    mirror: Option<(DVec3, f64)>,
-    snell: Option<(DVec3, f64)>,
+pub(super) struct Onward {
+    pub mirror: Option<(DVec3, f64)>,
+    pub snell: Option<(DVec3, f64)>,
 }
 
 impl Onward {
     /// `before` and `behind` are the indices of refraction on the two sides.
-    fn new<C>(d: DVec3, normal: DVec3, finish: &Finish<C>, before: f64, behind: f64) -> Self {
+    pub fn new<C>(d: DVec3, normal: DVec3, finish: &Finish<C>, before: f64, behind: f64) -> Self {
         let some = |direction, share| (share > 0.0).then_some((direction, share));
         let (kr, kt) = (finish.kr, finish.kt);
         match (kt > 0.0).then(|| refracted(d, normal, before, behind)) {
@@ -152,7 +152,7 @@ impl<E: Engine, C: Channel> Shader<'_, E, C> {
 
     /// S or T: the light that arrives along a mirror or Snell ray. A ray that is not followed counts as ambient
     /// light.
-    fn arriving(
+    pub(super) fn arriving(
         &self,
         sent: &Sent,
         departure: Departure,

@@ -12,6 +12,7 @@ use super::channel::Channel;
 use super::direction::WITHIN;
 use super::media::{Filling, Media};
 use super::path::Sent;
+use super::power::power;
 
 /// A light nearer than this, in the assembly's unit, is at the point itself: 2⁻⁵⁰⁰, whose square does not
 /// underflow. A hit's own place is not known so well by far.
@@ -27,7 +28,7 @@ pub struct Shader<'a, E, C> {
     pub(super) ambient: C,
     pub(super) background: C,
     /// The constant of the depth term, in the scene's unit.
-    depth: Option<f64>,
+    pub(super) depth: Option<f64>,
     pub(super) shadows: bool,
     /// Whether light can come through anything.
     pub(super) glass: bool,
@@ -106,27 +107,6 @@ pub(super) struct Towards {
     pub distance: f64,
     /// `L·N`, above 0.
     pub facing: f64,
-}
-
-/// `x` to the power `n`, both above 0. Most exponents are whole and small: a product of squares, each rounded once, then
-/// takes a tenth of the time.
-#[inline]
-fn power(x: f64, n: f64) -> f64 {
-    /// Past this the squares are as many as the steps of a logarithm.
-    const MOST: f64 = 1024.0;
-    let mut left = if n <= MOST { n as u32 } else { 0 };
-    if left == 0 || f64::from(left) != n {
-        return libm::pow(x, n);
-    }
-    let (mut product, mut square) = (1.0, x);
-    while left > 1 {
-        if left & 1 == 1 {
-            product *= square;
-        }
-        square *= square;
-        left >>= 1;
-    }
-    product * square
 }
 
 impl Towards {
@@ -303,24 +283,5 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
         let form: &Form = &self.assembly.primitives[hit.primitive as usize].form;
         let inward = form.normal(p, hit.surface).dot(toward) < 0.0;
         Departure { primitive: hit.primitive, surface: hit.surface, inward, off: form.off() }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn powers_are_those_of_the_library_within_their_roundings() {
-        for n in [1.0, 2.0, 3.0, 7.5, 8.0, 24.0, 100.0, 1023.0, 1024.0, 1025.0, 0.5] {
-            for k in 1..=100 {
-                let x = f64::from(k) / 100.0;
-                let (found, expected) = (power(x, n), libm::pow(x, n));
-                assert!(
-                    (found - expected).abs() <= n * f64::EPSILON * expected + f64::MIN_POSITIVE,
-                    "{x} {n}"
-                );
-            }
-        }
     }
 }

@@ -1,61 +1,51 @@
 //! The light of a tile: what [`super::surface`] does for one ray, for bundles of them.
 //!
-//! All rays of a tile are traced before any is shaded, and the lit points of the tile ask for one light after the
-//! other, so that the rays towards it run side by side. Where a dot needs a ray of its own, to see in a mirror or through
-//! glass or to tell two surfaces apart, it goes its way alone.
+//! All rays of one generation are traced before any is shaded, and their lit points ask for one light after the other,
+//! so that the rays towards it run side by side; then those that are sent on are the next generation. When there are no
+//! more, the light that arrives goes the same way back. Only where a ray must tell two surfaces in one place apart, it goes
+//! its way alone.
 
-use crate::math::{BUNDLE, Bundle, Column, Columns, DVec3, Ray};
-use crate::solid::{Crossing, Departures, Form};
+use crate::lattice::FAN;
+use crate::math::{Bundle, Column, Columns, DVec3, Ray};
+use crate::solid::{Crossing, Departure, Form};
 use crate::stage::{Meter, Probe, Stage};
-use crate::trace::{Fast, Hit, Nearest, Shaft, Shone, TileMemory};
+use crate::trace::{Engine, Fast, Hit, Shaft, Shone, TileMemory};
 
 use super::channel::Channel;
-use super::lit::{Lit, Surfaces};
-use super::path::Sent;
-use super::surface::{Memory, Met, Seen, Shader, View};
+use super::lit::{Gathering, Lit};
+use super::media::{List, Media, OUTSIDE};
+use super::path::{Onward, Sent};
+use super::surface::{Finish, Lamp, Memory, Met, Seen, Shader, View};
+use super::surfaces::Surfaces;
+use super::wave::{Arrival, Leg, Legs, Place, Wave};
+
+/// So few rays that are sent on take less time one by one than a bundle of them does.
+const FEW_LEGS: usize = 6;
 
 /// Rays from the eye, as a tile of them is traced.
 #[derive(Debug, Default)]
 pub struct Sight {
     /// The same rays from a start near the world.
-    pub bundles: Vec<Bundle>,
+    bundles: Vec<Bundle>,
     /// The way there, in two parts, of each.
-    pub ways: Vec<[Column; 2]>,
-}
-
-/// What all points of one side of a primitive have in common.
-#[derive(Clone, Copy, Debug)]
-struct Side {
-    /// [`Form::off`] of the primitive.
-    off: f64,
-    /// 1 where it answers light, 0 where it does not.
-    shines: f64,
-    finish: u32,
-    normal: Normal,
-}
-
-/// How the normals of one side of a primitive are known.
-#[derive(Clone, Copy, Debug)]
-enum Normal {
-    /// Away from a centre, at so great a distance.
-    From(DVec3, f64),
-    /// The same everywhere.
-    Flat(DVec3),
-    /// Interpolated.
-    Patched,
-    /// Another at each point.
-    Curved,
+    ways: Vec<[Column; 2]>,
 }
 
 /// What shading a tile needs, used again for every tile.
-#[derive(Debug, Default)]
-pub struct TileShading {
+#[derive(Debug)]
+pub struct TileShading<C> {
     trace: TileMemory,
-    nearest: Vec<Nearest>,
-    surfaces: Vec<Surfaces>,
-    departures: Vec<Departures>,
+    /// By generation.
+    waves: Vec<Wave<C>>,
     shafts: Vec<Shaft>,
     lit: Vec<Lit>,
+}
+
+impl<C> Default for TileShading<C> {
+    fn default() -> Self {
+        let (trace, shafts, lit) = (TileMemory::default(), Vec::new(), Vec::new());
+        Self { trace, waves: Vec::new(), shafts, lit }
+    }
 }
 
 impl Sight {
@@ -72,221 +62,382 @@ impl Sight {
     }
 }
 
+/// The places of bits among the rays of a bundle.
+fn places(bundle: usize, mut bits: u64) -> impl Iterator<Item = Place> {
+    std::iter::from_fn(move || {
+        let lane = bits.trailing_zeros() as usize;
+        (bits != 0).then(|| {
+            bits &= bits - 1;
+            Place { bundle, lane }
+        })
+    })
+}
+
 impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
     /// What the rays of a tile see; `eye` is where they all start, and `put` is called for each live one with its
     /// bundle and its place in it.
     pub fn tile(
         &self,
         eye: DVec3,
-        sight: &Sight,
-        tile: &mut TileShading,
+        sight: &mut Sight,
+        tile: &mut TileShading<C>,
         memory: &mut Memory<Fast<'e>>,
         meter: &mut Meter<impl Probe>,
         mut put: impl FnMut(usize, usize, View<C>),
     ) {
-        meter.at(Stage::Cell);
-        let bundles = &sight.bundles[..];
-        let count = bundles.len();
-        tile.nearest.resize(count, Nearest::NOTHING);
-        self.engine.first_of(bundles, &mut tile.nearest, &mut tile.trace);
-        meter.at(Stage::Shade);
-        let mut sums = vec![[C::DARK; BUNDLE]; count];
-        let hits = self.meet(bundles, tile);
-        for lamp in 0..self.lamps.len() {
-            self.lamp(lamp, bundles, tile, memory, &mut sums, meter);
+        let inside = memory.media.start(&self.around_eye);
+        if tile.waves.is_empty() {
+            tile.waves.push(Wave::default());
         }
-        for (k, bundle) in bundles.iter().enumerate() {
-            let mut rest = bundle.live;
-            while rest != 0 {
-                let lane = rest.trailing_zeros() as usize;
-                rest &= rest - 1;
-                let bit = 1 << lane;
-                if tile.nearest[k].unsure & bit != 0 {
-                    let ray = Ray::new(eye, bundle.d.get(lane));
-                    put(k, lane, self.view(&ray, memory, meter));
-                    continue;
-                }
-                meter.counts.primary_rays += 1;
-                if hits[k] & bit == 0 {
-                    put(k, lane, View { light: self.background, seen: None });
-                    continue;
-                }
-                meter.counts.primary_hits += 1;
-                let [far, left] = &sight.ways[k];
-                let met = met(tile, k, lane, [far.0[lane], left.0[lane]]);
-                let own = self.gathered(sums[k][lane], &met, met.hit.t);
-                let finish = self.finish(&met.hit);
-                let light = if finish.kr > 0.0 || finish.kt > 0.0 {
-                    self.alone(&bundle.ray(lane), &met, own, memory, meter)
-                } else {
-                    own
-                };
-                let seen = Seen { t: met.hit.t, object: met.hit.object, normal: met.normal };
-                put(k, lane, View { light, seen: Some(seen) });
+        let first = &mut tile.waves[0];
+        std::mem::swap(&mut first.rays, &mut sight.bundles);
+        std::mem::swap(&mut first.before, &mut sight.ways);
+        first.make_room();
+        self.see(eye, &inside, tile, memory, meter);
+        self.shade(0, tile, memory, meter);
+        let mut last = 0;
+        while self.send(last, &inside, tile, memory, meter) {
+            last += 1;
+            self.meet(last, tile, memory, meter);
+            self.shade(last, tile, memory, meter);
+        }
+        for generation in (1..=last).rev() {
+            self.arrive(generation, tile);
+        }
+        let first = &tile.waves[0];
+        for (k, bundle) in first.rays.iter().enumerate() {
+            let met = first.surfaces[k].hits | first.known[k];
+            for at in places(k, bundle.live) {
+                let light = first.light(at);
+                let seen = (met >> at.lane & 1 == 1).then(|| {
+                    let Met { hit, normal, .. } = first.met(at);
+                    Seen { t: hit.t, object: hit.object, normal }
+                });
+                put(k, at.lane, View { light, seen });
             }
         }
         meter.counts += std::mem::take(tile.trace.counts_mut());
     }
 
-    /// What all points of one side of a primitive have in common.
-    fn side(&self, primitive: u32, surface: u32) -> Side {
-        let form = &self.assembly.primitives[primitive as usize].form;
-        let finish = self.finish_of(primitive);
-        let normal = match form {
-            Form::Ball(ball) => Normal::From(ball.center, ball.radius),
-            Form::AxisBox(_) | Form::SkewBox(_) | Form::Facets(_) | Form::Mesh(_) | Form::Face(_) => {
-                Normal::Flat(form.normal(DVec3::ZERO, surface))
+    /// Finds what the rays from the eye meet.
+    fn see(
+        &self,
+        eye: DVec3,
+        inside: &List,
+        tile: &mut TileShading<C>,
+        memory: &mut Memory<Fast<'e>>,
+        meter: &mut Meter<impl Probe>,
+    ) {
+        meter.at(Stage::Cell);
+        let TileShading { trace, waves, .. } = tile;
+        let wave = &mut waves[0];
+        self.engine.first_of(&wave.rays, &mut wave.nearest, trace);
+        for k in 0..wave.rays.len() {
+            let unsure = std::mem::take(&mut wave.nearest[k].unsure);
+            let mut alone = Vec::new();
+            for at in places(k, unsure) {
+                let ray = Ray::new(eye, wave.rays[k].d.get(at.lane));
+                let hit = self.engine.first(&ray, &mut memory.engine, meter);
+                let sent =
+                    || Sent { ray, travelled: 0.0, weight: 1.0, generation: 0, inside: inside.clone() };
+                if let Some(met) = self.take(wave, at, sent, hit, memory, meter) {
+                    alone.push((at, met));
+                }
             }
-            Form::Patch(_) => Normal::Patched,
-            Form::Round(_) | Form::Tube(_) => Normal::Curved,
-        };
-        let shines = if finish.kd > 0.0 || finish.ks > 0.0 { 1.0 } else { 0.0 };
-        Side { off: form.off(), shines, finish: self.assembly.material(primitive).0, normal }
+            self.know(wave, k, &alone);
+            let met = u64::from((wave.surfaces[k].hits | wave.known[k]).count_ones());
+            meter.counts.primary_rays += u64::from(wave.rays[k].live.count_ones());
+            meter.counts.primary_hits += met;
+        }
     }
 
-    /// The surfaces that were met: their points, normals and departures. Answers which rays met one.
-    fn meet(&self, bundles: &[Bundle], tile: &mut TileShading) -> Vec<u64> {
-        let count = bundles.len();
-        tile.surfaces.resize(count, Surfaces::NONE);
-        tile.departures.resize(count, Departures::NONE);
-        let mut hits = Vec::with_capacity(count);
-        for (k, bundle) in bundles.iter().enumerate() {
-            let surfaces = &mut tile.surfaces[k];
-            surfaces.met(bundle, &tile.nearest[k], self.engine.level());
-            let (mut balls, mut patches) = (0_u64, 0_u64);
-            let departures = &mut tile.departures[k];
-            let mut rest = surfaces.hits;
-            // Neighbours mostly see the same face.
-            let mut last = None;
-            while rest != 0 {
-                let lane = rest.trailing_zeros() as usize;
-                rest &= rest - 1;
-                let (primitive, surface) =
-                    (tile.nearest[k].primitive.0[lane], tile.nearest[k].surface.0[lane]);
-                let seen = match last {
-                    Some((before, seen)) if before == (primitive, surface) => seen,
-                    _ => self.side(primitive as u32, surface as u32),
-                };
-                last = Some(((primitive, surface), seen));
-                departures.primitive.0[lane] = primitive;
-                departures.off.0[lane] = seen.off;
-                surfaces.shines.0[lane] = seen.shines;
-                surfaces.finish[lane] = seen.finish;
-                match seen.normal {
-                    Normal::From(center, radius) => {
-                        balls |= 1 << lane;
-                        surfaces.normal.set(lane, center);
-                        surfaces.radius.0[lane] = radius;
-                    }
-                    Normal::Flat(normal) => surfaces.normal.set(lane, normal),
-                    Normal::Patched => patches |= 1 << lane,
-                    Normal::Curved => {
-                        let form = &self.assembly.primitives[primitive as usize].form;
-                        surfaces.normal.set(lane, form.normal(surfaces.p.get(lane), surface as u32));
+    /// Finds what the rays meet that were sent on.
+    fn meet(
+        &self,
+        generation: usize,
+        tile: &mut TileShading<C>,
+        memory: &mut Memory<Fast<'e>>,
+        meter: &mut Meter<impl Probe>,
+    ) {
+        let wave = &mut tile.waves[generation];
+        wave.bundle_legs();
+        wave.make_room();
+        for nearest in &mut wave.nearest {
+            nearest.clear();
+        }
+        let kinds = std::mem::take(&mut wave.kinds);
+        for kind in &kinds {
+            for (number, leg) in kind.legs.iter().enumerate() {
+                let at = kind.place(number);
+                let Leg { sent, departure } = leg;
+                let hit = self.engine.next(&sent.ray, *departure, &mut memory.engine, meter);
+                self.take(wave, at, || sent.clone(), hit, memory, meter);
+            }
+        }
+        wave.kinds = kinds;
+        for k in 0..wave.rays.len() {
+            self.know(wave, k, &[]);
+            let met = u64::from((wave.surfaces[k].hits | wave.known[k]).count_ones());
+            meter.counts.secondary_rays += u64::from(wave.rays[k].live.count_ones());
+            meter.counts.secondary_hits += met;
+        }
+        meter.at(Stage::Shade);
+    }
+
+    /// What one ray met that was asked about alone. Where that is more than one surface in one place, its light is found
+    /// at once.
+    fn take(
+        &self,
+        wave: &mut Wave<C>,
+        at: Place,
+        sent: impl FnOnce() -> Sent,
+        hit: Option<Hit>,
+        memory: &mut Memory<Fast<'e>>,
+        meter: &mut Meter<impl Probe>,
+    ) -> Option<Met> {
+        wave.nearest[at.bundle].set(at.lane, hit.as_ref());
+        let hit = hit?;
+        if self.engine.together(&memory.engine).len() == 1 {
+            return Some(Met { hit, p: hit.p, normal: DVec3::ZERO });
+        }
+        let sent = sent();
+        meter.at(Stage::Shade);
+        let met = self.met(&sent.ray, hit, memory);
+        let light = self.light(&sent, &met, memory, meter);
+        meter.at(Stage::Cell);
+        wave.nearest[at.bundle].set(at.lane, Some(&met.hit));
+        wave.set_light(at, light);
+        wave.known[at.bundle] |= 1 << at.lane;
+        Some(met)
+    }
+
+    /// The surfaces that a bundle met. `alone` are rays whose numbers were found alone.
+    fn know(&self, wave: &mut Wave<C>, k: usize, alone: &[(Place, Met)]) {
+        let level = self.engine.level();
+        let Wave { rays, before, nearest, surfaces, departures, known, .. } = wave;
+        let (bundle, nearest, surfaces) = (&rays[k], &nearest[k], &mut surfaces[k]);
+        surfaces.points(bundle, &before[k], nearest, level);
+        surfaces.hits &= !known[k];
+        for (Place { lane, .. }, met) in alone {
+            surfaces.p.set(*lane, met.p);
+            surfaces.way.0[*lane] = met.hit.t;
+        }
+        surfaces.know(bundle, nearest, self.assembly, &mut departures[k], level);
+        for at in places(k, surfaces.patches) {
+            let (primitive, surface) =
+                (nearest.primitive.0[at.lane] as u32, nearest.surface.0[at.lane] as u32);
+            let p = surfaces.p.get(at.lane);
+            let normal = self.assembly.turned_normal(primitive, surface, p, bundle.d.get(at.lane));
+            surfaces.normal.set(at.lane, normal);
+            let hit = Hit { t: 0.0, error: 0.0, p, object: 0, primitive, surface, entering: true };
+            departures[k].set(at.lane, &self.departure(&hit, p, normal));
+        }
+        for (Place { lane, .. }, met) in alone.iter().filter(|(at, _)| known[k] >> at.lane & 1 == 1) {
+            surfaces.normal.set(*lane, met.normal);
+        }
+    }
+
+    /// The light that a generation's surfaces send back of themselves.
+    fn shade(
+        &self,
+        generation: usize,
+        tile: &mut TileShading<C>,
+        memory: &mut Memory<Fast<'e>>,
+        meter: &mut Meter<impl Probe>,
+    ) {
+        meter.at(Stage::Shade);
+        let wave = &mut tile.waves[generation];
+        for k in 0..wave.rays.len() {
+            let (hits, known) = (wave.surfaces[k].hits, wave.known[k]);
+            for part in 0..C::PARTS {
+                let missed = self.background.part(part);
+                for (lane, light) in wave.light_mut(k)[part].0.iter_mut().enumerate() {
+                    if known >> lane & 1 == 0 {
+                        *light = if hits >> lane & 1 == 0 { missed } else { 0.0 };
                     }
                 }
             }
-            let inward = surfaces.turn(bundle, balls, self.engine.level());
-            tile.departures[k].inward = inward;
-            while patches != 0 {
-                let lane = patches.trailing_zeros() as usize;
-                patches &= patches - 1;
-                let (p, nearest) = (surfaces.p.get(lane), &tile.nearest[k]);
-                let (primitive, surface) = (nearest.primitive.0[lane] as u32, nearest.surface.0[lane] as u32);
-                let normal = self.assembly.turned_normal(primitive, surface, p, bundle.d.get(lane));
-                surfaces.normal.set(lane, normal);
-                let hit = Hit { t: 0.0, error: 0.0, p, object: 0, primitive, surface, entering: true };
-                tile.departures[k].set(lane, &self.departure(&hit, p, normal));
-            }
-            hits.push(surfaces.hits);
         }
-        hits
+        for lamp in 0..self.lamps.len() {
+            self.lamp(lamp, generation, tile, memory, meter);
+        }
+        let wave = &mut tile.waves[generation];
+        let unit = self.assembly.datum.unit;
+        let Wave { surfaces, light, .. } = wave;
+        for (Surfaces { materials, way, .. }, light) in surfaces.iter().zip(light.chunks_mut(C::PARTS)) {
+            for &(material, lanes) in materials {
+                let ambient = self.ambient * self.finishes[material as usize].color;
+                let gathering = Gathering { depth: self.depth, unit, ambient };
+                gathering.gather(lanes, way, light, self.engine.level());
+            }
+        }
     }
 
     /// Adds what one lamp gives.
     fn lamp(
         &self,
         lamp: usize,
-        bundles: &[Bundle],
-        tile: &mut TileShading,
+        generation: usize,
+        tile: &mut TileShading<C>,
         memory: &mut Memory<Fast<'e>>,
-        sums: &mut [[C; BUNDLE]],
         meter: &mut Meter<impl Probe>,
     ) {
-        let count = bundles.len();
-        tile.shafts.resize(count, Shaft::EMPTY);
-        tile.lit.resize(count, Lit::NONE);
-        for (k, bundle) in bundles.iter().enumerate() {
-            let shaft = &mut tile.shafts[k];
-            tile.lit[k].light(self.lamps[lamp].at, bundle, &tile.surfaces[k], shaft, self.engine.level());
+        let level = self.engine.level();
+        let Lamp { at: place, light: shed } = self.lamps[lamp];
+        let TileShading { trace, waves, shafts, lit } = tile;
+        let wave = &mut waves[generation];
+        let count = wave.rays.len();
+        shafts.resize(count, Shaft::EMPTY);
+        lit.resize(count, Lit::NONE);
+        for k in 0..count {
+            let shines = self.made_so(&wave.surfaces[k], |finish| finish.kd > 0.0 || finish.ks > 0.0);
+            lit[k].light(place, &wave.rays[k], &wave.surfaces[k], shines, &mut shafts[k], level);
         }
         if self.shadows {
             meter.at(Stage::Cell);
-            let shone = Shone { at: self.lamps[lamp].at, clear: &self.clear };
-            self.engine.blocked_of(&mut tile.shafts, &tile.departures, &shone, &mut tile.trace);
+            let shone = Shone { at: place, clear: &self.clear };
+            for (shafts, departures) in shafts.chunks_mut(FAN).zip(wave.departures.chunks(FAN)) {
+                self.engine.blocked_of(shafts, departures, &shone, trace);
+            }
             meter.at(Stage::Shade);
         }
-        for (k, shaft) in tile.shafts.iter().enumerate() {
-            let mut rest = shaft.rays.live;
-            while rest != 0 {
-                let lane = rest.trailing_zeros() as usize;
-                rest &= rest - 1;
-                let bit = 1 << lane;
-                let mut visible = 1.0;
-                if self.shadows {
-                    let blocked = shaft.blocked & bit != 0;
-                    if !blocked && (shaft.unsure | shaft.tinted) & bit != 0 {
-                        let met = met(tile, k, lane, [0.0; 2]);
-                        let departure = self.departure(&met.hit, met.p, met.normal);
-                        let (ray, distance) = (shaft.rays.ray(lane), shaft.distance.0[lane]);
-                        visible = self.visibility(&ray, departure, distance, memory, meter);
-                    } else {
-                        meter.counts.shadow_rays += 1;
-                        meter.counts.shadow_hits += u64::from(blocked);
-                        visible = if blocked { 0.0 } else { 1.0 };
-                    }
+        for (k, shaft) in shafts.iter().enumerate() {
+            let asked = shaft.rays.live;
+            let mut reached = asked;
+            let mut dimmed = false;
+            if self.shadows {
+                let blocked = asked & shaft.blocked;
+                let alone = asked & !blocked & (shaft.unsure | shaft.tinted);
+                meter.counts.shadow_rays += u64::from((asked & !alone).count_ones());
+                meter.counts.shadow_hits += u64::from(blocked.count_ones());
+                reached &= !blocked;
+                for at in places(k, alone) {
+                    let (ray, distance) = (shaft.rays.ray(at.lane), shaft.distance.0[at.lane]);
+                    let visible = self.visibility(&ray, wave.departure(at), distance, memory, meter);
+                    lit[k].visible.0[at.lane] = visible;
+                    dimmed |= visible != 1.0;
                     if visible == 0.0 {
-                        continue;
+                        reached &= !(1 << at.lane);
                     }
                 }
-                let finish = &self.finishes[tile.surfaces[k].finish[lane] as usize];
-                let (facing, cosine) = (tile.lit[k].facing.0[lane], tile.lit[k].cosine.0[lane]);
-                let share = Self::share(finish, facing, cosine) * visible;
-                sums[k][lane] = (sums[k][lane] + self.lamps[lamp].light * share).limited();
+            }
+            let Wave { surfaces, light, .. } = &mut *wave;
+            let sum = &mut light[k * C::PARTS..][..C::PARTS];
+            for &(material, lanes) in &surfaces[k].materials {
+                let finish = &self.finishes[material as usize];
+                lit[k].add(shed, finish, lanes & reached, dimmed, sum, level);
+            }
+            if dimmed {
+                lit[k].visible = Column::filled(1.0);
             }
         }
     }
 
-    /// The light of a surface that sends rays on.
-    fn alone(
+    /// The rays of a bundle that met a material of some kind.
+    fn made_so(&self, surfaces: &Surfaces, kind: impl Fn(&Finish<C>) -> bool) -> u64 {
+        let materials = surfaces.materials.iter();
+        let of_kind = materials.filter(|(material, _)| kind(&self.finishes[*material as usize]));
+        of_kind.fold(0, |rays, (_, lanes)| rays | lanes)
+    }
+
+    /// Sends the rays on that a generation's surfaces send. Answers whether there is another generation; the light of few
+    /// rays arrives at once.
+    fn send(
         &self,
-        ray: &Ray,
-        met: &Met,
-        own: C,
+        generation: usize,
+        inside: &List,
+        tile: &mut TileShading<C>,
         memory: &mut Memory<Fast<'e>>,
         meter: &mut Meter<impl Probe>,
-    ) -> C {
-        let inside = memory.media.start(&self.around_eye);
-        let Hit { t, error, object, primitive, surface, entering, .. } = met.hit;
-        let together = [(object, Crossing { t, error, primitive, surface, entering })];
-        let change = self.change_at(&inside, &together, &mut memory.media);
-        let sent = Sent { ray: *ray, travelled: 0.0, weight: 1.0, generation: 0, inside };
-        self.sending_surface(&sent, met, &change, own, memory, meter)
+    ) -> bool {
+        if tile.waves.len() == generation + 1 {
+            tile.waves.push(Wave::default());
+        }
+        let (before, behind) = tile.waves.split_at_mut(generation + 1);
+        let (wave, next) = (&mut before[generation], &mut behind[0]);
+        next.clear_legs();
+        for k in 0..wave.rays.len() {
+            let senders = self.made_so(&wave.surfaces[k], |finish| finish.kr > 0.0 || finish.kt > 0.0);
+            for at in places(k, senders) {
+                self.send_on(generation, wave, at, inside, next, &mut memory.media, meter);
+            }
+        }
+        if next.legs() > FEW_LEGS {
+            return true;
+        }
+        for Legs { legs, arrivals, .. } in &next.kinds {
+            for arrival in arrivals {
+                let light = match arrival.leg {
+                    None => self.ambient,
+                    Some(leg) => {
+                        let Leg { sent, departure } = &legs[leg as usize];
+                        self.arriving(sent, *departure, memory, meter)
+                    }
+                };
+                wave.add(arrival, light);
+            }
+        }
+        false
     }
-}
 
-/// A surface that was met, as one ray meets it.
-fn met(tile: &TileShading, k: usize, lane: usize, [far, left]: [f64; 2]) -> Met {
-    let nearest = &tile.nearest[k];
-    let p = tile.surfaces[k].p.get(lane);
-    let hit = Hit {
-        t: far + (left + nearest.t.0[lane]),
-        error: 0.0,
-        p,
-        object: nearest.object.0[lane] as u32,
-        primitive: nearest.primitive.0[lane] as u32,
-        surface: nearest.surface.0[lane] as u32,
-        entering: nearest.entering >> lane & 1 == 1,
-    };
-    Met { hit, p, normal: tile.surfaces[k].normal.get(lane) }
+    /// Sends on what one surface does.
+    fn send_on(
+        &self,
+        generation: usize,
+        wave: &Wave<C>,
+        at: Place,
+        inside: &List,
+        next: &mut Wave<C>,
+        media: &mut Media,
+        meter: &mut Meter<impl Probe>,
+    ) {
+        let Met { hit, p, normal } = wave.met(at);
+        let finish = self.finish(&hit);
+        let (weight, inside) = match wave.leg(at) {
+            None => (1.0, inside),
+            Some(Leg { sent, .. }) => (sent.weight, &sent.inside),
+        };
+        let change = (finish.kt > 0.0).then(|| {
+            let Hit { t, error, primitive, surface, entering, .. } = hit;
+            let together = [(hit.object, Crossing { t, error, primitive, surface, entering })];
+            self.change_at(inside, &together, media)
+        });
+        let (before, behind) = change.as_ref().map_or((OUTSIDE, OUTSIDE), |c| (c.before, c.behind));
+        let onward = Onward::new(wave.rays[at.bundle].d.get(at.lane), normal, finish, before, behind);
+        let back = wave.departure(at);
+        let through = || match self.assembly.primitives[hit.primitive as usize].form {
+            Form::Patch(_) => self.departure(&hit, p, -normal),
+            _ => Departure { inward: !back.inward, ..back },
+        };
+        let beyond = change.map_or_else(|| inside.clone(), |change| change.list);
+        let mirror = onward.mirror.map(|onward| (onward, back, inside.clone()));
+        let snell = onward.snell.map(|onward| (onward, through(), beyond));
+        for (kind, sent) in [mirror, snell].into_iter().enumerate() {
+            let Some(((d, share), departure, inside)) = sent else { continue };
+            let generation = generation as u32 + 1;
+            let weight = weight * share;
+            let Legs { legs, arrivals, .. } = &mut next.kinds[kind];
+            if generation > self.generations || weight < self.least_weight {
+                meter.counts.truncated_rays += 1;
+                arrivals.push(Arrival { at, share, leg: None });
+            } else {
+                arrivals.push(Arrival { at, share, leg: Some(legs.len() as u32) });
+                let sent = Sent { ray: Ray::new(p, d), travelled: hit.t, weight, generation, inside };
+                legs.push(Leg { sent, departure });
+            }
+        }
+    }
+
+    /// The light of a generation arrives at the one before it.
+    fn arrive(&self, generation: usize, tile: &mut TileShading<C>) {
+        let (before, behind) = tile.waves.split_at_mut(generation);
+        let (wave, next) = (&mut before[generation - 1], &behind[0]);
+        for kind in &next.kinds {
+            for arrival in &kind.arrivals {
+                let light =
+                    arrival.leg.map_or(self.ambient, |leg| next.light(kind.place(leg as usize)));
+                wave.add(arrival, light);
+            }
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! Spheres that stayed spheres: a centre and a radius.
 
-use crate::math::{Bounds, DVec3, Mask, Number, Rays};
+use crate::math::{Bounds, DVec3, Mask, Number, Rays, Vector};
 
 use super::span::{Ends, LIMIT, ROUNDING, Spans, WORLD, rounding_at};
 
@@ -79,9 +79,10 @@ impl Ball {
         (SEEN / self.off).min(1.0)
     }
 
-    /// The outward normal at a point of the surface; its length is 1 within rounding.
-    pub fn normal(&self, p: DVec3) -> DVec3 {
-        (p - self.center) / self.radius
+    /// The outward normals at points of the surface; their length is 1 within rounding.
+    #[inline(always)]
+    pub fn normals<N: Number>(&self, p: Vector<N>) -> Vector<N> {
+        (p - self.center) / p.x.same(self.radius)
     }
 
     /// The box around it.

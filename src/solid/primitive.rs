@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use crate::math::{Bounds, DAffine3, DMat3, DVec3, Number, Placement, Ray, Rays};
+use crate::math::{Bounds, DAffine3, DMat3, DVec3, Number, Placement, Ray, Rays, Vector};
 use crate::scene::{MaterialId, Shape};
 
 use super::ball::Ball;
@@ -174,21 +174,29 @@ impl Form {
         }
     }
 
-    /// The normal of the surface itself at a point of it, of length 1 within rounding; outward except for a mesh,
-    /// whose triangles may turn either way. A face and a patch turn to the left around theirs; a tube's points away
-    /// from its axis.
+    /// The normal of the surface itself at a point of it, as for [`Form::normals`].
+    #[inline]
     pub fn normal(&self, p: DVec3, surface: u32) -> DVec3 {
-        match self {
-            Self::Ball(ball) => ball.normal(p),
+        self.normals(Vector::from(p), surface).into()
+    }
+
+    /// The normals of the surface itself at points of it, of length 1 within rounding; outward except for a mesh, whose
+    /// triangles may turn either way. A face and a patch turn to the left around theirs; a tube's points away from its
+    /// axis.
+    #[inline(always)]
+    pub fn normals<N: Number>(&self, p: Vector<N>, surface: u32) -> Vector<N> {
+        let flat = match self {
+            Self::Ball(ball) => return ball.normals(p),
+            Self::Round(round) => return round.normals(p, surface),
+            Self::Tube(tube) => return tube.normals(p),
             Self::AxisBox(_) => AxisBox::normal(surface),
             Self::SkewBox(slabs) => slabs.normal(surface),
-            Self::Round(round) => round.normal(p, surface),
             Self::Facets(facets) => facets.normal(surface),
             Self::Mesh(mesh) => mesh.normal(surface),
             Self::Face(face) => face.normal(),
             Self::Patch(patch) => patch.face.normal(),
-            Self::Tube(tube) => tube.normal(p),
-        }
+        };
+        p.same(flat)
     }
 
     /// The box around it. Faces of a box along the axes are exact; all other bounds are moved outward by what

@@ -1,6 +1,6 @@
 //! Curved solids in their unit space: ellipsoids, and cylinders, cones and frustums of any slant.
 
-use crate::math::{Bounds, DMat3, DVec3, Mask, Number, Placement, Rays};
+use crate::math::{Bounds, DMat3, DVec3, Mask, Number, Placement, Rays, Vector};
 
 use super::span::{Ends, Spans};
 use super::taper::Taper;
@@ -58,13 +58,14 @@ impl Round {
         self.space.seeming
     }
 
-    /// The outward normal at a point of the surface, of length 1; along the axis at the apex of a cone.
-    pub fn normal(&self, p: DVec3, surface: u32) -> DVec3 {
-        let q = self.space.point(p);
-        self.space.normal(match (self.profile, surface) {
+    /// The outward normals at points of the surface, of length 1; along the axis at the apex of a cone.
+    #[inline(always)]
+    pub fn normals<N: Number>(&self, p: Vector<N>, surface: u32) -> Vector<N> {
+        let q = self.space.points(p);
+        self.space.normals(match (self.profile, surface) {
             (Profile::Sphere, _) => q,
-            (Profile::Frustum(_), BOTTOM) => DVec3::NEG_Z,
-            (Profile::Frustum(_), TOP) => DVec3::Z,
+            (Profile::Frustum(_), BOTTOM) => q.same(DVec3::NEG_Z),
+            (Profile::Frustum(_), TOP) => q.same(DVec3::Z),
             (Profile::Frustum(taper), _) => taper.gradient(q),
         })
     }

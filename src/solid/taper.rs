@@ -21,18 +21,18 @@ impl Taper {
         Self { middle: 0.5 * bottom + 0.5 * top, slope: 0.5 * top - 0.5 * bottom }
     }
 
-    /// Outward from the side at a point of it; along the axis at the apex of a cone.
-    pub fn gradient(&self, q: DVec3) -> DVec3 {
+    /// Outward from the side at points of it; along the axis at the apex of a cone.
+    #[inline(always)]
+    pub fn gradient<N: Number>(&self, q: Vector<N>) -> Vector<N> {
         let Self { middle, slope } = *self;
         // The gradient of x² + y² − r(z)², with r taken from the point's own distance to the axis: on the surface they
         // are equal, and this one can not turn inward.
-        let r = libm::hypot(q.x, q.y);
-        let side = DVec3::new(q.x, q.y, -slope * r);
-        if r > 0.0 && (middle + slope * q.z > 0.0 || r > f64::EPSILON) {
-            side
-        } else {
-            DVec3::Z * if slope < 0.0 { 1.0 } else { -1.0 }
-        }
+        let r = (q.x * q.x + q.y * q.y).root();
+        let zero = r.same(0.0);
+        let aside = r.is_above(zero)
+            & ((q.z * slope + middle).is_above(zero) | r.is_above(r.same(f64::EPSILON)));
+        let apex = q.same(DVec3::Z * if slope < 0.0 { 1.0 } else { -1.0 });
+        Vector::choose(aside, Vector { z: r * -slope, ..q }, apex)
     }
 
     /// The box around it under a map.

@@ -1,6 +1,6 @@
 //! Open tubes: the sides of cylinders, cones and frustums, seen from both sides.
 
-use crate::math::{Bounds, DAffine3, DMat3, DVec3, Mask, Number, Placement, Rays};
+use crate::math::{Bounds, DAffine3, DMat3, DVec3, Mask, Number, Placement, Rays, Vector};
 
 use super::span::{Ends, Spans};
 use super::taper::Taper;
@@ -63,9 +63,10 @@ impl Tube {
         }
     }
 
-    /// The normal at a point of the tube, away from its axis, of length 1.
-    pub fn normal(&self, p: DVec3) -> DVec3 {
-        self.space.normal(self.taper.gradient(self.space.point(p)))
+    /// The normals at points of the tube, away from its axis, of length 1.
+    #[inline(always)]
+    pub fn normals<N: Number>(&self, p: Vector<N>) -> Vector<N> {
+        self.space.normals(self.taper.gradient(self.space.points(p)))
     }
 
     /// The box around it.

@@ -60,17 +60,19 @@ impl UnitSpace {
         Centred { o, d, d_squared, t: first + second, off: self.off, seeming: self.seeming }
     }
 
-    /// A point of the world there.
-    pub fn point(&self, p: DVec3) -> DVec3 {
-        self.inverse * (p - self.center)
+    /// Points of the world there.
+    #[inline(always)]
+    pub fn points<N: Number>(&self, p: Vector<N>) -> Vector<N> {
+        (p - self.center).mapped(&self.inverse)
     }
 
-    /// The normal in the world, of length 1, of a surface that rises along `gradient` there.
-    pub fn normal(&self, gradient: DVec3) -> DVec3 {
+    /// The normals in the world, of length 1, of a surface that rises along `gradient` there.
+    #[inline(always)]
+    pub fn normals<N: Number>(&self, gradient: Vector<N>) -> Vector<N> {
         // A normal goes through the transposed inverse; scaled first, so that no square overflows.
-        let normal = self.inverse.transpose() * gradient;
-        let size = normal.abs().max_element();
-        (normal / size).normalize_or(DVec3::Z)
+        let normal = gradient.mapped(&self.inverse.transpose());
+        let Vector { x, y, z } = normal.magnitude();
+        (normal / x.larger(y).larger(z)).normalized_or(normal.same(DVec3::Z))
     }
 
     /// The box there around a box of the world.

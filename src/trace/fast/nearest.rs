@@ -4,6 +4,8 @@ use fearless_simd::{Select, Simd, SimdBase, f64x8, mask64x8};
 
 use crate::math::{Bundle, Column, LANES, Mask, Number, ROWS};
 
+use super::super::Hit;
+
 /// What each ray of a bundle met first.
 #[derive(Clone, Debug)]
 pub struct Nearest {
@@ -41,6 +43,19 @@ impl Nearest {
         self.t = Column::filled(f64::INFINITY);
         self.second = Column::filled(f64::INFINITY);
         (self.entering, self.unsure) = (0, 0);
+    }
+
+    /// Sets what one ray met.
+    pub fn set(&mut self, lane: usize, hit: Option<&Hit>) {
+        let Some(hit) = hit else {
+            self.t.0[lane] = f64::INFINITY;
+            return;
+        };
+        self.t.0[lane] = hit.t;
+        self.object.0[lane] = f64::from(hit.object);
+        self.primitive.0[lane] = f64::from(hit.primitive);
+        self.surface.0[lane] = f64::from(hit.surface);
+        self.entering = self.entering & !(1 << lane) | u64::from(hit.entering) << lane;
     }
 
     /// Crossings of some rays of a row with an object.

@@ -63,6 +63,12 @@ impl Shaft {
         unsure: 0,
     };
 
+    /// No ray asks, and nothing is known.
+    pub fn clear(&mut self) {
+        self.rays.live = 0;
+        (self.blocked, self.tinted, self.leaving, self.unsure) = (0, 0, 0, 0);
+    }
+
     /// Gives those that do not ask the numbers of the first that does ([`Bundle::close`]).
     pub fn close(&mut self) {
         self.rays.close();

@@ -1,0 +1,185 @@
+//! The surfaces that a bundle met: what [`super::surface`] finds for one ray, in the same order, for eight at a time.
+
+use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
+
+use crate::math::{Bundle, Column, Columns, DVec3, LANES, Mask, Number, ROWS, Vector, row_of};
+use crate::solid::{Assembly, Departures, Form};
+use crate::trace::Nearest;
+
+/// The surfaces that a bundle met.
+#[derive(Clone, Debug)]
+pub(super) struct Surfaces {
+    /// Which rays met one that is to be shaded.
+    pub hits: u64,
+    /// Where.
+    pub p: [Column; 3],
+    /// The normals, turned to the sides that the rays come from, of length 1.
+    pub normal: [Column; 3],
+    /// The ways from the eye.
+    pub way: Column,
+    /// Which of the surfaces are patches: their normals and departures are still to be found.
+    pub patches: u64,
+    /// The materials, by their numbers, each with the rays that met it.
+    pub materials: Vec<(u32, u64)>,
+}
+
+impl Surfaces {
+    pub const NONE: Self = Self {
+        hits: 0,
+        p: [Column::filled(0.0); 3],
+        normal: [Column::filled(0.0); 3],
+        way: Column::filled(0.0),
+        patches: 0,
+        materials: Vec::new(),
+    };
+
+    /// The points at which rays met something; `before` are two parts of the way from the eye to where they start, the
+    /// second to be added first.
+    pub fn points(&mut self, bundle: &Bundle, before: &[Column; 2], nearest: &Nearest, level: Level) {
+        dispatch!(level, simd => self.all_points(simd, bundle, before, nearest));
+        self.hits &= bundle.live & !nearest.unsure;
+    }
+
+    #[inline(always)]
+    fn all_points<S: Simd>(&mut self, simd: S, bundle: &Bundle, before: &[Column; 2], nearest: &Nearest) {
+        self.hits = 0;
+        for row in 0..ROWS {
+            let t = nearest.t.load(simd, row);
+            let met = t.is_below(t.same(f64::INFINITY));
+            self.hits |= u64::from(met.bits()) << (row * LANES);
+            self.p.store(row, bundle.load(simd, row).at(t));
+            self.way.store(row, before[0].load(simd, row) + (before[1].load(simd, row) + t));
+        }
+    }
+
+    /// What the surfaces are that were hit, and how they lie to the rays. Sets `departures` for rays that leave them to
+    /// the sides that the others came from.
+    pub fn know(
+        &mut self,
+        bundle: &Bundle,
+        nearest: &Nearest,
+        assembly: &Assembly,
+        departures: &mut Departures,
+        level: Level,
+    ) {
+        self.materials.clear();
+        self.patches = 0;
+        if self.hits != 0 {
+            dispatch!(level, simd => self.all_known(simd, nearest, assembly, departures));
+            departures.inward = dispatch!(level, simd => self.turned(simd, bundle));
+        }
+    }
+
+    #[inline(always)]
+    fn all_known<S: Simd>(
+        &mut self,
+        simd: S,
+        nearest: &Nearest,
+        assembly: &Assembly,
+        departures: &mut Departures,
+    ) {
+        departures.primitive = nearest.primitive;
+        let mut rest = self.hits;
+        while rest != 0 {
+            // Neighbours mostly meet the same face: all that do are looked at together.
+            let lane = rest.trailing_zeros() as usize;
+            let (primitive, surface) = (nearest.primitive.0[lane], nearest.surface.0[lane]);
+            let group = rest & same_face(simd, nearest, lane);
+            rest &= !group;
+            let own = &assembly.primitives[primitive as usize];
+            self.made_of(own.material.0, group);
+            let off = f64x8::splat(simd, own.form.off());
+            for row in lane / LANES..ROWS {
+                departures.off.put(simd, row, row_of(simd, group, row), off);
+            }
+            let surface = surface as u32;
+            match &own.form {
+                Form::Ball(ball) => self.face(
+                    simd,
+                    group,
+                    #[inline(always)]
+                    |p| ball.normals(p),
+                ),
+                Form::Round(round) => self.face(
+                    simd,
+                    group,
+                    #[inline(always)]
+                    |p| round.normals(p, surface),
+                ),
+                Form::Tube(tube) => self.face(
+                    simd,
+                    group,
+                    #[inline(always)]
+                    |p| tube.normals(p),
+                ),
+                Form::Patch(_) => self.patches |= group,
+                flat => {
+                    let normal = flat.normal(DVec3::ZERO, surface);
+                    self.face(
+                        simd,
+                        group,
+                        #[inline(always)]
+                        |p| p.same(normal),
+                    );
+                }
+            }
+        }
+    }
+
+    /// Rays of `group` met this material.
+    #[inline(always)]
+    fn made_of(&mut self, material: u32, group: u64) {
+        match self.materials.iter_mut().find(|(known, _)| *known == material) {
+            Some((_, rays)) => *rays |= group,
+            None => self.materials.push((material, group)),
+        }
+    }
+
+    /// The normals of one face.
+    #[inline(always)]
+    fn face<S: Simd>(
+        &mut self,
+        simd: S,
+        group: u64,
+        normals: impl Fn(Vector<f64x8<S>>) -> Vector<f64x8<S>>,
+    ) {
+        for row in 0..ROWS {
+            if (group >> (row * LANES)) as u8 != 0 {
+                let normal = normals(self.p.load(simd, row));
+                let others = self.normal.load(simd, row);
+                self.normal.store(row, Vector::choose(row_of(simd, group, row), normal, others));
+            }
+        }
+    }
+
+    /// Turns the normals to the sides that the rays come from. Answers for which rays that is the inside.
+    #[inline(always)]
+    fn turned<S: Simd>(&mut self, simd: S, bundle: &Bundle) -> u64 {
+        let mut inward = 0;
+        for row in 0..ROWS {
+            if (self.hits >> (row * LANES)) as u8 == 0 {
+                continue;
+            }
+            let d = bundle.d.load(simd, row);
+            let normal = self.normal.load(simd, row).normalized_or(-d);
+            let away = normal.dot(d).is_above(d.x.same(0.0));
+            self.normal.store(row, Vector::choose(away, -normal, normal));
+            inward |= u64::from(away.bits()) << (row * LANES);
+        }
+        inward
+    }
+}
+
+/// The rays from `lane` on that met the same face as it.
+#[inline(always)]
+fn same_face<S: Simd>(simd: S, nearest: &Nearest, lane: usize) -> u64 {
+    let primitive = f64x8::splat(simd, nearest.primitive.0[lane]);
+    let surface = f64x8::splat(simd, nearest.surface.0[lane]);
+    let mut group = 0;
+    for row in lane / LANES..ROWS {
+        let same = nearest.primitive.load(simd, row).is_equal(primitive)
+            & nearest.surface.load(simd, row).is_equal(surface);
+        group |= u64::from(same.bits()) << (row * LANES);
+    }
+    group
+}

@@ -1,0 +1,191 @@
+//! One generation of a tile's rays: those from the eye, or the mirror and Snell rays that the generation before it sends on.
+
+use crate::math::{BUNDLE, Bundle, Column, Columns};
+use crate::solid::{Departure, Departures};
+use crate::trace::{Hit, Nearest};
+
+use super::channel::Channel;
+use super::path::Sent;
+use super::surface::Met;
+use super::surfaces::Surfaces;
+
+/// A place among the rays of a wave: its bundle, and its lane there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub bundle: usize,
+    pub lane: usize,
+}
+
+/// A ray that is sent on.
+#[derive(Clone, Debug)]
+pub(super) struct Leg {
+    pub sent: Sent,
+    pub departure: Departure,
+}
+
+/// What arrives along a ray that a surface sends on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Arrival {
+    /// The ray of the generation before that met the surface.
+    pub at: Place,
+    /// The share of the light that the surface sends back.
+    pub share: f64,
+    /// The leg, by its number among those of its kind; `None` for a ray that is not followed.
+    pub leg: Option<u32>,
+}
+
+/// Mirror rays, or Snell rays.
+#[derive(Debug, Default)]
+pub(super) struct Legs {
+    pub legs: Vec<Leg>,
+    pub arrivals: Vec<Arrival>,
+    /// The number of their first bundle.
+    first: usize,
+}
+
+/// The rays of one generation, and what they met.
+#[derive(Debug)]
+pub(super) struct Wave<C> {
+    pub rays: Vec<Bundle>,
+    /// The way from the eye to where each ray starts, in two parts that are to be added to a distance, the second first.
+    pub before: Vec<[Column; 2]>,
+    pub nearest: Vec<Nearest>,
+    pub surfaces: Vec<Surfaces>,
+    /// The surfaces that were met, for rays that leave them to the sides that these came from.
+    pub departures: Vec<Departures>,
+    /// The light that arrives along each ray, whole as soon as that is known: a column for each part, bundle by bundle.
+    pub light: Vec<Column>,
+    /// The rays whose light is known already, a bit for each.
+    pub known: Vec<u64>,
+    /// The mirror rays of this generation, and its Snell rays; none in the first.
+    pub kinds: [Legs; 2],
+    parts: std::marker::PhantomData<C>,
+}
+
+impl Legs {
+    /// The place of a leg.
+    pub fn place(&self, leg: usize) -> Place {
+        Place { bundle: self.first + leg / BUNDLE, lane: leg % BUNDLE }
+    }
+}
+
+impl<C> Default for Wave<C> {
+    fn default() -> Self {
+        Self {
+            rays: Vec::new(),
+            before: Vec::new(),
+            nearest: Vec::new(),
+            surfaces: Vec::new(),
+            departures: Vec::new(),
+            light: Vec::new(),
+            known: Vec::new(),
+            kinds: Default::default(),
+            parts: std::marker::PhantomData,
+        }
+    }
+}
+
+impl<C: Channel> Wave<C> {
+    /// Room for what so many bundles meet.
+    pub fn make_room(&mut self) {
+        let count = self.rays.len();
+        self.nearest.resize(count, Nearest::NOTHING);
+        self.surfaces.resize(count, Surfaces::NONE);
+        self.departures.resize(count, Departures::NONE);
+        self.light.resize(count * C::PARTS, Column::filled(0.0));
+        self.known.clear();
+        self.known.resize(count, 0);
+    }
+
+    /// Forgets the rays that were sent on to it.
+    pub fn clear_legs(&mut self) {
+        for kind in &mut self.kinds {
+            kind.legs.clear();
+            kind.arrivals.clear();
+        }
+    }
+
+    /// How many rays were sent on to it.
+    pub fn legs(&self) -> usize {
+        self.kinds.iter().map(|kind| kind.legs.len()).sum()
+    }
+
+    /// Puts the rays that were sent on into bundles, each kind into its own.
+    pub fn bundle_legs(&mut self) {
+        self.rays.clear();
+        self.before.clear();
+        for kind in &mut self.kinds {
+            kind.first = self.rays.len();
+            for legs in kind.legs.chunks(BUNDLE) {
+                let mut bundle = Bundle::EMPTY;
+                let mut before = [Column::filled(0.0); 2];
+                for (lane, leg) in legs.iter().enumerate() {
+                    bundle.set(lane, &leg.sent.ray);
+                    before[0].0[lane] = leg.sent.travelled;
+                }
+                bundle.close();
+                self.rays.push(bundle);
+                self.before.push(before);
+            }
+        }
+    }
+
+    /// The light of a bundle, a column for each part.
+    pub fn light_mut(&mut self, bundle: usize) -> &mut [Column] {
+        &mut self.light[bundle * C::PARTS..][..C::PARTS]
+    }
+
+    /// The light that arrives along one ray.
+    #[inline]
+    pub fn light(&self, at: Place) -> C {
+        let mut parts = [0.0; 3];
+        for (part, column) in self.light[at.bundle * C::PARTS..][..C::PARTS].iter().enumerate() {
+            parts[part] = column.0[at.lane];
+        }
+        C::from_parts(parts)
+    }
+
+    /// Sets it.
+    #[inline]
+    pub fn set_light(&mut self, at: Place, light: C) {
+        for (part, column) in self.light_mut(at.bundle).iter_mut().enumerate() {
+            column.0[at.lane] = light.part(part);
+        }
+    }
+
+    /// Adds the light that arrives along a ray which was sent on.
+    pub fn add(&mut self, arrival: &Arrival, light: C) {
+        let sum = (self.light(arrival.at) + light * arrival.share).limited();
+        self.set_light(arrival.at, sum);
+    }
+
+    /// The ray as it was sent on; none from the eye.
+    pub fn leg(&self, at: Place) -> Option<&Leg> {
+        let [mirror, snell] = &self.kinds;
+        let kind = if at.bundle < snell.first { mirror } else { snell };
+        kind.legs.get((at.bundle - kind.first) * BUNDLE + at.lane)
+    }
+
+    /// The surface that one ray met, for a ray that leaves it to the side that the other came from.
+    pub fn departure(&self, at: Place) -> Departure {
+        let surface = self.nearest[at.bundle].surface.0[at.lane] as u32;
+        Departure { surface, ..self.departures[at.bundle].get(at.lane) }
+    }
+
+    /// What one ray met; the distance is that from the eye.
+    pub fn met(&self, at: Place) -> Met {
+        let Place { bundle, lane } = at;
+        let (nearest, surfaces) = (&self.nearest[bundle], &self.surfaces[bundle]);
+        let p = surfaces.p.get(lane);
+        let hit = Hit {
+            t: surfaces.way.0[lane],
+            error: 0.0,
+            p,
+            object: nearest.object.0[lane] as u32,
+            primitive: nearest.primitive.0[lane] as u32,
+            surface: nearest.surface.0[lane] as u32,
+            entering: nearest.entering >> lane & 1 == 1,
+        };
+        Met { hit, p, normal: surfaces.normal.get(lane) }
+    }
+}

@@ -1,7 +1,7 @@
 //! Tracing a picture by tiles, whose rays run side by side.
 
-use crate::math::Size;
-use crate::shade::{Channel, Memory, Shader, Sight, TileShading};
+use crate::math::{DVec3, LANES, Size};
+use crate::shade::{Channel, Memory, Shader, TileShading};
 use crate::solid::Assembly;
 use crate::stage::{Meter, Probe, Stage};
 use crate::trace::Fast;
@@ -25,15 +25,13 @@ pub(super) struct Blocks<'a, 'b, C> {
 pub(super) struct BlocksMemory<'b, C> {
     alone: Memory<Fast<'b>>,
     shading: TileShading<C>,
-    sight: Sight,
 }
 
 impl<'b, C: Channel> Tracer<C> for Blocks<'_, 'b, C> {
     type Memory = BlocksMemory<'b, C>;
 
     fn memory(&self) -> BlocksMemory<'b, C> {
-        let (shading, sight) = (TileShading::default(), Sight::default());
-        BlocksMemory { alone: self.shader.memory(), shading, sight }
+        BlocksMemory { alone: self.shader.memory(), shading: TileShading::default() }
     }
 
     fn tile(
@@ -43,23 +41,21 @@ impl<'b, C: Channel> Tracer<C> for Blocks<'_, 'b, C> {
         dots: &mut TileDots<C>,
         meter: &mut Meter<impl Probe>,
     ) {
-        let assembly = self.assembly;
-        self.rays(tile, [0.0; 2], &mut memory.sight, meter);
-        let width = tile.size.width;
-        let across = width.div_ceil(BLOCK);
-        let place = |block: usize, lane: usize| {
-            let (block, lane) = (block as u32, lane as u32);
-            let i = block % across * BLOCK + lane % BLOCK;
-            let j = block / across * BLOCK + lane / BLOCK;
-            (j * width + i) as usize
-        };
-        let eye = assembly.datum.inward_near(self.lens.eye);
-        let BlocksMemory { alone, shading, sight } = memory;
-        self.shader.tile(eye, sight, shading, alone, meter, |block, lane, view| {
-            let place = place(block, lane);
-            dots.light[place] = view.light;
-            dots.see(place, view.seen, assembly);
-        });
+        let eye = self.assembly.datum.inward_near(self.lens.eye);
+        let BlocksMemory { alone, shading } = memory;
+        self.rays(tile, [0.0; 2], eye, shading, meter);
+        self.shader.tile(eye, shading, alone, meter);
+        for (block, place) in blocks(tile) {
+            place.rows(tile, |row, dots_of_row| {
+                dots.light[dots_of_row.clone()]
+                    .copy_from_slice(&shading.light(block, row)[..dots_of_row.len()]);
+                if dots.sees() {
+                    for (lane, dot) in dots_of_row.enumerate() {
+                        dots.see(dot, shading.seen(block, row * LANES + lane), self.assembly);
+                    }
+                }
+            });
+        }
         if self.samples == 1 {
             return;
         }
@@ -67,11 +63,15 @@ impl<'b, C: Channel> Tracer<C> for Blocks<'_, 'b, C> {
         let step = 1.0 / f64::from(self.samples);
         let inside = |k: u32| (f64::from(k) + 0.5) * step - 0.5;
         for (a, b) in (0..self.samples).flat_map(|b| (0..self.samples).map(move |a| (a, b))) {
-            self.rays(tile, [inside(a), inside(b)], sight, meter);
-            self.shader.tile(eye, sight, shading, alone, meter, |block, lane, view| {
-                let place = place(block, lane);
-                dots.light[place] = dots.light[place] + view.light;
-            });
+            self.rays(tile, [inside(a), inside(b)], eye, shading, meter);
+            self.shader.tile(eye, shading, alone, meter);
+            for (block, place) in blocks(tile) {
+                place.rows(tile, |row, dots_of_row| {
+                    for (dot, light) in dots.light[dots_of_row].iter_mut().zip(shading.light(block, row)) {
+                        *dot = *dot + light;
+                    }
+                });
+            }
         }
         for light in &mut dots.light {
             *light = *light * (step * step);
@@ -79,21 +79,37 @@ impl<'b, C: Channel> Tracer<C> for Blocks<'_, 'b, C> {
     }
 }
 
+/// The blocks of a tile in scan order, numbered; their corners are those in the tile.
+fn blocks(tile: &Tile) -> impl Iterator<Item = (usize, Block)> {
+    let Size { width, height } = tile.size;
+    let corners = (0..height)
+        .step_by(BLOCK as usize)
+        .flat_map(move |j| (0..width).step_by(BLOCK as usize).map(move |i| [i, j]));
+    let block = move |[i, j]: [u32; 2]| {
+        let size = Size::new(BLOCK.min(width - i), BLOCK.min(height - j));
+        Block { corner: [i, j], size }
+    };
+    corners.map(block).enumerate()
+}
+
 impl<C: Channel> Blocks<'_, '_, C> {
-    /// The rays through a point of each dot of a tile, `off` from its middle.
-    fn rays(&self, tile: &Tile, off: [f64; 2], sight: &mut Sight, meter: &mut Meter<impl Probe>) {
+    /// Sets the rays through a point of each dot of a tile, `off` from its middle.
+    fn rays(
+        &self,
+        tile: &Tile,
+        off: [f64; 2],
+        eye: DVec3,
+        shading: &mut TileShading<C>,
+        meter: &mut Meter<impl Probe>,
+    ) {
         meter.at(Stage::Ray);
-        let eye = self.assembly.datum.inward_near(self.lens.eye);
-        sight.clear();
+        shading.start(blocks(tile).count());
         let [left, top] = tile.corner;
-        for j in (0..tile.size.height).step_by(BLOCK as usize) {
-            for i in (0..tile.size.width).step_by(BLOCK as usize) {
-                let size = Size::new(BLOCK.min(tile.size.width - i), BLOCK.min(tile.size.height - j));
-                let block = Block { corner: [left + i, top + j], size };
-                let mut rays = block.rays(self.lens, off, eye, self.way, self.engine.level());
-                let way = self.engine.approach(&mut rays);
-                sight.push(rays, way);
-            }
+        for (number, Block { corner: [i, j], size }) in blocks(tile) {
+            let block = Block { corner: [left + i, top + j], size };
+            let (rays, way) = shading.sight(number);
+            block.rays(self.lens, off, eye, self.way, self.engine.level(), rays);
+            self.engine.approach(rays, way);
         }
     }
 }

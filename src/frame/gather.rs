@@ -32,6 +32,11 @@ impl<C: Channel> TileDots<C> {
         }
     }
 
+    /// Whether anyone wants to know what dots see, beside light.
+    pub fn sees(&self) -> bool {
+        self.depth.is_some() || self.normal.is_some() || self.object.is_some()
+    }
+
     /// Sets what a dot sees, as far as anyone wants it.
     #[inline]
     pub fn see(&mut self, place: usize, seen: Option<Seen>, assembly: &Assembly) {

@@ -131,6 +131,19 @@ impl Lit {
     }
 }
 
+/// Adds the same light to that of all rays of `lanes`.
+pub(super) fn add_everywhere<C: Channel>(light: C, lanes: u64, sum: &mut [Column], level: Level) {
+    #[inline(always)]
+    fn added<S: Simd>(simd: S, light: f64, lanes: u64, sum: &mut Column) {
+        for row in 0..ROWS {
+            sum.put(simd, row, row_of(simd, lanes, row), limited(sum.load(simd, row) + light));
+        }
+    }
+    for (part, sum) in sum.iter_mut().enumerate() {
+        dispatch!(level, simd => added(simd, light.part(part), lanes, sum));
+    }
+}
+
 /// From the sums over all lamps to the light of a surface: what is left of it after the way from the eye, and the light from
 /// all around.
 #[derive(Clone, Copy, Debug)]

@@ -15,4 +15,4 @@ mod wave;
 pub use channel::{Channel, luminance};
 pub use path::{Kind, Leg};
 pub use surface::{Memory, Seen, Shader, View};
-pub use tile::{Sight, TileShading};
+pub use tile::TileShading;

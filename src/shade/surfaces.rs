@@ -137,12 +137,7 @@ impl Surfaces {
 
     /// The normals of one face.
     #[inline(always)]
-    fn face<S: Simd>(
-        &mut self,
-        simd: S,
-        group: u64,
-        normals: impl Fn(Vector<f64x8<S>>) -> Vector<f64x8<S>>,
-    ) {
+    fn face<S: Simd>(&mut self, simd: S, group: u64, normals: impl Fn(Vector<f64x8<S>>) -> Vector<f64x8<S>>) {
         for row in 0..ROWS {
             if (group >> (row * LANES)) as u8 != 0 {
                 let normal = normals(self.p.load(simd, row));

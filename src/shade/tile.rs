@@ -6,30 +6,21 @@
 //! its way alone.
 
 use crate::lattice::FAN;
-use crate::math::{Bundle, Column, Columns, DVec3, Ray};
+use crate::math::{Bundle, Column, Columns, DVec3, LANES, Ray};
 use crate::solid::{Crossing, Departure, Form};
 use crate::stage::{Meter, Probe, Stage};
 use crate::trace::{Engine, Fast, Hit, Shaft, Shone, TileMemory};
 
 use super::channel::Channel;
-use super::lit::{Gathering, Lit};
+use super::lit::{Gathering, Lit, add_everywhere};
 use super::media::{List, Media, OUTSIDE};
 use super::path::{Onward, Sent};
-use super::surface::{Finish, Lamp, Memory, Met, Seen, Shader, View};
+use super::surface::{Finish, Lamp, Memory, Met, Seen, Shader};
 use super::surfaces::Surfaces;
 use super::wave::{Arrival, Leg, Legs, Place, Wave};
 
 /// So few rays that are sent on take less time one by one than a bundle of them does.
 const FEW_LEGS: usize = 6;
-
-/// Rays from the eye, as a tile of them is traced.
-#[derive(Debug, Default)]
-pub struct Sight {
-    /// The same rays from a start near the world.
-    bundles: Vec<Bundle>,
-    /// The way there, in two parts, of each.
-    ways: Vec<[Column; 2]>,
-}
 
 /// What shading a tile needs, used again for every tile.
 #[derive(Debug)]
@@ -48,17 +39,39 @@ impl<C> Default for TileShading<C> {
     }
 }
 
-impl Sight {
-    /// No rays.
-    pub fn clear(&mut self) {
-        self.bundles.clear();
-        self.ways.clear();
+impl<C: Channel> TileShading<C> {
+    /// Another tile, of so many bundles.
+    pub fn start(&mut self, bundles: usize) {
+        if self.waves.is_empty() {
+            self.waves.push(Wave::default());
+        }
+        let first = &mut self.waves[0];
+        first.rays.resize(bundles, Bundle::EMPTY);
+        first.before.resize(bundles, [Column::filled(0.0); 2]);
     }
 
-    /// Adds a bundle of rays, and the way to where they start.
-    pub fn push(&mut self, bundle: Bundle, way: [Column; 2]) {
-        self.bundles.push(bundle);
-        self.ways.push(way);
+    /// The place of a bundle of rays from the eye, `bundle` below what the tile was started with: they start near the world,
+    /// after a way in two parts that are to be added to a distance, the second first.
+    pub fn sight(&mut self, bundle: usize) -> (&mut Bundle, &mut [Column; 2]) {
+        let first = &mut self.waves[0];
+        (&mut first.rays[bundle], &mut first.before[bundle])
+    }
+
+    /// The light that arrives along the rays of a row of a bundle.
+    #[inline]
+    pub fn light(&self, bundle: usize, row: usize) -> [C; LANES] {
+        self.waves[0].row_of_light(bundle, row)
+    }
+
+    /// What one ray of a bundle saw.
+    #[inline]
+    pub fn seen(&self, bundle: usize, lane: usize) -> Option<Seen> {
+        let first = &self.waves[0];
+        let met = first.surfaces[bundle].hits | first.known[bundle];
+        (met >> lane & 1 == 1).then(|| {
+            let Met { hit, normal, .. } = first.met(Place { bundle, lane });
+            Seen { t: hit.t, object: hit.object, normal }
+        })
     }
 }
 
@@ -74,25 +87,16 @@ fn places(bundle: usize, mut bits: u64) -> impl Iterator<Item = Place> {
 }
 
 impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
-    /// What the rays of a tile see; `eye` is where they all start, and `put` is called for each live one with its
-    /// bundle and its place in it.
+    /// Finds what the rays of a tile see; `eye` is where they all start.
     pub fn tile(
         &self,
         eye: DVec3,
-        sight: &mut Sight,
         tile: &mut TileShading<C>,
         memory: &mut Memory<Fast<'e>>,
         meter: &mut Meter<impl Probe>,
-        mut put: impl FnMut(usize, usize, View<C>),
     ) {
         let inside = memory.media.start(&self.around_eye);
-        if tile.waves.is_empty() {
-            tile.waves.push(Wave::default());
-        }
-        let first = &mut tile.waves[0];
-        std::mem::swap(&mut first.rays, &mut sight.bundles);
-        std::mem::swap(&mut first.before, &mut sight.ways);
-        first.make_room();
+        tile.waves[0].make_room();
         self.see(eye, &inside, tile, memory, meter);
         self.shade(0, tile, memory, meter);
         let mut last = 0;
@@ -103,18 +107,6 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         }
         for generation in (1..=last).rev() {
             self.arrive(generation, tile);
-        }
-        let first = &tile.waves[0];
-        for (k, bundle) in first.rays.iter().enumerate() {
-            let met = first.surfaces[k].hits | first.known[k];
-            for at in places(k, bundle.live) {
-                let light = first.light(at);
-                let seen = (met >> at.lane & 1 == 1).then(|| {
-                    let Met { hit, normal, .. } = first.met(at);
-                    Seen { t: hit.t, object: hit.object, normal }
-                });
-                put(k, at.lane, View { light, seen });
-            }
         }
         meter.counts += std::mem::take(tile.trace.counts_mut());
     }
@@ -251,7 +243,12 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
             let (hits, known) = (wave.surfaces[k].hits, wave.known[k]);
             for part in 0..C::PARTS {
                 let missed = self.background.part(part);
-                for (lane, light) in wave.light_mut(k)[part].0.iter_mut().enumerate() {
+                let column = &mut wave.light[k * C::PARTS + part];
+                if hits == u64::MAX {
+                    *column = Column::filled(0.0);
+                    continue;
+                }
+                for (lane, light) in column.0.iter_mut().enumerate() {
                     if known >> lane & 1 == 0 {
                         *light = if hits >> lane & 1 == 0 { missed } else { 0.0 };
                     }
@@ -356,8 +353,26 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         let (before, behind) = tile.waves.split_at_mut(generation + 1);
         let (wave, next) = (&mut before[generation], &mut behind[0]);
         next.clear_legs();
+        let followed = (generation as u32) < self.generations;
         for k in 0..wave.rays.len() {
-            let senders = self.made_so(&wave.surfaces[k], |finish| finish.kr > 0.0 || finish.kt > 0.0);
+            // Where a mirror ray is not followed, nobody asks for its direction.
+            let unfollowed = |finish: &Finish<C>| !followed && finish.kr > 0.0 && finish.kt == 0.0;
+            let Wave { surfaces, light, .. } = &mut *wave;
+            for &(material, lanes) in &surfaces[k].materials {
+                let finish = &self.finishes[material as usize];
+                if unfollowed(finish) {
+                    let arriving = self.ambient * finish.kr;
+                    add_everywhere(
+                        arriving,
+                        lanes,
+                        &mut light[k * C::PARTS..][..C::PARTS],
+                        self.engine.level(),
+                    );
+                    meter.counts.truncated_rays += u64::from(lanes.count_ones());
+                }
+            }
+            let sends = |finish: &Finish<C>| (finish.kr > 0.0 || finish.kt > 0.0) && !unfollowed(finish);
+            let senders = self.made_so(&wave.surfaces[k], sends);
             for at in places(k, senders) {
                 self.send_on(generation, wave, at, inside, next, &mut memory.media, meter);
             }
@@ -434,8 +449,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         let (wave, next) = (&mut before[generation - 1], &behind[0]);
         for kind in &next.kinds {
             for arrival in &kind.arrivals {
-                let light =
-                    arrival.leg.map_or(self.ambient, |leg| next.light(kind.place(leg as usize)));
+                let light = arrival.leg.map_or(self.ambient, |leg| next.light(kind.place(leg as usize)));
                 wave.add(arrival, light);
             }
         }

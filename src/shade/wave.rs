@@ -1,6 +1,6 @@
 //! One generation of a tile's rays: those from the eye, or the mirror and Snell rays that the generation before it sends on.
 
-use crate::math::{BUNDLE, Bundle, Column, Columns};
+use crate::math::{BUNDLE, Bundle, Column, Columns, LANES};
 use crate::solid::{Departure, Departures};
 use crate::trace::{Hit, Nearest};
 
@@ -143,6 +143,18 @@ impl<C: Channel> Wave<C> {
             parts[part] = column.0[at.lane];
         }
         C::from_parts(parts)
+    }
+
+    /// The light that arrives along the rays of a row.
+    #[inline]
+    pub fn row_of_light(&self, bundle: usize, row: usize) -> [C; LANES] {
+        let mut parts = [[0.0; 3]; LANES];
+        for (part, column) in self.light[bundle * C::PARTS..][..C::PARTS].iter().enumerate() {
+            for (parts, &light) in parts.iter_mut().zip(&column.0[row * LANES..][..LANES]) {
+                parts[part] = light;
+            }
+        }
+        parts.map(C::from_parts)
     }
 
     /// Sets it.

@@ -29,8 +29,8 @@ impl Taper {
         // are equal, and this one can not turn inward.
         let r = (q.x * q.x + q.y * q.y).root();
         let zero = r.same(0.0);
-        let aside = r.is_above(zero)
-            & ((q.z * slope + middle).is_above(zero) | r.is_above(r.same(f64::EPSILON)));
+        let aside =
+            r.is_above(zero) & ((q.z * slope + middle).is_above(zero) | r.is_above(r.same(f64::EPSILON)));
         let apex = q.same(DVec3::Z * if slope < 0.0 { 1.0 } else { -1.0 });
         Vector::choose(aside, Vector { z: r * -slope, ..q }, apex)
     }

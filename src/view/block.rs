@@ -1,11 +1,14 @@
 //! Rays from the eye in bundles: blocks of eight by eight dots.
 
+use std::ops::Range;
+
 use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
 
 use crate::math::{Bundle, Columns, DVec3, Number, ROWS, Size, Vector};
 
 use super::direction::all_settled;
 use super::lens::Lens;
+use super::tile::Tile;
 
 /// Dots along each side of a block: together as many as a bundle has rays.
 pub const BLOCK: u32 = 8;
@@ -26,13 +29,22 @@ impl Block {
         (0..self.size.height).fold(0, |live, j| live | row << (j * BLOCK))
     }
 
-    /// The rays through a point of each dot, `off` from its middle in dots. `eye` is where they start, and `way` how far
-    /// they may go, in the assembly's coordinates ([`super::settled`]).
-    pub fn rays(&self, lens: &Lens, off: [f64; 2], eye: DVec3, way: f64, level: Level) -> Bundle {
-        let mut bundle = Bundle { live: self.live(), ..Bundle::EMPTY };
-        dispatch!(level, simd => self.fill(simd, lens, off, eye, way, &mut bundle));
+    /// Calls `each` with every row of the block and the places of its dots in the scan order of a tile, in which its corner
+    /// is counted.
+    pub fn rows(&self, tile: &Tile, mut each: impl FnMut(usize, Range<usize>)) {
+        let [left, top] = self.corner;
+        for row in 0..self.size.height {
+            let first = ((top + row) * tile.size.width + left) as usize;
+            each(row as usize, first..first + self.size.width as usize);
+        }
+    }
+
+    /// Sets a bundle's rays to those through a point of each dot, `off` from its middle in dots. `eye` is where they start,
+    /// and `way` how far they may go, in the assembly's coordinates ([`super::settled`]).
+    pub fn rays(&self, lens: &Lens, off: [f64; 2], eye: DVec3, way: f64, level: Level, bundle: &mut Bundle) {
+        bundle.live = self.live();
+        dispatch!(level, simd => self.fill(simd, lens, off, eye, way, bundle));
         bundle.close();
-        bundle
     }
 
     #[inline(always)]

@@ -39,7 +39,10 @@ impl FastEngine {
             bundle.close();
             bundles.push(bundle);
         }
-        let ways: Vec<[Column; 2]> = bundles.iter_mut().map(|bundle| engine.approach(bundle)).collect();
+        let mut ways = vec![[Column::filled(0.0); 2]; bundles.len()];
+        for (bundle, way) in bundles.iter_mut().zip(&mut ways) {
+            engine.approach(bundle, way);
+        }
         let mut nearest = vec![Nearest::NOTHING; bundles.len()];
         engine.first_of(&bundles, &mut nearest, tile);
         let mut answer = |(place, ray): (usize, &Ray)| {

@@ -57,25 +57,22 @@ impl<'a> Fast<'a> {
         self.level
     }
 
-    /// Moves the starts of rays from the eye near to the world. Answers the way there, in two parts that are to be added
-    /// to a distance, the second first.
-    pub fn approach(&self, bundle: &mut Bundle) -> [Column; 2] {
-        let mut ways = [Column::filled(0.0); 2];
-        dispatch!(self.level, simd => approached(simd, bundle, &mut ways));
-        ways
+    /// Moves the starts of rays from the eye near to the world. Sets the way there, in two parts that are to be added to a
+    /// distance, the second first.
+    pub fn approach(&self, bundle: &mut Bundle, ways: &mut [Column; 2]) {
+        dispatch!(self.level, simd => approached(simd, bundle, ways));
     }
 
     /// The first hits of a tile of rays from the eye, by bundles that are [closed](Bundle::close). Those that are
     /// unsure, and those that meet two objects in one place, are to be asked of [`Engine::first`] one by one.
     pub fn first_of(&self, bundles: &[Bundle], nearest: &mut [Nearest], memory: &mut TileMemory) {
-        dispatch!(self.level, simd => self.first_of_tile(simd, bundles, nearest, memory));
-        for (bundle, found) in bundles.iter().zip(nearest) {
-            for lane in 0..crate::math::BUNDLE {
-                let close = found.second.0[lane] <= found.t.0[lane] + self.slack;
-                found.unsure |= u64::from(close && found.t.0[lane] < f64::INFINITY) << lane;
+        dispatch!(self.level, simd => {
+            self.first_of_tile(simd, bundles, nearest, memory);
+            for (bundle, found) in bundles.iter().zip(&mut *nearest) {
+                found.doubt(simd, self.slack);
+                found.unsure &= bundle.live;
             }
-            found.unsure &= bundle.live;
-        }
+        });
     }
 
     /// Which rays of a tile towards one light are blocked, and which meet something that lets light through. Those that are unsure are to be asked of

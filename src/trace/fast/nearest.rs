@@ -77,6 +77,17 @@ impl Nearest {
         self.entering = self.entering & !nearer | entering & nearer;
     }
 
+    /// Is unsure of all rays that met two objects within `slack`.
+    #[inline(always)]
+    pub fn doubt<S: Simd>(&mut self, simd: S, slack: f64) {
+        for row in 0..ROWS {
+            let t = self.t.load(simd, row);
+            let close = self.second.load(simd, row).is_at_most(t + slack)
+                & t.is_below(f64x8::splat(simd, f64::INFINITY));
+            self.unsure |= u64::from(close.bits()) << (row * LANES);
+        }
+    }
+
     /// The greatest distance at which any of the rays may still meet something.
     #[inline(always)]
     pub fn farthest<S: Simd>(&self, simd: S, bundle: &Bundle) -> f64 {

@@ -63,6 +63,13 @@ impl Departures {
         );
         (here, here & self.inward)
     }
+
+    /// Which rays leave a primitive to the outside: where that is convex, or a surface, they do not meet it again.
+    #[inline]
+    pub fn leaving<S: Simd>(&self, simd: S, primitive: u32) -> u64 {
+        let (here, inward) = self.here(simd, primitive);
+        here & !inward
+    }
 }
 
 /// The first crossings of a bundle.

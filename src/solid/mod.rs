@@ -42,3 +42,4 @@ pub use sheared::Sheared;
 pub use span::{Departure, End, Ends, LIMIT, ROUNDING, Span, Spans, WORLD};
 pub use surface::first_of_surface;
 pub use surfaces::firsts_of_surface;
+pub use tube::Bar;

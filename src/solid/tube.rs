@@ -2,7 +2,7 @@
 
 use crate::math::{Bounds, DAffine3, DMat3, DVec3, Mask, Number, Placement, Rays, Vector};
 
-use super::span::{Ends, Spans};
+use super::span::{Ends, ROUNDING, Spans};
 use super::taper::Taper;
 use super::unit_space::{UnitSpace, is_finite};
 
@@ -12,6 +12,21 @@ use super::unit_space::{UnitSpace, is_finite};
 pub struct Tube {
     space: UnitSpace,
     taper: Taper,
+    /// Along its axis, of length 1; 0 where that is not known.
+    along: DVec3,
+    /// How far its points are from its axis at most.
+    radius: f64,
+}
+
+/// The points near a line: a round bar without ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bar {
+    /// A point of the line.
+    pub middle: DVec3,
+    /// Along the line, of length 1; 0 where it is not known.
+    pub along: DVec3,
+    /// How far its points are from the line at most.
+    pub radius: f64,
 }
 
 /// Where a line crosses the side of a frustum between its caps.
@@ -40,7 +55,14 @@ impl<N: Number> SideCrossings<N> {
 impl Tube {
     /// The tube at `place`, which may be off by `map_error`, of radius `bottom` at z = −1 and `top` at z = 1.
     pub fn new(place: &Placement, bottom: f64, top: f64, map_error: DVec3) -> Self {
-        Self { space: UnitSpace::new(place, map_error), taper: Taper::new(bottom, top) }
+        let space = UnitSpace::new(place, map_error);
+        let DMat3 { x_axis, y_axis, z_axis } = place.linear;
+        // The widest radius of the ellipse that the map makes of a circle: the root of the greater eigenvalue of its
+        // Gram matrix.
+        let (xx, yy, xy) = (x_axis.length_squared(), y_axis.length_squared(), x_axis.dot(y_axis));
+        let widest = (0.5 * (xx + yy) + 0.5 * libm::hypot(xx - yy, 2.0 * xy)).sqrt();
+        let radius = (bottom.max(top) * widest + space.displacement) * (1.0 + ROUNDING);
+        Self { space, taper: Taper::new(bottom, top), along: z_axis.normalize_or_zero(), radius }
     }
 
     /// Where the line of each ray goes in through the tube's wall, and where it comes out. A line with only one crossing,
@@ -72,6 +94,11 @@ impl Tube {
     /// The box around it.
     pub fn bounds(&self) -> Bounds {
         self.linear().map_or(EVERYWHERE, |linear| self.taper.bounds(&linear, self.space.center))
+    }
+
+    /// A bar around it, and around all places where it may seem to be.
+    pub fn bar(&self) -> Bar {
+        Bar { middle: self.space.center, along: self.along, radius: self.radius }
     }
 
     /// How far a point of it may be off its place, by its map and by our own rounding.

@@ -17,8 +17,8 @@ use super::Fast;
 use super::memory::TileMemory;
 use super::nearest::{Nearest, Offer};
 use super::slices::{Slices, slices};
-use super::thin::Thin;
-use super::walk::{asking, bounds_between, push_nearest_last, through};
+use super::thin::{Passing, Thin};
+use super::walk::{asking, bounds_between, passing, push_nearest_last};
 
 /// The most objects that the bundles of a tile are asked about, one after the other. So many take about a tenth of the
 /// time that the tile's rays take one by one: where a dot holds many objects, rays have no company.
@@ -79,8 +79,14 @@ impl Fast<'_> {
                     let behind = f64::from(met.near[k]) > memory.far[k] + self.slack;
                     if !behind {
                         asked += 1;
-                        self.object_of_bundle(simd, object, &bundles[k], &mut nearest[k], memory, k);
-                        memory.far[k] = nearest[k].farthest(simd, &bundles[k]);
+                        let (bundle, nearest) = (&bundles[k], &mut nearest[k]);
+                        if self.object_of_bundle(simd, object, bundle, nearest, memory, k) {
+                            memory.far[k] = nearest.farthest(simd, bundle);
+                            memory.thin[k].look(
+                                #[inline(always)]
+                                |lane| nearest.t.0[lane] + self.slack,
+                            );
+                        }
                     }
                 }
             }
@@ -94,7 +100,7 @@ impl Fast<'_> {
         }
     }
 
-    /// The first hits of a bundle with one object.
+    /// The first hits of a bundle with one object. Answers whether any ray came near it.
     fn object_of_bundle<S: Simd>(
         &self,
         simd: S,
@@ -103,62 +109,74 @@ impl Fast<'_> {
         nearest: &mut Nearest,
         memory: &mut TileMemory,
         k: usize,
-    ) {
+    ) -> bool {
         let primitives = &self.assembly.primitives;
-        match &self.assembly.objects[object as usize].body {
+        let own = &self.assembly.objects[object as usize];
+        match &own.body {
             Body::Single(index) => {
                 memory.counts.primitive_tests += 1;
                 let form = &primitives[*index as usize].form;
                 if let Form::Ball(ball) = form {
                     let thin = &memory.thin[k];
-                    simd.vectorize(
+                    return simd.vectorize(
                         #[inline(always)]
                         || ball_of_bundle(simd, (ball, form), thin, bundle, nearest, [object, *index]),
                     );
-                } else {
-                    single(simd, form, bundle, nearest, object, *index);
                 }
+                let wanted = asking(simd, &mut memory.thin[k], form, &own.bounds, self.slack, bundle.live);
+                if wanted != 0 {
+                    single(simd, form, (bundle, wanted), nearest, [object, *index]);
+                }
+                wanted != 0
             }
             Body::Surface(index) => {
                 memory.counts.primitive_tests += 1;
                 let primitive = &primitives[*index as usize];
-                let TileMemory { sheared, found, .. } = memory;
-                let sheared = &mut sheared[k];
-                let bounds = self.assembly.objects[object as usize].bounds.padded(DVec3::splat(self.slack));
-                let wanted = asking(simd, bundle, &primitive.form, &bounds);
+                let TileMemory { thin, sheared, found, .. } = memory;
+                let (thin, sheared) = (&mut thin[k], &mut sheared[k]);
+                let wanted = asking(simd, thin, &primitive.form, &own.bounds, self.slack, bundle.live);
+                if wanted == 0 {
+                    return false;
+                }
                 firsts_of_surface(simd, bundle, wanted, (primitive, *index), None, sheared, found);
                 if found.any != 0 {
                     offer_found(simd, found, object, nearest);
                 }
+                found.any != 0
             }
             Body::Composite { whole, .. } => {
+                let passing = passing(simd, &mut memory.thin[k], &own.bounds, self.slack, bundle.live);
+                if passing.rays == 0 {
+                    return false;
+                }
                 let to = memory.far[k] + self.slack;
-                self.composite(simd, (object, Flat::from(&**whole)), bundle, to, nearest, memory);
+                let passing = Passing { to: passing.to.min(to), ..passing };
+                self.composite(simd, (object, Flat::from(&**whole)), bundle, &passing, nearest, memory);
+                true
             }
         }
     }
 
-    /// The first hits of a bundle with a composite object, as far as `to`: its way through the object's box in slices,
-    /// each with what the expression is there.
+    /// The first hits of a bundle with a composite object: its way through the object's box in slices, each with what the
+    /// expression is there.
     fn composite<S: Simd>(
         &self,
         simd: S,
         (object, expression): (u32, Flat),
         bundle: &Bundle,
-        to: f64,
+        passing: &Passing,
         nearest: &mut Nearest,
         memory: &mut TileMemory,
     ) {
-        let bounds = &self.assembly.objects[object as usize].bounds.padded(DVec3::splat(self.slack));
-        let Some((open, from, end)) = through(simd, bundle, bounds) else { return };
+        let Passing { rays: open, from, to } = *passing;
         memory.scratch.start();
         let whole = self.subs.loose(object).map(|loose| (loose, expression));
         let mut slicing = Slicing { fast: self, simd, bundle, object, open, nearest };
-        slices(self, whole, &mut slicing, expression, (from, end.min(to)), memory);
+        slices(self, whole, &mut slicing, expression, (from, to), memory);
     }
 }
 
-/// The first hits of a bundle with a ball.
+/// The first hits of a bundle with a ball. Answers whether any ray came near it.
 #[inline(always)]
 fn ball_of_bundle<S: Simd>(
     simd: S,
@@ -167,10 +185,10 @@ fn ball_of_bundle<S: Simd>(
     bundle: &Bundle,
     nearest: &mut Nearest,
     [object, index]: [u32; 2],
-) {
+) -> bool {
     let near = thin.near(simd, ball.center, ball.radius);
     if near == 0 {
-        return;
+        return false;
     }
     let no = mask64x8::splat(simd, false);
     let zero = f64x8::splat(simd, 0.0);
@@ -194,6 +212,7 @@ fn ball_of_bundle<S: Simd>(
         };
         nearest.offer(simd, row, &met);
     }
+    true
 }
 
 /// The frustum of a block of rays from the eye: that of its corners, where all start in the eye itself.
@@ -290,18 +309,24 @@ fn offer_found<S: Simd>(simd: S, found: &Found, object: u32, nearest: &mut Neare
 }
 
 /// One convex primitive that is an object.
-fn single<S: Simd>(simd: S, form: &Form, bundle: &Bundle, nearest: &mut Nearest, object: u32, index: u32) {
+fn single<S: Simd>(
+    simd: S,
+    form: &Form,
+    (bundle, wanted): (&Bundle, u64),
+    nearest: &mut Nearest,
+    [object, index]: [u32; 2],
+) {
     #[inline(always)]
     fn rows<S: Simd>(
         simd: S,
-        (form, bundle, object, index): (&Form, &Bundle, u32, u32),
+        (form, bundle, wanted, object, index): (&Form, &Bundle, u64, u32, u32),
         nearest: &mut Nearest,
         spans: impl Fn(&Rays<f64x8<S>>) -> Spans<f64x8<S>>,
     ) {
         let no = mask64x8::splat(simd, false);
         let starts = Starts { here: no, inward: no, off: None };
         for row in 0..ROWS {
-            if bundle.live_in(row) == 0 {
+            if (wanted >> (row * LANES)) as u8 == 0 {
                 continue;
             }
             let spans = spans(&bundle.load(simd, row));
@@ -314,6 +339,6 @@ fn single<S: Simd>(simd: S, form: &Form, bundle: &Bundle, nearest: &mut Nearest,
             nearest.offer(simd, row, &met);
         }
     }
-    let about = (form, bundle, object, index);
+    let about = (form, bundle, wanted, object, index);
     with_spans!(simd, form, rows, about, nearest);
 }

@@ -16,8 +16,8 @@ use crate::solid::{
 use super::Fast;
 use super::memory::TileMemory;
 use super::slices::{Slices, slices};
-use super::thin::Thin;
-use super::walk::{asking, bounds_between, push_nearest_last, through};
+use super::thin::{Passing, Thin};
+use super::walk::{asking, bounds_between, passing, push_nearest_last};
 
 /// The most objects that the shafts of a tile are asked about, one after the other: as for rays from the eye, but rays
 /// towards a light take less time one by one, and there are more objects that they pass.
@@ -140,6 +140,10 @@ impl Fast<'_> {
         memory.thin.resize(shafts.len(), Thin::EMPTY);
         for (thin, shaft) in memory.thin.iter_mut().zip(&*shafts) {
             thin.set(simd, &shaft.rays);
+            thin.look(
+                #[inline(always)]
+                |lane| shaft.distance.0[lane] + self.slack,
+            );
         }
         memory.forget_sheared(shafts.len());
         memory.stack.clear();
@@ -208,6 +212,7 @@ impl Fast<'_> {
         if near == 0 {
             return;
         }
+        let near = near & !departures.leaving(simd, index);
         let error = ball.most_error();
         let start = f64x8::splat(simd, error * (1.0 + self.assembly.off / ball.off()));
         let index = f64x8::splat(simd, f64::from(index));
@@ -261,26 +266,40 @@ impl Fast<'_> {
                         #[inline(always)]
                         || self.ball_in_shaft(simd, (ball, form), thin, shaft, departures, *index),
                     );
-                } else {
-                    single(simd, form, shaft, departures, *index);
+                    return;
+                }
+                let thin = &mut memory.thin[k];
+                let wanted = asking(simd, thin, form, &own.bounds, self.slack, shaft.open());
+                if wanted == 0 {
+                    return;
+                }
+                let wanted = wanted & !departures.leaving(simd, *index);
+                if wanted != 0 {
+                    single(simd, form, (shaft, wanted), departures, *index);
                 }
             }
             Body::Surface(index) => {
                 memory.counts.primitive_tests += 1;
                 let primitive = &primitives[*index as usize];
-                let TileMemory { sheared, found, .. } = memory;
-                let bounds = own.bounds.padded(DVec3::splat(self.slack));
-                let wanted = asking(simd, &shaft.rays, &primitive.form, &bounds) & shaft.open();
-                let sheared = &mut sheared[k];
-                let departures = Some(departures);
-                firsts_of_surface(simd, &shaft.rays, wanted, (primitive, *index), departures, sheared, found);
-                shaft.block(found);
+                let TileMemory { thin, sheared, found, .. } = memory;
+                let (thin, sheared) = (&mut thin[k], &mut sheared[k]);
+                let wanted = asking(simd, thin, &primitive.form, &own.bounds, self.slack, shaft.open());
+                if wanted == 0 {
+                    return;
+                }
+                let wanted = wanted & !departures.leaving(simd, *index);
+                if wanted != 0 {
+                    let (rays, from) = (&shaft.rays, Some(departures));
+                    firsts_of_surface(simd, rays, wanted, (primitive, *index), from, sheared, found);
+                    shaft.block(found);
+                }
             }
             Body::Composite { whole, .. } => {
-                let bounds = own.bounds.padded(DVec3::splat(self.slack));
-                let Some((open, from, to)) = through(simd, &shaft.rays, &bounds) else { return };
-                let to = to.min(shaft.distance.0.iter().copied().fold(0.0, f64::max));
-                let open = open & shaft.open();
+                let Passing { rays: open, from, to } =
+                    passing(simd, &mut memory.thin[k], &own.bounds, self.slack, shaft.open());
+                if open == 0 {
+                    return;
+                }
                 memory.scratch.start();
                 let expression = Flat::from(&**whole);
                 let whole = self.subs.loose(object).map(|loose| (loose, expression));
@@ -327,17 +346,22 @@ impl<S: Simd> Slices for Slicing<'_, S> {
 }
 
 /// One convex primitive that is an object.
-fn single<S: Simd>(simd: S, form: &Form, shaft: &mut Shaft, departures: &Departures, index: u32) {
+fn single<S: Simd>(
+    simd: S,
+    form: &Form,
+    (shaft, wanted): (&mut Shaft, u64),
+    departures: &Departures,
+    index: u32,
+) {
     #[inline(always)]
     fn rows<S: Simd>(
         simd: S,
-        (form, departures, index): (&Form, &Departures, u32),
+        (form, departures, index, wanted): (&Form, &Departures, u32, u64),
         shaft: &mut Shaft,
         spans: impl Fn(&Rays<f64x8<S>>) -> Spans<f64x8<S>>,
     ) {
-        let open = shaft.open();
         for row in 0..ROWS {
-            if (open >> (row * LANES)) as u8 == 0 {
+            if (wanted >> (row * LANES)) as u8 == 0 {
                 continue;
             }
             let spans = spans(&shaft.rays.load(simd, row));
@@ -349,10 +373,10 @@ fn single<S: Simd>(simd: S, form: &Form, shaft: &mut Shaft, departures: &Departu
             let starts = Starts { here, inward: row_of(simd, departures.inward, row), off };
             let Firsts { end, any, entering } = firsts_of_spans(spans, form, &starts);
             let blocked = any & (end.t + end.error).is_below(shaft.distance.load(simd, row));
-            shaft.leaving |= u64::from((blocked & !entering).bits()) << (row * LANES) & open;
-            shaft.blocked |= u64::from(blocked.bits()) << (row * LANES) & open;
+            shaft.leaving |= u64::from((blocked & !entering).bits()) << (row * LANES) & wanted;
+            shaft.blocked |= u64::from(blocked.bits()) << (row * LANES) & wanted;
         }
     }
-    let about = (form, departures, index);
+    let about = (form, departures, index, wanted);
     with_spans!(simd, form, rows, about, shaft);
 }

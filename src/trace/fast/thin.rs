@@ -1,21 +1,50 @@
-//! The rays of a bundle in half the digits: which of them certainly miss a ball, sixteen at a time.
+//! The rays of a bundle in half the digits: which of them certainly miss a ball, a box or a bar, sixteen at a time.
 //!
-//! Most rays of a bundle that are asked about a small ball miss it. They are told apart by numbers of 24 bits, with a
+//! Most rays of a bundle that are asked about a small solid miss it. They are told apart by numbers of 24 bits, with a
 //! bound on what these lose, and only the others are computed in full.
 
 use fearless_simd::{Select, Simd, SimdBase, SimdMask, f32x16};
 
-use crate::math::{BUNDLE, Bundle, DVec3};
+use crate::math::{BUNDLE, Bounds, Bundle, DVec3};
+use crate::solid::Bar;
 
 /// Rays in a register.
 const WIDTH: usize = 16;
+
+/// Registers of rays in a bundle.
+const THIN_ROWS: usize = BUNDLE / WIDTH;
+
+/// Half an ulp of a number near 1.
+const HALF_ULP: f64 = 1.0 / 16_777_216.0;
 
 /// What may be lost of the distance between a ray and a point, as a share of the way from the bundle's first ray to
 /// that point and of how far the bundle's rays start from each other: the start and the point are rounded (2 units of
 /// 2⁻²⁴), their difference (1), the dot product and its share of the direction (each three products, two sums and a
 /// rounded direction: 2 · 6), the product and the sum that move the start (2), and the square (4) and its root (half of
 /// that): 24, rounded up to 32.
-const LOST: f64 = 32.0 / 16_777_216.0;
+const LOST: f64 = 32.0 * HALF_ULP;
+
+/// What may be lost of a ray's way to a side of a box, in the same share, where it is taken for the place of that side:
+/// the start, the middle of the box and half its size are rounded (3), the difference of the first two (1), the direction,
+/// its inverse and the products with it (2 · 3), and the sum of the products (1): 11, rounded up to 16.
+const LOST_OF_SIDE: f64 = 16.0 * HALF_ULP;
+
+/// What may be lost of the product of two lines, in the same share: of the ray's moment, whose start and direction are
+/// rounded (2), the products and their difference (2); of the bar's direction (1), the product of both (1) and three sums
+/// (3): 9, and of the other half, with a moment that is rounded, less. Rounded up to 16.
+const LOST_OF_PRODUCT: f64 = 16.0 * HALF_ULP;
+
+/// What may be lost of the square of the sine of the angle between two directions: both are rounded (2), each product of
+/// the cosine and its sums are (3), its square doubles that and is rounded (11), and the difference (1): 12, rounded up
+/// to 16.
+const LOST_OF_SINE: f64 = 16.0 * HALF_ULP;
+
+/// On its whole way through the world, which is no longer than 2⁴, a ray that is slower than this along an axis does
+/// not move by what is lost of the place of any box: 2⁻²⁰ of a size that is more than rounding of f64 is.
+const STILL: f32 = 1.0 / (1_u128 << 100) as f32;
+
+/// Rays within the world start within this; what starts elsewhere, or nowhere, is asked in full.
+const WITHIN: f32 = 64.0;
 
 /// Rays of a bundle, seen from the start of its first.
 #[derive(Clone, Debug)]
@@ -23,20 +52,50 @@ const LOST: f64 = 32.0 / 16_777_216.0;
 pub struct Thin {
     o: [[f32; BUNDLE]; 3],
     d: [[f32; BUNDLE]; 3],
+    /// The inverse of the direction, and the moment `o × d`; where `lines` says so.
+    inverse: [[f32; BUNDLE]; 3],
+    moment: [[f32; BUNDLE]; 3],
+    /// How far each looks.
+    limit: [f32; BUNDLE],
     base: DVec3,
     /// How far the others start from there at most, added up over the axes.
     extent: f64,
+    /// The rays that are to be asked in full, whatever they are asked about.
+    odd: u64,
+    /// Whether `inverse` and `moment` are known.
+    lines: bool,
+}
+
+/// Rays that may pass a box, and between which distances all of these do.
+#[derive(Clone, Copy, Debug)]
+pub struct Passing {
+    /// A bit for each ray.
+    pub rays: u64,
+    /// No ray enters the box before this.
+    pub from: f64,
+    /// No ray leaves the box behind this.
+    pub to: f64,
 }
 
 impl Thin {
     /// No rays.
-    pub const EMPTY: Self =
-        Self { o: [[0.0; BUNDLE]; 3], d: [[0.0; BUNDLE]; 3], base: DVec3::ZERO, extent: 0.0 };
+    pub const EMPTY: Self = Self {
+        o: [[0.0; BUNDLE]; 3],
+        d: [[0.0; BUNDLE]; 3],
+        inverse: [[0.0; BUNDLE]; 3],
+        moment: [[0.0; BUNDLE]; 3],
+        limit: [0.0; BUNDLE],
+        base: DVec3::ZERO,
+        extent: 0.0,
+        odd: 0,
+        lines: false,
+    };
 
-    /// The rays of a closed bundle.
+    /// The rays of a closed bundle, which look as far as they can.
     #[inline(always)]
     pub fn set<S: Simd>(&mut self, simd: S, bundle: &Bundle) {
-        self.extent = 0.0;
+        (self.extent, self.odd, self.lines) = (0.0, 0, false);
+        self.limit = [f32::INFINITY; BUNDLE];
         for axis in 0..3 {
             let base = bundle.o[axis].0[0];
             self.base[axis] = base;
@@ -45,12 +104,54 @@ impl Thin {
                 self.d[axis][lane] = bundle.d[axis].0[lane] as f32;
             }
             let mut most = f32x16::splat(simd, 0.0);
-            for row in 0..BUNDLE / WIDTH {
-                let o = f32x16::from_slice(simd, &self.o[axis][row * WIDTH..][..WIDTH]).abs();
+            for row in 0..THIN_ROWS {
+                let o = row_of(simd, &self.o[axis], row).abs();
                 most = o.simd_gt(most).select(o, most);
             }
             let most = most.to_array().into_iter().fold(0.0, |most, x| if x > most { x } else { most });
             self.extent += f64::from(most);
+        }
+    }
+
+    /// The rays look no farther than this, and what is lost of it.
+    #[inline(always)]
+    pub fn look(&mut self, limit: impl Fn(usize) -> f64) {
+        for lane in 0..BUNDLE {
+            // Rounded twice, by half an ulp.
+            self.limit[lane] = limit(lane) as f32 * (1.0 + 2.0 * f32::EPSILON);
+        }
+    }
+
+    /// Computes what only boxes and bars ask for.
+    #[inline(always)]
+    fn know_lines<S: Simd>(&mut self, simd: S) {
+        if self.lines {
+            return;
+        }
+        self.lines = true;
+        if !self.base.abs().cmplt(DVec3::splat(f64::from(WITHIN))).all() {
+            self.odd = u64::MAX;
+        }
+        let (one, still) = (f32x16::splat(simd, 1.0), f32x16::splat(simd, STILL));
+        let within = f32x16::splat(simd, WITHIN);
+        for row in 0..THIN_ROWS {
+            let o = [0, 1, 2].map(
+                #[inline(always)]
+                |axis| row_of(simd, &self.o[axis], row),
+            );
+            let d = [0, 1, 2].map(
+                #[inline(always)]
+                |axis| row_of(simd, &self.d[axis], row),
+            );
+            for axis in 0..3 {
+                let plain = o[axis].abs().simd_lt(within) & d[axis].abs().simd_lt(within);
+                self.odd |= (!plain).to_bitmask() << (row * WIDTH);
+                let inverse = d[axis].abs().simd_lt(still).select(one / still, one / d[axis]);
+                inverse.store_slice(&mut self.inverse[axis][row * WIDTH..][..WIDTH]);
+                let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
+                let moment = o[next] * d[last] - o[last] * d[next];
+                moment.store_slice(&mut self.moment[axis][row * WIDTH..][..WIDTH]);
+            }
         }
     }
 
@@ -66,14 +167,13 @@ impl Thin {
         let cy = f32x16::splat(simd, from_base.y as f32);
         let cz = f32x16::splat(simd, from_base.z as f32);
         let mut rays = 0;
-        for row in 0..BUNDLE / WIDTH {
-            let at = row * WIDTH..(row + 1) * WIDTH;
-            let x = f32x16::from_slice(simd, &self.o[0][at.clone()]) - cx;
-            let y = f32x16::from_slice(simd, &self.o[1][at.clone()]) - cy;
-            let z = f32x16::from_slice(simd, &self.o[2][at.clone()]) - cz;
-            let dx = f32x16::from_slice(simd, &self.d[0][at.clone()]);
-            let dy = f32x16::from_slice(simd, &self.d[1][at.clone()]);
-            let dz = f32x16::from_slice(simd, &self.d[2][at]);
+        for row in 0..THIN_ROWS {
+            let x = row_of(simd, &self.o[0], row) - cx;
+            let y = row_of(simd, &self.o[1], row) - cy;
+            let z = row_of(simd, &self.o[2], row) - cz;
+            let dx = row_of(simd, &self.d[0], row);
+            let dy = row_of(simd, &self.d[1], row);
+            let dz = row_of(simd, &self.d[2], row);
             let t = x * dx + y * dy + z * dz;
             let (x, y, z) = (x - t * dx, y - t * dy, z - t * dz);
             // What is not a number is not certain.
@@ -82,4 +182,92 @@ impl Thin {
         }
         rays
     }
+
+    /// Those of some rays that may pass a box, ahead of their starts and no farther than they look; all others do not
+    /// come nearer to it than `slack`.
+    #[inline(always)]
+    pub fn passing<S: Simd>(&mut self, simd: S, b: &Bounds, slack: f64, wanted: u64) -> Passing {
+        self.know_lines(simd);
+        let (middle, half) = (b.center() - self.base, b.half() + slack);
+        let far = (middle.abs() + half).element_sum() + self.extent;
+        let half = half + LOST_OF_SIDE * far;
+        let zero = f32x16::splat(simd, 0.0);
+        let middle = [middle.x, middle.y, middle.z].map(
+            #[inline(always)]
+            |x| f32x16::splat(simd, x as f32),
+        );
+        let half = [half.x, half.y, half.z].map(
+            #[inline(always)]
+            |x| f32x16::splat(simd, x as f32),
+        );
+        let mut rays = 0;
+        let (mut from, mut to) = (f32x16::splat(simd, f32::INFINITY), zero);
+        for row in 0..THIN_ROWS {
+            if (wanted >> (row * WIDTH)) as u16 == 0 {
+                continue;
+            }
+            let (mut near, mut end) = (zero, row_of(simd, &self.limit, row));
+            for axis in 0..3 {
+                let inverse = row_of(simd, &self.inverse[axis], row);
+                let t = (middle[axis] - row_of(simd, &self.o[axis], row)) * inverse;
+                let way = half[axis] * inverse.abs();
+                // Of numbers that are none the rays are odd.
+                (near, end) = (near.max(t - way), end.min(t + way));
+            }
+            let beside = near.simd_gt(end);
+            rays |= (!beside).to_bitmask() << (row * WIDTH);
+            (from, to) = (from.min(beside.select(from, near)), to.max(beside.select(to, end)));
+        }
+        let odd = self.odd & wanted;
+        if odd != 0 {
+            return Passing { rays: rays & wanted | odd, from: 0.0, to: f64::INFINITY };
+        }
+        let least =
+            from.to_array().into_iter().fold(f32::INFINITY, |least, x| if x < least { x } else { least });
+        let most = to.to_array().into_iter().fold(0.0, |most, x| if x > most { x } else { most });
+        Passing { rays: rays & wanted, from: f64::from(least), to: f64::from(most) }
+    }
+
+    /// Those of some rays whose lines may come within a bar's radius of its axis, be it as long as it will; all others do
+    /// not.
+    #[inline(always)]
+    pub fn beside<S: Simd>(&mut self, simd: S, bar: &Bar, slack: f64, wanted: u64) -> u64 {
+        self.know_lines(simd);
+        let (from_base, along, radius) = (bar.middle - self.base, bar.along, bar.radius + slack);
+        // The product of two lines, by their moments, is their distance times the sine of the angle between them.
+        let moment = along.cross(from_base);
+        let lost = LOST_OF_PRODUCT * (from_base.abs().element_sum() + self.extent);
+        let square = radius * radius;
+        let least = LOST_OF_SINE * square + (2.0 * radius + lost) * lost;
+        let up = 1.0 + 8.0 * f32::EPSILON;
+        let (square, least) =
+            (f32x16::splat(simd, square as f32 * up), f32x16::splat(simd, least as f32 * up));
+        let [ax, ay, az, mx, my, mz] = [along.x, along.y, along.z, moment.x, moment.y, moment.z].map(
+            #[inline(always)]
+            |x| f32x16::splat(simd, x as f32),
+        );
+        let mut rays = 0;
+        for row in 0..THIN_ROWS {
+            if (wanted >> (row * WIDTH)) as u16 == 0 {
+                continue;
+            }
+            let dx = row_of(simd, &self.d[0], row);
+            let dy = row_of(simd, &self.d[1], row);
+            let dz = row_of(simd, &self.d[2], row);
+            let cosine = ax * dx + ay * dy + az * dz;
+            let product = (row_of(simd, &self.moment[0], row) * ax - mx * dx)
+                + (row_of(simd, &self.moment[1], row) * ay - my * dy)
+                + (row_of(simd, &self.moment[2], row) * az - mz * dz);
+            let sine = f32x16::splat(simd, 1.0) - cosine * cosine;
+            let beside = (product * product).simd_gt(square * sine + least);
+            rays |= (!beside).to_bitmask() << (row * WIDTH);
+        }
+        (rays | self.odd) & wanted
+    }
+}
+
+/// Sixteen of a number of each ray.
+#[inline(always)]
+fn row_of<S: Simd>(simd: S, numbers: &[f32; BUNDLE], row: usize) -> f32x16<S> {
+    f32x16::from_slice(simd, &numbers[row * WIDTH..][..WIDTH])
 }

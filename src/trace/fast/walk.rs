@@ -3,8 +3,10 @@
 use fearless_simd::{Simd, SimdBase, f64x8};
 
 use crate::lattice::{Child, Met, Node, highest, lowest};
-use crate::math::{Bounds, Bundle, DVec3, LANES, Mask, Number, ROWS};
+use crate::math::{Bounds, Bundle, DVec3, Number, ROWS};
 use crate::solid::Form;
+
+use super::thin::{Passing, Thin};
 
 /// Puts the nodes among a node's children that were met on the stack, the nearest last.
 #[inline(always)]
@@ -26,48 +28,27 @@ pub fn push_nearest_last<S: Simd>(stack: &mut Vec<(f64, u32)>, node: &Node, met:
     }
 }
 
-/// Which rays of a bundle pass a box, and between which distances all of these do; `None` where no ray does.
-pub fn through<S: Simd>(simd: S, bundle: &Bundle, b: &Bounds) -> Option<(u64, f64, f64)> {
+/// Those of some rays of a bundle that may meet a form within a box.
+pub fn asking<S: Simd>(simd: S, thin: &mut Thin, form: &Form, b: &Bounds, slack: f64, wanted: u64) -> u64 {
     simd.vectorize(
         #[inline(always)]
         || {
-            let (mut any, mut from, mut to) = (0, f64::INFINITY, f64::NEG_INFINITY);
-            for row in 0..ROWS {
-                let live = bundle.live_in(row);
-                if live == 0 {
-                    continue;
-                }
-                let rays = bundle.load(simd, row);
-                let zero = rays.o.x.same(0.0);
-                let (mut near, mut far) = (zero, zero.same(f64::INFINITY));
-                for axis in 0..3 {
-                    let (o, d) = (rays.o.along(axis), rays.d.along(axis));
-                    let inverse = zero.same(1.0) / d;
-                    let (low, high) = ((-o + b.lo[axis]) * inverse, (-o + b.hi[axis]) * inverse);
-                    // Along a face 0 · ∞ is no number, and both comparisons keep what is known.
-                    near = low.smaller(high).is_above(near).choose(low.smaller(high), near);
-                    far = low.larger(high).is_below(far).choose(low.larger(high), far);
-                }
-                let bits = near.is_at_most(far).bits() & live;
-                any |= u64::from(bits) << (row * LANES);
-                let mut left = bits;
-                while left != 0 {
-                    let lane = left.trailing_zeros() as usize;
-                    left &= left - 1;
-                    (from, to) = (from.min(near[lane]), to.max(far[lane]));
-                }
-            }
-            (any != 0).then_some((any, from, to))
+            let wanted = if let Form::Tube(tube) = form {
+                thin.beside(simd, &tube.bar(), slack, wanted)
+            } else {
+                wanted
+            };
+            if wanted == 0 { 0 } else { thin.passing(simd, b, slack, wanted).rays }
         },
     )
 }
 
-/// Which rays of a bundle are to be asked whether they meet a surface within a box. A polygon is as soon asked itself.
-pub fn asking<S: Simd>(simd: S, bundle: &Bundle, form: &Form, b: &Bounds) -> u64 {
-    match form {
-        Form::Tube(_) => through(simd, bundle, b).map_or(0, |(any, ..)| any),
-        _ => bundle.live,
-    }
+/// Those of some rays of a bundle that may pass a box.
+pub fn passing<S: Simd>(simd: S, thin: &mut Thin, b: &Bounds, slack: f64, wanted: u64) -> Passing {
+    simd.vectorize(
+        #[inline(always)]
+        || thin.passing(simd, b, slack, wanted),
+    )
 }
 
 /// The box around the way of all rays of a bundle between two distances.

@@ -1,8 +1,8 @@
 //! The frustum around a bundle of rays: what it does not meet, none of the rays meets.
 
-use fearless_simd::{Simd, SimdBase, f64x8};
+use fearless_simd::{Simd, SimdBase, SimdMask, f32x8, f64x8};
 
-use crate::math::{Bundle, Column, Columns, DVec3, Mask, Number, ROWS};
+use crate::math::{Bundle, Column, Columns, DVec3, Number, ROWS};
 use crate::solid::WORLD;
 
 /// A ray within the world, from anywhere that it may start at, has left it after so much of its way: the diameter of
@@ -13,6 +13,12 @@ pub const WAY: f64 = 2.0 * WORLD;
 /// 1: three products and two sums of numbers up to [`WORLD`] + [`WAY`], on either side of the comparison, and the
 /// point itself, a product and a sum. Ten roundings, rounded up to 16 half-ulps.
 const ROUNDED: f64 = 8.0 * f64::EPSILON * (WORLD + WAY);
+
+/// What half the digits lose of a dot product with a plane's normal, as a share of what the normal's components add up
+/// to: six products and five sums of rounded numbers, for points within 2.01 of the origin on each axis, and the offset:
+/// 14 roundings of numbers up to 2.01, rounded up to 32 · 2⁻²⁴. A difference with the place of a start, which is within
+/// [`WORLD`], takes 14 · 2⁻²⁴ more; but three products and two sums are all that is there before it.
+const LOST: f64 = 32.0 / 16_777_216.0;
 
 /// The least cosine between a ray and the beam's axis: past 78° off the slopes, and with them the planes, say little.
 const COHERENT: f64 = 0.2;
@@ -30,12 +36,18 @@ impl Plane {
 
     /// Of eight boxes side by side, how far the foremost point of each lies along the normal.
     #[inline(always)]
-    fn foremost<S: Simd>(&self, lo: &[f64x8<S>; 3], hi: &[f64x8<S>; 3]) -> f64x8<S> {
+    fn foremost<S: Simd>(&self, lo: &[f32x8<S>; 3], hi: &[f32x8<S>; 3]) -> f32x8<S> {
         let n = self.normal;
         let x = if n.x > 0.0 { hi[0] } else { lo[0] };
         let y = if n.y > 0.0 { hi[1] } else { lo[1] };
         let z = if n.z > 0.0 { hi[2] } else { lo[2] };
-        x * n.x + y * n.y + z * n.z
+        x * n.x as f32 + y * n.y as f32 + z * n.z as f32
+    }
+
+    /// The offset that [`Self::foremost`] is to be compared with.
+    #[inline(always)]
+    fn before(&self) -> f32 {
+        (self.offset - lost(self.normal)) as f32
     }
 }
 
@@ -66,7 +78,7 @@ pub struct Met<S: Simd> {
     /// The first box is the lowest bit.
     pub boxes: u8,
     /// At least so far away, for each.
-    pub near: f64x8<S>,
+    pub near: f32x8<S>,
 }
 
 /// Lights farther away than this are no apex for planes: what rounding makes of their place would be more than what
@@ -251,17 +263,18 @@ impl Beam {
 
     /// Which of eight boxes, by axis, the beam may meet. An empty one, whose sides are the wrong way round, is never met.
     #[inline(always)]
-    pub fn meets_boxes<S: Simd>(&self, simd: S, lo: &[f64x8<S>; 3], hi: &[f64x8<S>; 3]) -> Met<S> {
-        let mut met = lo[0].is_at_most(hi[0]);
+    pub fn meets_boxes<S: Simd>(&self, simd: S, lo: &[f32x8<S>; 3], hi: &[f32x8<S>; 3]) -> Met<S> {
+        let mut met = lo[0].simd_le(hi[0]);
         for side in &self.sides {
-            met &= !side.foremost(lo, hi).is_below(f64x8::splat(simd, side.offset));
+            met &= !side.foremost(lo, hi).simd_lt(f32x8::splat(simd, side.before()));
         }
-        let forward = Plane { normal: self.axis, offset: 0.0 };
-        let backward = Plane { normal: -self.axis, offset: 0.0 };
-        let (farthest, nearest) = (forward.foremost(lo, hi), -backward.foremost(lo, hi));
-        met &= !farthest.is_below(f64x8::splat(simd, self.first))
-            & !nearest.is_above(f64x8::splat(simd, self.last));
-        Met { boxes: met.bits(), near: nearest - self.start }
+        let forward = Plane { normal: self.axis, offset: self.first };
+        let backward = Plane { normal: -self.axis, offset: -self.last };
+        let (farthest, nearest) = (forward.foremost(lo, hi), backward.foremost(lo, hi));
+        met &= !farthest.simd_lt(f32x8::splat(simd, forward.before()))
+            & !nearest.simd_lt(f32x8::splat(simd, backward.before()));
+        let start = (self.start + lost(self.axis)) as f32;
+        Met { boxes: met.to_bitmask() as u8, near: -nearest - start }
     }
 }
 
@@ -275,6 +288,12 @@ pub fn lowest<S: Simd>(x: f64x8<S>) -> f64 {
 #[inline(always)]
 pub fn highest<S: Simd>(x: f64x8<S>) -> f64 {
     -lowest(-x)
+}
+
+/// How far a plane is moved outward where it is compared with half the digits.
+#[inline(always)]
+pub(super) fn lost(normal: DVec3) -> f64 {
+    LOST * normal.abs().element_sum()
 }
 
 /// How far a plane is moved outward for what rounding may do.

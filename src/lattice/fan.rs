@@ -2,15 +2,10 @@
 
 use fearless_simd::{Simd, SimdBase, SimdMask, f32x16};
 
-use super::beam::Beam;
+use super::beam::{Beam, lost};
 
 /// Frustums in a fan.
 pub const FAN: usize = 16;
-
-/// What half the digits lose of a dot product with a plane's normal, as a share of what the normal's components add up
-/// to: six products and five sums of rounded numbers, for points within 2 of the origin on each axis, and the offset:
-/// 14 roundings of numbers up to 2, rounded up to 32 · 2⁻²⁴.
-const LOST: f64 = 32.0 / 16_777_216.0;
 
 /// One plane of each frustum: the parts of its normal that look at the upper and at the lower sides of a box.
 #[derive(Clone, Debug)]
@@ -63,19 +58,18 @@ impl Fan {
                     to.up[axis][lane] = if x > 0.0 { x } else { 0.0 };
                     to.down[axis][lane] = if x > 0.0 { 0.0 } else { x };
                 }
-                to.offset[lane] = (offset - LOST * normal.abs().element_sum()) as f32;
+                to.offset[lane] = (offset - lost(normal)) as f32;
             }
-            self.start[lane] = (start + LOST * backward.abs().element_sum()) as f32;
+            self.start[lane] = (start + lost(backward)) as f32;
         }
     }
 
     /// Which of the frustums may meet a box.
     #[inline(always)]
-    pub fn meets<S: Simd>(&self, simd: S, lo: [f64; 3], hi: [f64; 3]) -> FanMet {
-        // Rounded to the nearest; that is among what is lost.
-        let (lx, hx) = (f32x16::splat(simd, lo[0] as f32), f32x16::splat(simd, hi[0] as f32));
-        let (ly, hy) = (f32x16::splat(simd, lo[1] as f32), f32x16::splat(simd, hi[1] as f32));
-        let (lz, hz) = (f32x16::splat(simd, lo[2] as f32), f32x16::splat(simd, hi[2] as f32));
+    pub fn meets<S: Simd>(&self, simd: S, lo: [f32; 3], hi: [f32; 3]) -> FanMet {
+        let (lx, hx) = (f32x16::splat(simd, lo[0]), f32x16::splat(simd, hi[0]));
+        let (ly, hy) = (f32x16::splat(simd, lo[1]), f32x16::splat(simd, hi[1]));
+        let (lz, hz) = (f32x16::splat(simd, lo[2]), f32x16::splat(simd, hi[2]));
         let mut met = u64::from(self.present);
         let mut last = lx;
         for planes in &self.planes {

@@ -35,7 +35,10 @@ impl<'a> Structure<'a> {
             Self::None => None,
             Self::Lattice(lattice, _) => lattice.walk(ray, from, to, cells_visited, visit),
             Self::Tree(tree, _) => tree.walk(ray, from, to, cells_visited, visit),
-            Self::Boxes(boxes, _) => boxes.walk(ray, from, to, cells_visited, visit),
+            Self::Boxes(boxes, _) => {
+                let mut visit = visit;
+                boxes.walk(ray, from, to, cells_visited, |object, step| visit(&[object], step))
+            }
         }
     }
 

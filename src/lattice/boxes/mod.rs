@@ -9,15 +9,26 @@ mod reach;
 mod split;
 mod walk;
 
-use fearless_simd::{Level, Simd, SimdBase, f64x8};
+use fearless_simd::{Level, Simd, SimdBase, f32x8};
 
 use crate::math::{Bounds, DVec3};
 use crate::solid::Assembly;
 
 use super::planes::slack;
 
-/// Children of a node: as many as the widest registers have numbers, of 64 bits each.
+/// Children of a node: as many as the registers of most processors have numbers, of 32 bits each.
 pub const WIDE: usize = 8;
+
+/// How far the sides of boxes are moved outward, so that half the digits are enough to ask whether a ray meets them.
+///
+/// A ray starts within [`WORLD`](crate::solid::WORLD), 6, of the origin and a box ends within 2.01 of it on each axis, what
+/// may be [`slack`] with it. Rounding to 24 bits moves the start by at most 2⁻²², and the difference, which is below 16,
+/// by 2⁻²¹. The inverse of the direction and the product are off by a share of 2⁻²⁴ each, which is as if the side stood
+/// elsewhere by 2 · 2⁻²⁴ of at most 8.01. In all that is less than 8 · 2⁻²².
+const MARGIN: f64 = 1.0 / 524_288.0;
+
+/// Marks a child that is a node.
+const INNER: u32 = 1 << 31;
 
 /// Eight boxes side by side, by axis, so that one operation asks all of them. The first [`Node::len`] slots are
 /// filled, ascending along the longest axis of the node; an empty one has `lo = ∞` and `hi = −∞`, which no ray and no
@@ -25,10 +36,11 @@ pub const WIDE: usize = 8;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct Node {
-    /// The smallest coordinates along x, y and z.
-    pub lo: [[f64; WIDE]; 3],
-    /// The largest coordinates along x, y and z.
-    pub hi: [[f64; WIDE]; 3],
+    /// The smallest coordinates along x, y and z, [`MARGIN`] below those of what stands there.
+    lo: [[f32; WIDE]; 3],
+    /// The largest coordinates along x, y and z, [`MARGIN`] above.
+    hi: [[f32; WIDE]; 3],
+    /// Indices, with [`INNER`] where they are of nodes.
     children: [u32; WIDE],
     /// Bit `slot` is set where the child is a node.
     inner: u8,
@@ -44,10 +56,23 @@ pub enum Child {
     Object(u32),
 }
 
+impl Child {
+    #[inline]
+    fn of(child: u32) -> Self {
+        if child & INNER == 0 { Self::Object(child) } else { Self::Node(child & !INNER) }
+    }
+}
+
+/// The largest number of half the digits that is not above `x`.
+fn lower(x: f64) -> f32 {
+    let nearest = x as f32;
+    if f64::from(nearest) > x { nearest.next_down() } else { nearest }
+}
+
 impl Node {
     const EMPTY: Self = Self {
-        lo: [[f64::INFINITY; WIDE]; 3],
-        hi: [[f64::NEG_INFINITY; WIDE]; 3],
+        lo: [[f32::INFINITY; WIDE]; 3],
+        hi: [[f32::NEG_INFINITY; WIDE]; 3],
         children: [0; WIDE],
         inner: 0,
         len: 0,
@@ -67,18 +92,18 @@ impl Node {
 
     /// The lower and the upper sides of its boxes, by axis.
     #[inline(always)]
-    pub fn sides<S: Simd>(&self, simd: S) -> ([f64x8<S>; 3], [f64x8<S>; 3]) {
+    pub fn sides<S: Simd>(&self, simd: S) -> ([f32x8<S>; 3], [f32x8<S>; 3]) {
         let [lx, ly, lz] = &self.lo;
         let [hx, hy, hz] = &self.hi;
         (
-            [f64x8::from_slice(simd, lx), f64x8::from_slice(simd, ly), f64x8::from_slice(simd, lz)],
-            [f64x8::from_slice(simd, hx), f64x8::from_slice(simd, hy), f64x8::from_slice(simd, hz)],
+            [f32x8::from_slice(simd, lx), f32x8::from_slice(simd, ly), f32x8::from_slice(simd, lz)],
+            [f32x8::from_slice(simd, hx), f32x8::from_slice(simd, hy), f32x8::from_slice(simd, hz)],
         )
     }
 
     /// The lower and the upper corner of a slot's box.
     #[inline(always)]
-    pub fn corners(&self, slot: usize) -> ([f64; 3], [f64; 3]) {
+    pub fn corners(&self, slot: usize) -> ([f32; 3], [f32; 3]) {
         let [lx, ly, lz] = &self.lo;
         let [hx, hy, hz] = &self.hi;
         ([lx[slot], ly[slot], lz[slot]], [hx[slot], hy[slot], hz[slot]])
@@ -93,32 +118,26 @@ impl Node {
     /// What stands in a slot, `slot < WIDE`; `None` where it is empty.
     #[inline]
     pub fn child(&self, slot: usize) -> Option<Child> {
-        (slot < self.len()).then(|| self.filled(slot))
-    }
-
-    /// What stands in a filled slot.
-    #[inline]
-    fn filled(&self, slot: usize) -> Child {
-        let index = self.children[slot];
-        if self.inner >> slot & 1 == 1 { Child::Node(index) } else { Child::Object(index) }
+        (slot < self.len()).then(|| Child::of(self.children[slot]))
     }
 
     /// The box of a slot.
     pub fn bounds(&self, slot: usize) -> Bounds {
-        let of = |sides: &[[f64; WIDE]; 3]| DVec3::from_array([0, 1, 2].map(|axis| sides[axis][slot]));
+        let of =
+            |sides: &[[f32; WIDE]; 3]| DVec3::from_array([0, 1, 2].map(|axis| f64::from(sides[axis][slot])));
         Bounds::new(of(&self.lo), of(&self.hi))
     }
 
     fn push(&mut self, bounds: &Bounds, child: Child) {
         let slot = self.len();
         for axis in 0..3 {
-            self.lo[axis][slot] = bounds.lo[axis];
-            self.hi[axis][slot] = bounds.hi[axis];
+            self.lo[axis][slot] = lower(bounds.lo[axis] - MARGIN);
+            self.hi[axis][slot] = -lower(-bounds.hi[axis] - MARGIN);
         }
         match child {
             Child::Object(index) => self.children[slot] = index,
             Child::Node(index) => {
-                self.children[slot] = index;
+                self.children[slot] = index | INNER;
                 self.inner |= 1 << slot;
             }
         }

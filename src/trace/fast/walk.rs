@@ -17,7 +17,7 @@ pub fn push_nearest_last<S: Simd>(stack: &mut Vec<(f64, u32)>, node: &Node, met:
         let slot = left.trailing_zeros() as usize;
         left &= left - 1;
         if let Some(Child::Node(index)) = node.child(slot) {
-            let near = met.near[slot];
+            let near = f64::from(met.near[slot]);
             let mut place = stack.len();
             stack.push((near, index));
             while place > first && stack[place - 1].0 < near {

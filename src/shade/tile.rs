@@ -7,7 +7,7 @@
 
 use crate::lattice::FAN;
 use crate::math::{Bundle, Column, Columns, DVec3, LANES, Ray};
-use crate::solid::{Crossing, Departure, Form};
+use crate::solid::{Crossing, Departure, Departures, Form};
 use crate::stage::{Meter, Probe, Stage};
 use crate::trace::{Engine, Fast, Hit, Shaft, Shone, TileMemory};
 
@@ -293,8 +293,23 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         if self.shadows {
             meter.at(Stage::Cell);
             let shone = Shone { at: place, clear: &self.clear };
-            for (shafts, departures) in shafts.chunks_mut(FAN).zip(wave.departures.chunks(FAN)) {
-                self.engine.blocked_of(shafts, departures, &shone, trace);
+            let mut ask = |shafts: &mut [Shaft], departures: &[Departures]| {
+                self.engine.blocked_of(shafts, departures, &shone, trace)
+            };
+            // What was sent on by curved surfaces runs apart: one shaft shows it.
+            if generation > 0 && lamp == 0 {
+                let fullest = (0..count).max_by_key(|&k| shafts[k].rays.live.count_ones()).unwrap_or(0);
+                let probe = fullest..fullest + 1;
+                wave.apart = ask(&mut shafts[probe.clone()], &wave.departures[probe]) > 0;
+            }
+            if wave.apart {
+                shafts.iter_mut().for_each(Shaft::give_up);
+            } else {
+                let mut given_up = 0;
+                for (shafts, departures) in shafts.chunks_mut(FAN).zip(wave.departures.chunks(FAN)) {
+                    given_up += ask(shafts, departures);
+                }
+                wave.apart = generation > 0 && 2 * given_up > count;
             }
             meter.at(Stage::Shade);
         }

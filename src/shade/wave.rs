@@ -59,6 +59,8 @@ pub(super) struct Wave<C> {
     pub known: Vec<u64>,
     /// The mirror rays of this generation, and its Snell rays; none in the first.
     pub kinds: [Legs; 2],
+    /// Whether its rays run so far apart that those towards the lamps are better asked one by one.
+    pub apart: bool,
     parts: std::marker::PhantomData<C>,
 }
 
@@ -80,6 +82,7 @@ impl<C> Default for Wave<C> {
             light: Vec::new(),
             known: Vec::new(),
             kinds: Default::default(),
+            apart: false,
             parts: std::marker::PhantomData,
         }
     }
@@ -93,6 +96,7 @@ impl<C: Channel> Wave<C> {
         self.surfaces.resize(count, Surfaces::NONE);
         self.departures.resize(count, Departures::NONE);
         self.light.resize(count * C::PARTS, Column::filled(0.0));
+        self.apart = false;
         self.known.clear();
         self.known.resize(count, 0);
     }

@@ -75,16 +75,17 @@ impl<'a> Fast<'a> {
         });
     }
 
-    /// Which rays of a tile towards one light are blocked, and which meet something that lets light through. Those that are unsure are to be asked of
-    /// [`Engine::blocked`] one by one.
+    /// Which rays of a tile towards one light are blocked, and which meet something that lets light through; of up to
+    /// [`FAN`](crate::lattice::FAN) shafts. Those that are unsure are to be asked of [`Engine::blocked`] one by one. Answers
+    /// how many shafts had so many objects between their rays that they were given up.
     pub fn blocked_of(
         &self,
         shafts: &mut [Shaft],
         departures: &[Departures],
         lamp: &Shone,
         memory: &mut TileMemory,
-    ) {
-        dispatch!(self.level, simd => self.blocked_of_tile(simd, shafts, departures, lamp, memory));
+    ) -> usize {
+        dispatch!(self.level, simd => self.blocked_of_tile(simd, shafts, departures, lamp, memory))
     }
 }
 

@@ -6,7 +6,7 @@
 
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 
-use crate::lattice::{Beam, Child, SLACK};
+use crate::lattice::{Beam, Child, FAN, SLACK};
 use crate::math::{Bounds, Bundle, Column, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
 use crate::solid::{
     Asked, Ball, Body, Departures, Firsts, Flat, Form, Found, Reach, Spans, Starts, first_of_expressions,
@@ -19,9 +19,9 @@ use super::slices::{Slices, slices};
 use super::thin::{Passing, Thin};
 use super::walk::{asking, bounds_between, passing, push_nearest_last};
 
-/// The most objects that the shafts of a tile are asked about, one after the other: as for rays from the eye, but rays
-/// towards a light take less time one by one, and there are more objects that they pass.
-const CROWD: u64 = 8192;
+/// The most objects that a shaft is asked about, for each of its rays: rays that run apart, and have so many objects
+/// between them, take less time one by one.
+const CROWD: u32 = 2;
 
 /// So few rays of a block take less time one by one than their frustum does.
 const FEW_RAYS: u32 = 12;
@@ -69,6 +69,11 @@ impl Shaft {
         (self.blocked, self.tinted, self.leaving, self.unsure) = (0, 0, 0, 0);
     }
 
+    /// All rays that ask are to be asked one by one.
+    pub fn give_up(&mut self) {
+        self.unsure = self.rays.live;
+    }
+
     /// Gives those that do not ask the numbers of the first that does ([`Bundle::close`]).
     pub fn close(&mut self) {
         self.rays.close();
@@ -102,7 +107,8 @@ impl Shaft {
 }
 
 impl Fast<'_> {
-    /// Finds which rays towards a light are blocked. `departures` has the surfaces that they leave.
+    /// Finds which rays towards a light are blocked. `departures` has the surfaces that they leave. Answers how many shafts
+    /// were given up, since there are too many objects between their rays.
     #[inline(always)]
     pub(super) fn blocked_of_tile<S: Simd>(
         &self,
@@ -111,7 +117,7 @@ impl Fast<'_> {
         departures: &[Departures],
         lamp: &Shone,
         memory: &mut TileMemory,
-    ) {
+    ) -> usize {
         for shaft in &mut *shafts {
             if shaft.rays.live.count_ones() < FEW_RAYS {
                 shaft.unsure = shaft.rays.live;
@@ -135,8 +141,9 @@ impl Fast<'_> {
             open |= u16::from(shaft.open() != 0) << k;
         }
         if open == 0 {
-            return;
+            return 0;
         }
+        let mut given_up = 0;
         memory.thin.resize(shafts.len(), Thin::EMPTY);
         for (thin, shaft) in memory.thin.iter_mut().zip(&*shafts) {
             thin.set(simd, &shaft.rays);
@@ -148,14 +155,11 @@ impl Fast<'_> {
         memory.forget_sheared(shafts.len());
         memory.stack.clear();
         memory.stack.push((f64::NEG_INFINITY, 0));
-        let mut asked = 0;
+        let mut left_to_ask = [0; FAN];
+        for (left, shaft) in left_to_ask.iter_mut().zip(&*shafts) {
+            *left = CROWD * shaft.open().count_ones();
+        }
         while let Some((_, node)) = memory.stack.pop() {
-            if asked > CROWD {
-                for shaft in shafts {
-                    shaft.unsure |= shaft.open();
-                }
-                return;
-            }
             let node = &self.boxes.nodes()[node as usize];
             memory.counts.cells_visited += 1;
             let (lo, hi) = node.sides(simd);
@@ -170,7 +174,6 @@ impl Fast<'_> {
                 while left != 0 {
                     let k = left.trailing_zeros() as usize;
                     left &= left - 1;
-                    asked += 1;
                     let before = shafts[k].blocked;
                     self.object_in_shaft(simd, object, &mut shafts[k], &departures[k], memory, k);
                     if let Some(&clear) = lamp.clear.get(object as usize) {
@@ -185,16 +188,25 @@ impl Fast<'_> {
                             shaft.blocked &= !shaft.unsure;
                         }
                     }
-                    if shafts[k].open() == 0 {
+                    let shaft = &mut shafts[k];
+                    match left_to_ask[k].checked_sub(1) {
+                        Some(left) => left_to_ask[k] = left,
+                        None => {
+                            given_up += usize::from(shaft.open() != 0);
+                            shaft.unsure |= shaft.open();
+                        }
+                    }
+                    if shaft.open() == 0 {
                         open &= !(1 << k);
                     }
                 }
                 if open == 0 {
-                    return;
+                    return given_up;
                 }
             }
             push_nearest_last(&mut memory.stack, node, &met);
         }
+        given_up
     }
 
     /// A ball in the way of a light.

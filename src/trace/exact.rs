@@ -41,11 +41,15 @@ pub struct Memory {
 }
 
 impl Memory {
-    /// Forgets the last ray; the next one may meet so many objects.
-    fn start_ray(&mut self, objects: usize) {
-        self.tested.resize(objects, 0);
+    /// Forgets what the last ray met.
+    fn start_ray(&mut self) {
         self.nearest.clear();
         self.best = f64::INFINITY;
+    }
+
+    /// Forgets which objects the last ray was tested against; there are so many.
+    fn start_marking(&mut self, objects: usize) {
+        self.tested.resize(objects, 0);
         self.ray = self.ray.wrapping_add(1);
         if self.ray == 0 {
             self.tested.fill(0);
@@ -153,7 +157,7 @@ impl<'a> Exact<'a> {
         memory: &mut Memory,
         meter: &mut Meter<impl Probe>,
     ) -> Option<Hit> {
-        memory.start_ray(self.assembly.objects.len());
+        memory.start_ray();
         let test = |object: u32, memory: &mut Memory, meter: &mut Meter<_>| {
             let to = memory.best + self.slack;
             if let Some(crossing) = self.object(object, ray, departure, to, memory, meter) {
@@ -168,6 +172,17 @@ impl<'a> Exact<'a> {
         }
         meter.at(Stage::Cell);
         let mut visited = 0;
+        if let Structure::Boxes(boxes, _) = self.structure {
+            // Each object has one place there.
+            boxes.walk(ray, entry, f64::INFINITY, &mut visited, |object, _| -> ControlFlow<(), f64> {
+                test(object, memory, meter);
+                meter.at(Stage::Cell);
+                ControlFlow::Continue(memory.best + self.slack)
+            });
+            meter.counts.cells_visited += visited;
+            return memory.chosen(ray);
+        }
+        memory.start_marking(self.assembly.objects.len());
         self.structure.walk(ray, entry, f64::INFINITY, &mut visited, |objects, _| -> ControlFlow<(), f64> {
             for &object in objects {
                 if memory.first_time(object) {
@@ -186,7 +201,7 @@ impl Engine for Exact<'_> {
     type Memory = Memory;
 
     fn memory(&self) -> Memory {
-        Memory { tested: vec![0; self.assembly.objects.len()], slack: self.slack, ..Memory::default() }
+        Memory { slack: self.slack, ..Memory::default() }
     }
 
     fn first(&self, ray: &Ray, memory: &mut Memory, meter: &mut Meter<impl Probe>) -> Option<Hit> {
@@ -224,7 +239,6 @@ impl Engine for Exact<'_> {
         memory: &mut Memory,
         meter: &mut Meter<impl Probe>,
     ) -> bool {
-        memory.start_ray(self.assembly.objects.len());
         let blocks = |c: Crossing| c.t + c.error < distance;
         if let Structure::None = self.structure {
             return (0..self.assembly.objects.len() as u32).any(|object| {
@@ -233,6 +247,16 @@ impl Engine for Exact<'_> {
         }
         meter.at(Stage::Cell);
         let mut visited = 0;
+        if let Structure::Boxes(boxes, _) = self.structure {
+            let found = boxes.any(ray, distance, &mut visited, |object| {
+                let crossing = self.object(object, ray, Some(departure), distance, memory, meter);
+                meter.at(Stage::Cell);
+                crossing.is_some_and(blocks)
+            });
+            meter.counts.cells_visited += visited;
+            return found;
+        }
+        memory.start_marking(self.assembly.objects.len());
         let found = self.structure.walk(ray, 0.0, distance, &mut visited, |objects, _| {
             for &object in objects {
                 if memory.first_time(object) {

@@ -21,6 +21,11 @@ impl Taper {
         Self { middle: 0.5 * bottom + 0.5 * top, slope: 0.5 * top - 0.5 * bottom }
     }
 
+    /// The greatest radius.
+    pub fn widest(&self) -> f64 {
+        self.middle + self.slope.abs()
+    }
+
     /// Outward from the side at a point of it; along the axis at the apex of a cone.
     pub fn gradient(&self, q: DVec3) -> DVec3 {
         let Self { middle, slope } = *self;

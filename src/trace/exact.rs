@@ -110,15 +110,16 @@ impl<'a> Exact<'a> {
         meter: &mut Meter<impl Probe>,
     ) -> Option<Crossing> {
         meter.at(Stage::Solid);
+        if let Some(index) = self.assembly.alone(object) {
+            let primitive = &self.assembly.primitives[index as usize];
+            return if primitive.form.is_surface() {
+                first_of_surface(ray, primitive, index, departure, meter)
+            } else {
+                first_of_span(ray, primitive, index, departure, meter)
+            };
+        }
         match &self.assembly.objects[object as usize].body {
-            Body::Single(index) => {
-                let primitive = &self.assembly.primitives[*index as usize];
-                first_of_span(ray, primitive, *index, departure, meter)
-            }
-            Body::Surface(index) => {
-                let primitive = &self.assembly.primitives[*index as usize];
-                first_of_surface(ray, primitive, *index, departure, meter)
-            }
+            Body::Single(_) | Body::Surface(_) => None,
             Body::Composite { whole, .. } => {
                 let primitives = &self.assembly.primitives;
                 let scratch = &mut memory.scratch;

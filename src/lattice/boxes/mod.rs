@@ -62,12 +62,14 @@ impl Child {
 }
 
 /// The largest number of half the digits that is not above `x`.
+#[inline(always)]
 fn lower(x: f64) -> f32 {
     let nearest = x as f32;
     if f64::from(nearest) > x { nearest.next_down() } else { nearest }
 }
 
 /// The smallest number of half the digits that is not below `x`.
+#[inline(always)]
 fn upper(x: f64) -> f32 {
     -lower(-x)
 }

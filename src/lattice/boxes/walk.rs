@@ -202,7 +202,8 @@ fn push_nearest_last(waiting: &mut Waiting<Ahead>, node: &Node, enter: &[f32; WI
     let first = waiting.len;
     let (slots, mut rest) = first_two(met);
     let count = met.count_ones();
-    let [a, b] = slots.map(|slot| Ahead { from: enter[slot], node: node.children[slot] & !INNER });
+    let a = Ahead { from: enter[slots[0]], node: node.children[slots[0]] & !INNER };
+    let b = Ahead { from: enter[slots[1]], node: node.children[slots[1]] & !INNER };
     let both = if count > 1 && a.from < b.from { [b, a] } else { [a, b] };
     waiting.push(both, count);
     while rest != 0 {

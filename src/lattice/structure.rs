@@ -37,7 +37,9 @@ impl<'a> Structure<'a> {
             Self::Tree(tree, _) => tree.walk(ray, from, to, cells_visited, visit),
             Self::Boxes(boxes, _) => {
                 let mut visit = visit;
-                boxes.walk(ray, from, to, cells_visited, |object, step| visit(&[object], step))
+                boxes.walk(ray, from, to, cells_visited, |object, from| {
+                    visit(&[object], Step { cell: object as usize, from, to })
+                })
             }
         }
     }

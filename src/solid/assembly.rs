@@ -35,6 +35,9 @@ fn present<T>(mut all: Vec<Option<T>>) -> Vec<T> {
     all.into_iter().collect::<Option<_>>().unwrap_or_default()
 }
 
+/// Stands for no index of a primitive: there are fewer.
+const MANY: u32 = u32::MAX;
+
 /// The objects of a scene, ready for rays.
 #[derive(Clone, Debug)]
 pub struct Assembly {
@@ -42,6 +45,8 @@ pub struct Assembly {
     pub primitives: Vec<Primitive>,
     /// All objects, in file order, without those that hold nothing.
     pub objects: Vec<Object>,
+    /// By object: [`Assembly::alone`], or [`MANY`].
+    alone: Vec<u32>,
     /// The world limit: the box of all objects. Within −2..=2 on every axis.
     pub limit: Bounds,
     /// How far any primitive may be off its place: the greatest [`Form::off`].
@@ -264,7 +269,19 @@ impl Assembly {
         } else {
             primitives.par_iter().map(|p| p.form.off()).reduce(|| 0.0, f64::max)
         };
-        Ok(Self { primitives, objects, limit, off, datum })
+        let alone = |object: &Object| match object.body {
+            Body::Single(index) | Body::Surface(index) => index,
+            Body::Composite { .. } => MANY,
+        };
+        let alone = objects.iter().map(alone).collect();
+        Ok(Self { primitives, objects, alone, limit, off, datum })
+    }
+
+    /// The primitive of an object that is a [`Body::Single`] or a [`Body::Surface`]. A list of its own: millions of
+    /// objects are in no cache, their numbers may be.
+    #[inline]
+    pub fn alone(&self, object: u32) -> Option<u32> {
+        Some(self.alone[object as usize]).filter(|&index| index != MANY)
     }
 
     /// How far the scene reaches along `v` at most, in its own coordinates: the greatest `p · v` of its points.

@@ -156,11 +156,13 @@ impl Form {
     }
 
     /// Whether it is a solid that a ray meets in one span at most.
+    #[inline]
     pub fn is_convex(&self) -> bool {
         !matches!(self, Self::Mesh(_)) && !self.is_surface()
     }
 
     /// Whether it is a surface, which bounds no solid.
+    #[inline]
     pub fn is_surface(&self) -> bool {
         matches!(self, Self::Face(_) | Self::Patch(_) | Self::Tube(_))
     }

@@ -21,6 +21,11 @@ impl Taper {
         Self { middle: 0.5 * bottom + 0.5 * top, slope: 0.5 * top - 0.5 * bottom }
     }
 
+    /// The greatest radius.
+    pub fn widest(&self) -> f64 {
+        self.middle + self.slope.abs()
+    }
+
     /// Outward from the side at points of it; along the axis at the apex of a cone.
     #[inline(always)]
     pub fn gradient<N: Number>(&self, q: Vector<N>) -> Vector<N> {

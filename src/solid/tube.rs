@@ -52,6 +52,12 @@ impl<N: Number> SideCrossings<N> {
     }
 }
 
+/// A part in a million wider than it is: far more than roundings of the numbers that are compared.
+const BEYOND: f64 = 1.0 + 1e-6;
+
+/// Products that are smaller may have lost digits.
+const FULL_DIGITS: f64 = 1e-290;
+
 impl Tube {
     /// The tube at `place`, which may be off by `map_error`, of radius `bottom` at z = −1 and `top` at z = 1.
     pub fn new(place: &Placement, bottom: f64, top: f64, map_error: DVec3) -> Self {
@@ -83,6 +89,20 @@ impl Tube {
             leaves: met & rays.between_caps(side.leave.t),
             one_way: met & !(is_finite(side.enter.t) & is_finite(side.leave.t)),
         }
+    }
+
+    /// Whether the line of a ray certainly passes the tube at a distance from its axis, which is known without a division.
+    ///
+    /// Every crossing that [`Tube::crossings`] finds lies between the caps, where the tube is no wider than `widest`, and
+    /// satisfies the tube's equation as near as [`UnitSpace::off`] says: the line comes so near the axis, but for the
+    /// rounding of that distance, which is within the same.
+    #[inline]
+    pub fn is_passed(&self, ray: &Rays<f64>) -> bool {
+        let o = (ray.o - self.space.center).mapped(&self.space.inverse);
+        let d = ray.d.mapped(&self.space.inverse);
+        let across = d.x * o.y - d.y * o.x;
+        let reach = self.taper.widest() * BEYOND + 4.0 * self.space.off.element_sum();
+        across * across > reach * reach * (d.x * d.x + d.y * d.y) + FULL_DIGITS
     }
 
     /// The normals at points of the tube, away from its axis, of length 1.

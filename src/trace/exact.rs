@@ -41,11 +41,15 @@ pub struct Memory {
 }
 
 impl Memory {
-    /// Forgets the last ray; the next one may meet so many objects.
-    fn start_ray(&mut self, objects: usize) {
-        self.tested.resize(objects, 0);
+    /// Forgets what the last ray met.
+    fn start_ray(&mut self) {
         self.nearest.clear();
         self.best = f64::INFINITY;
+    }
+
+    /// Forgets which objects the last ray was tested against; there are so many.
+    fn start_marking(&mut self, objects: usize) {
+        self.tested.resize(objects, 0);
         self.ray = self.ray.wrapping_add(1);
         if self.ray == 0 {
             self.tested.fill(0);
@@ -106,15 +110,16 @@ impl<'a> Exact<'a> {
         meter: &mut Meter<impl Probe>,
     ) -> Option<Crossing> {
         meter.at(Stage::Solid);
+        if let Some(index) = self.assembly.alone(object) {
+            let primitive = &self.assembly.primitives[index as usize];
+            return if primitive.form.is_surface() {
+                first_of_surface(ray, primitive, index, departure, meter)
+            } else {
+                first_of_span(ray, primitive, index, departure, meter)
+            };
+        }
         match &self.assembly.objects[object as usize].body {
-            Body::Single(index) => {
-                let primitive = &self.assembly.primitives[*index as usize];
-                first_of_span(ray, primitive, *index, departure, meter)
-            }
-            Body::Surface(index) => {
-                let primitive = &self.assembly.primitives[*index as usize];
-                first_of_surface(ray, primitive, *index, departure, meter)
-            }
+            Body::Single(_) | Body::Surface(_) => None,
             Body::Composite { whole, .. } => {
                 let primitives = &self.assembly.primitives;
                 let scratch = &mut memory.scratch;
@@ -153,7 +158,7 @@ impl<'a> Exact<'a> {
         memory: &mut Memory,
         meter: &mut Meter<impl Probe>,
     ) -> Option<Hit> {
-        memory.start_ray(self.assembly.objects.len());
+        memory.start_ray();
         let test = |object: u32, memory: &mut Memory, meter: &mut Meter<_>| {
             let to = memory.best + self.slack;
             if let Some(crossing) = self.object(object, ray, departure, to, memory, meter) {
@@ -168,6 +173,17 @@ impl<'a> Exact<'a> {
         }
         meter.at(Stage::Cell);
         let mut visited = 0;
+        if let Structure::Boxes(boxes, _) = self.structure {
+            // Each object has one place there.
+            boxes.walk(ray, entry, f64::INFINITY, &mut visited, |object, _| -> ControlFlow<(), f64> {
+                test(object, memory, meter);
+                meter.at(Stage::Cell);
+                ControlFlow::Continue(memory.best + self.slack)
+            });
+            meter.counts.cells_visited += visited;
+            return memory.chosen(ray);
+        }
+        memory.start_marking(self.assembly.objects.len());
         self.structure.walk(ray, entry, f64::INFINITY, &mut visited, |objects, _| -> ControlFlow<(), f64> {
             for &object in objects {
                 if memory.first_time(object) {
@@ -186,7 +202,7 @@ impl Engine for Exact<'_> {
     type Memory = Memory;
 
     fn memory(&self) -> Memory {
-        Memory { tested: vec![0; self.assembly.objects.len()], slack: self.slack, ..Memory::default() }
+        Memory { slack: self.slack, ..Memory::default() }
     }
 
     fn first(&self, ray: &Ray, memory: &mut Memory, meter: &mut Meter<impl Probe>) -> Option<Hit> {
@@ -224,7 +240,6 @@ impl Engine for Exact<'_> {
         memory: &mut Memory,
         meter: &mut Meter<impl Probe>,
     ) -> bool {
-        memory.start_ray(self.assembly.objects.len());
         let blocks = |c: Crossing| c.t + c.error < distance;
         if let Structure::None = self.structure {
             return (0..self.assembly.objects.len() as u32).any(|object| {
@@ -233,6 +248,16 @@ impl Engine for Exact<'_> {
         }
         meter.at(Stage::Cell);
         let mut visited = 0;
+        if let Structure::Boxes(boxes, _) = self.structure {
+            let found = boxes.any(ray, distance, &mut visited, |object| {
+                let crossing = self.object(object, ray, Some(departure), distance, memory, meter);
+                meter.at(Stage::Cell);
+                crossing.is_some_and(blocks)
+            });
+            meter.counts.cells_visited += visited;
+            return found;
+        }
+        memory.start_marking(self.assembly.objects.len());
         let found = self.structure.walk(ray, 0.0, distance, &mut visited, |objects, _| {
             for &object in objects {
                 if memory.first_time(object) {

@@ -36,10 +36,8 @@ const INNER: u32 = 1 << 31;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct Node {
-    /// The smallest coordinates along x, y and z, [`MARGIN`] below those of what stands there.
-    lo: [[f32; WIDE]; 3],
-    /// The largest coordinates along x, y and z, [`MARGIN`] above.
-    hi: [[f32; WIDE]; 3],
+    /// Along x, y and z the smallest coordinates and the largest, [`MARGIN`] outside those of what stands there.
+    sides: [[[f32; WIDE]; 2]; 3],
     /// Indices, with [`INNER`] where they are of nodes.
     children: [u32; WIDE],
     /// Bit `slot` is set where the child is a node.
@@ -64,15 +62,21 @@ impl Child {
 }
 
 /// The largest number of half the digits that is not above `x`.
+#[inline(always)]
 fn lower(x: f64) -> f32 {
     let nearest = x as f32;
     if f64::from(nearest) > x { nearest.next_down() } else { nearest }
 }
 
+/// The smallest number of half the digits that is not below `x`.
+#[inline(always)]
+fn upper(x: f64) -> f32 {
+    -lower(-x)
+}
+
 impl Node {
     const EMPTY: Self = Self {
-        lo: [[f32::INFINITY; WIDE]; 3],
-        hi: [[f32::NEG_INFINITY; WIDE]; 3],
+        sides: [[[f32::INFINITY; WIDE], [f32::NEG_INFINITY; WIDE]]; 3],
         children: [0; WIDE],
         inner: 0,
         len: 0,
@@ -93,8 +97,7 @@ impl Node {
     /// The lower and the upper sides of its boxes, by axis.
     #[inline(always)]
     pub fn sides<S: Simd>(&self, simd: S) -> ([f32x8<S>; 3], [f32x8<S>; 3]) {
-        let [lx, ly, lz] = &self.lo;
-        let [hx, hy, hz] = &self.hi;
+        let [[lx, hx], [ly, hy], [lz, hz]] = &self.sides;
         (
             [f32x8::from_slice(simd, lx), f32x8::from_slice(simd, ly), f32x8::from_slice(simd, lz)],
             [f32x8::from_slice(simd, hx), f32x8::from_slice(simd, hy), f32x8::from_slice(simd, hz)],
@@ -104,8 +107,7 @@ impl Node {
     /// The lower and the upper corner of a slot's box.
     #[inline(always)]
     pub fn corners(&self, slot: usize) -> ([f32; 3], [f32; 3]) {
-        let [lx, ly, lz] = &self.lo;
-        let [hx, hy, hz] = &self.hi;
+        let [[lx, hx], [ly, hy], [lz, hz]] = &self.sides;
         ([lx[slot], ly[slot], lz[slot]], [hx[slot], hy[slot], hz[slot]])
     }
 
@@ -123,16 +125,16 @@ impl Node {
 
     /// The box of a slot.
     pub fn bounds(&self, slot: usize) -> Bounds {
-        let of =
-            |sides: &[[f32; WIDE]; 3]| DVec3::from_array([0, 1, 2].map(|axis| f64::from(sides[axis][slot])));
-        Bounds::new(of(&self.lo), of(&self.hi))
+        let (lo, hi) = self.corners(slot);
+        Bounds::new(DVec3::from_array(lo.map(f64::from)), DVec3::from_array(hi.map(f64::from)))
     }
 
     fn push(&mut self, bounds: &Bounds, child: Child) {
         let slot = self.len();
         for axis in 0..3 {
-            self.lo[axis][slot] = lower(bounds.lo[axis] - MARGIN);
-            self.hi[axis][slot] = -lower(-bounds.hi[axis] - MARGIN);
+            let [lo, hi] = &mut self.sides[axis];
+            lo[slot] = lower(bounds.lo[axis] - MARGIN);
+            hi[slot] = upper(bounds.hi[axis] + MARGIN);
         }
         match child {
             Child::Object(index) => self.children[slot] = index,

@@ -1,46 +1,31 @@
-//! Single rays through the hierarchy, nearest boxes first.
+//! Single rays through the hierarchy.
 
 use std::ops::ControlFlow;
 
-use fearless_simd::{Select, Simd, SimdBase, SimdMask, dispatch, f32x8};
+use fearless_simd::{Simd, SimdBase, SimdMask, dispatch, f32x8};
 
 use crate::math::Ray;
 
-use super::super::planes::Step;
-use super::{Boxes, Child, INNER, Node, WIDE};
+use super::{Boxes, INNER, Node, WIDE, lower, upper};
 
-/// Boxes that may wait in place: at most seven more wait for each node on the way down, and two or three mostly.
+/// Nodes that may wait in place: at most seven more wait for each node on the way down, and one or two mostly.
 const WAITING: usize = 64;
 
-/// What a ray may enter.
-#[derive(Clone, Copy)]
-struct Box {
-    /// Where it does, or before.
-    from: f32,
-    /// As [`Node::children`].
-    child: u32,
-}
-
-impl Box {
-    /// All bits are 0, which is the fastest to write.
-    const NONE: Self = Self { from: 0.0, child: 0 };
-}
-
-/// Boxes that wait, the nearest of each node last. Those that came long before have memory of their own.
-struct Waiting {
-    near: [Box; WAITING],
+/// Nodes that wait, the next one last. Those that came long before have memory of their own.
+struct Waiting<T> {
+    near: [T; WAITING],
     /// At most [`WAITING`].
     len: usize,
-    before: Vec<Box>,
+    before: Vec<T>,
 }
 
-impl Waiting {
+impl<T: Copy> Waiting<T> {
     #[inline(always)]
-    fn new() -> Self {
-        Self { near: [Box::NONE; WAITING], len: 0, before: Vec::new() }
+    fn new(none: T) -> Self {
+        Self { near: [none; WAITING], len: 0, before: Vec::new() }
     }
 
-    /// Makes room for the boxes of a node.
+    /// Makes room for the children of a node.
     #[inline(always)]
     fn make_room(&mut self) {
         if self.len > WAITING - WIDE {
@@ -49,20 +34,16 @@ impl Waiting {
         }
     }
 
-    /// Adds a box of the node whose first one was added at `first`. There is room.
+    /// Adds both, or the first alone, or none: it is not asked which, as that is known by chance only. There is room.
     #[inline(always)]
-    fn push(&mut self, waits: Box, first: usize) {
-        let mut place = self.len % WAITING;
-        while place > first && self.near[place - 1].from < waits.from {
-            self.near[place] = self.near[place - 1];
-            place -= 1;
-        }
-        self.near[place] = waits;
-        self.len += 1;
+    fn push(&mut self, both: [T; 2], count: u32) {
+        self.near[self.len % WAITING] = both[0];
+        self.near[(self.len + 1) % WAITING] = both[1];
+        self.len += count.min(2) as usize;
     }
 
     #[inline(always)]
-    fn pop(&mut self) -> Option<Box> {
+    fn pop(&mut self) -> Option<T> {
         match self.len.checked_sub(1) {
             Some(last) => {
                 self.len = last;
@@ -71,6 +52,14 @@ impl Waiting {
             None => self.before.pop(),
         }
     }
+}
+
+/// A node that waits.
+#[derive(Clone, Copy)]
+struct Ahead {
+    /// Where the ray enters its box, or before.
+    from: f32,
+    node: u32,
 }
 
 /// A ray as the boxes are asked about it.
@@ -82,12 +71,14 @@ struct Asked<S: Simd> {
     /// a box whose planes the ray lies between is entered before its start and left far behind its end, and one beside it
     /// is not.
     inverse: [f32x8<S>; 3],
-    upward: [bool; 3],
+    /// Which of the two sides along each axis the ray comes to first.
+    first: [usize; 3],
+    from: f32x8<S>,
 }
 
 impl<S: Simd> Asked<S> {
     #[inline(always)]
-    fn new(simd: S, ray: &Ray) -> Self {
+    fn new(simd: S, ray: &Ray, from: f64) -> Self {
         let Ray { o, d } = *ray;
         // Not by `map`, nor by a closure, which are compiled by themselves, for any processor.
         let [x, y, z] = [inverse(d.x), inverse(d.y), inverse(d.z)];
@@ -98,28 +89,30 @@ impl<S: Simd> Asked<S> {
                 f32x8::splat(simd, o.z as f32),
             ],
             inverse: [f32x8::splat(simd, x), f32x8::splat(simd, y), f32x8::splat(simd, z)],
-            upward: [d.x >= 0.0, d.y >= 0.0, d.z >= 0.0],
+            first: [usize::from(d.x < 0.0), usize::from(d.y < 0.0), usize::from(d.z < 0.0)],
+            from: f32x8::splat(simd, lower(from)),
         }
     }
 
-    /// Where the ray enters the boxes of a node between `from` and `to`, or before, and a bit for each that it meets.
-    /// What rounding may do is in the boxes ([`MARGIN`](super::MARGIN)).
+    /// Where the ray enters the boxes of a node before `to`, or before, and a bit for each that it meets. What rounding may
+    /// do is in the boxes ([`MARGIN`](super::MARGIN)). Nothing here is not a number.
     #[inline(always)]
-    fn meets(&self, simd: S, node: &Node, from: f32, to: f32) -> (f32x8<S>, u64) {
-        let mut enter = f32x8::splat(simd, from);
-        let mut leave = f32x8::splat(simd, to);
-        for axis in 0..3 {
-            let (near, far) = if self.upward[axis] {
-                (&node.lo[axis], &node.hi[axis])
-            } else {
-                (&node.hi[axis], &node.lo[axis])
-            };
-            let near = (f32x8::from_slice(simd, near) - self.o[axis]) * self.inverse[axis];
-            let far = (f32x8::from_slice(simd, far) - self.o[axis]) * self.inverse[axis];
-            enter = near.simd_gt(enter).select(near, enter);
-            leave = far.simd_lt(leave).select(far, leave);
-        }
-        (enter, enter.simd_le(leave).to_bitmask())
+    fn meets(&self, simd: S, node: &Node, to: f32x8<S>) -> (f32x8<S>, u32) {
+        let [near_x, far_x] = self.stretch(simd, node, 0);
+        let [near_y, far_y] = self.stretch(simd, node, 1);
+        let [near_z, far_z] = self.stretch(simd, node, 2);
+        let enter = near_x.max(near_y).max(near_z.max(self.from));
+        let leave = far_x.min(far_y).min(far_z.min(to));
+        (enter, enter.simd_le(leave).to_bitmask() as u32)
+    }
+
+    /// Between which distances the ray is between the two sides along an axis.
+    #[inline(always)]
+    fn stretch(&self, simd: S, node: &Node, axis: usize) -> [f32x8<S>; 2] {
+        let (sides, first) = (&node.sides[axis], self.first[axis]);
+        let (near, far) = (&sides[first & 1], &sides[(first & 1) ^ 1]);
+        let (o, inverse) = (self.o[axis], self.inverse[axis]);
+        [(f32x8::from_slice(simd, near) - o) * inverse, (f32x8::from_slice(simd, far) - o) * inverse]
     }
 }
 
@@ -129,88 +122,151 @@ fn inverse(d: f64) -> f32 {
     if d == 0.0 { f32::MAX } else { (d.recip() as f32).clamp(f32::MIN, f32::MAX) }
 }
 
+/// The first two slots among the bits, any where there are fewer, and the bits of the others.
+#[inline(always)]
+fn first_two(bits: u32) -> ([usize; 2], u32) {
+    let others = bits & bits.wrapping_sub(1);
+    let slots = [bits.trailing_zeros() as usize % WIDE, others.trailing_zeros() as usize % WIDE];
+    (slots, others & others.wrapping_sub(1))
+}
+
 impl Boxes {
-    /// Calls `visit` with each object whose box the ray meets between `from` and `to`, until it breaks; nearest first
-    /// among the boxes of a node. `visit` returns how far the ray still matters: boxes that begin beyond that are not
-    /// visited. [`Step::from`] is where the ray enters the object's box, or before; [`Step::to`] how far it matters.
+    /// Calls `visit` with each object whose box the ray meets between `from` and `to`, and where it enters that box, or
+    /// before, until it breaks; of the nodes in a node the nearest first. `visit` returns how far the ray still matters:
+    /// boxes that begin beyond that are not visited.
     pub fn walk<B>(
         &self,
         ray: &Ray,
         from: f64,
         to: f64,
         cells_visited: &mut u64,
-        mut visit: impl FnMut(u32, Step) -> ControlFlow<B, f64>,
+        mut visit: impl FnMut(u32, f64) -> ControlFlow<B, f64>,
     ) -> Option<B> {
         // Behind a pointer, so that not all that a visit does is compiled for every kind of processor.
         let visit: &mut Visit<B> = &mut visit;
         dispatch!(self.level, simd => walked(simd, &self.nodes, ray, [from, to], cells_visited, visit))
     }
+
+    /// Calls `visit` with each object whose box the ray meets before `to`, in no order, until it says yes. Answers whether
+    /// it did.
+    pub fn any(
+        &self,
+        ray: &Ray,
+        to: f64,
+        cells_visited: &mut u64,
+        mut visit: impl FnMut(u32) -> bool,
+    ) -> bool {
+        let visit: &mut dyn FnMut(u32) -> bool = &mut visit;
+        dispatch!(self.level, simd => any_walked(simd, &self.nodes, ray, to, cells_visited, visit))
+    }
 }
 
-type Visit<'a, B> = dyn FnMut(u32, Step) -> ControlFlow<B, f64> + 'a;
+type Visit<'a, B> = dyn FnMut(u32, f64) -> ControlFlow<B, f64> + 'a;
 
 #[inline(always)]
 fn walked<S: Simd, B>(
     simd: S,
     nodes: &[Node],
     ray: &Ray,
-    [from, mut to]: [f64; 2],
+    [from, to]: [f64; 2],
     cells_visited: &mut u64,
     visit: &mut Visit<B>,
 ) -> Option<B> {
-    let asked = Asked::new(simd, ray);
-    let start = super::lower(from);
-    let mut visited = 0;
-    let mut waiting = Waiting::new();
-    let mut next = Box { from: start, child: INNER };
-    let mut end = -super::lower(-to);
-    let found = loop {
+    let asked = Asked::new(simd, ray, from);
+    let mut end = upper(to);
+    let mut waiting = Waiting::new(Ahead { from: 0.0, node: 0 });
+    let mut next = Ahead { from: lower(from), node: 0 };
+    loop {
         if next.from <= end {
-            match Child::of(next.child) {
-                Child::Object(object) => {
-                    let step = Step { cell: object as usize, from: f64::from(next.from), to };
-                    match visit(object, step) {
-                        ControlFlow::Break(value) => break Some(value),
-                        ControlFlow::Continue(farthest) => {
-                            to = farthest;
-                            end = -super::lower(-to);
-                        }
-                    }
-                }
-                Child::Node(index) => {
-                    visited += 1;
-                    let node = &nodes[index as usize];
-                    let (enter, met) = asked.meets(simd, node, start, end);
-                    if met != 0 {
-                        next = nearest(node, &enter.into(), met, &mut waiting);
-                        continue;
+            *cells_visited += 1;
+            let node = &nodes[next.node as usize];
+            let (enter, met) = asked.meets(simd, node, f32x8::splat(simd, end));
+            let enter: [f32; WIDE] = enter.into();
+            let mut objects = met & !u32::from(node.inner);
+            while objects != 0 {
+                let slot = objects.trailing_zeros() as usize % WIDE;
+                objects &= objects - 1;
+                if enter[slot] <= end {
+                    match visit(node.children[slot], f64::from(enter[slot])) {
+                        ControlFlow::Break(value) => return Some(value),
+                        ControlFlow::Continue(farthest) => end = upper(farthest),
                     }
                 }
             }
+            push_nearest_last(&mut waiting, node, &enter, met & u32::from(node.inner));
         }
-        let Some(last) = waiting.pop() else { break None };
-        next = last;
-    };
-    *cells_visited += visited;
-    found
+        next = waiting.pop()?;
+    }
 }
 
-/// The nearest of the boxes that are met, one at least. The others wait, the nearest last.
+/// Puts the nodes among a node's children that were met with those that wait.
 #[inline(always)]
-fn nearest(node: &Node, enter: &[f32; WIDE], met: u64, waiting: &mut Waiting) -> Box {
+fn push_nearest_last(waiting: &mut Waiting<Ahead>, node: &Node, enter: &[f32; WIDE], met: u32) {
     waiting.make_room();
     let first = waiting.len;
-    let slot = met.trailing_zeros() as usize % WIDE;
-    let mut nearest = Box { from: enter[slot], child: node.children[slot] };
-    let mut rest = met & (met - 1);
+    let (slots, mut rest) = first_two(met);
+    let count = met.count_ones();
+    let a = Ahead { from: enter[slots[0]], node: node.children[slots[0]] & !INNER };
+    let b = Ahead { from: enter[slots[1]], node: node.children[slots[1]] & !INNER };
+    let both = if count > 1 && a.from < b.from { [b, a] } else { [a, b] };
+    waiting.push(both, count);
     while rest != 0 {
         let slot = rest.trailing_zeros() as usize % WIDE;
         rest &= rest - 1;
-        let mut waits = Box { from: enter[slot], child: node.children[slot] };
-        if waits.from < nearest.from {
-            std::mem::swap(&mut waits, &mut nearest);
+        let from = enter[slot];
+        let mut place = waiting.len % WAITING;
+        while place > first && waiting.near[place - 1].from < from {
+            waiting.near[place] = waiting.near[place - 1];
+            place -= 1;
         }
-        waiting.push(waits, first);
+        waiting.near[place] = Ahead { from, node: node.children[slot] & !INNER };
+        waiting.len += 1;
     }
-    nearest
+}
+
+#[inline(always)]
+fn any_walked<S: Simd>(
+    simd: S,
+    nodes: &[Node],
+    ray: &Ray,
+    to: f64,
+    cells_visited: &mut u64,
+    visit: &mut dyn FnMut(u32) -> bool,
+) -> bool {
+    let asked = Asked::new(simd, ray, 0.0);
+    let end = f32x8::splat(simd, upper(to));
+    let mut waiting = Waiting::new(0);
+    let mut next = Some(0);
+    while let Some(first) = next {
+        // Two at once take little longer than one: each step of a question waits for the one before it.
+        let second = waiting.pop();
+        let two = [&nodes[first as usize], &nodes[second.unwrap_or(first) as usize]];
+        let (_, met) = asked.meets(simd, two[0], end);
+        let (_, also_met) = asked.meets(simd, two[1], end);
+        *cells_visited += 1 + u64::from(second.is_some());
+        let met = [met, if second.is_some() { also_met } else { 0 }];
+        for k in 0..2 {
+            let mut objects = met[k] & !u32::from(two[k].inner);
+            while objects != 0 {
+                let slot = objects.trailing_zeros() as usize % WIDE;
+                objects &= objects - 1;
+                if visit(two[k].children[slot]) {
+                    return true;
+                }
+            }
+        }
+        for k in 0..2 {
+            let (node, met) = (two[k], met[k] & u32::from(two[k].inner));
+            waiting.make_room();
+            let ([a, b], mut rest) = first_two(met);
+            waiting.push([node.children[a] & !INNER, node.children[b] & !INNER], met.count_ones());
+            while rest != 0 {
+                let slot = rest.trailing_zeros() as usize % WIDE;
+                rest &= rest - 1;
+                waiting.push([node.children[slot] & !INNER, 0], 1);
+            }
+        }
+        next = waiting.pop();
+    }
+    false
 }

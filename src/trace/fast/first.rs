@@ -18,7 +18,7 @@ use super::memory::TileMemory;
 use super::nearest::{Nearest, Offer};
 use super::slices::{Slices, slices};
 use super::thin::{Passing, Thin};
-use super::walk::{asking, bounds_between, passing, push_nearest_last};
+use super::walk::{asking, bounds_between, push_nearest_last};
 
 /// The most objects that the bundles of a tile are asked about, one after the other. So many take about a tenth of the
 /// time that the tile's rays take one by one: where a dot holds many objects, rays have no company.
@@ -71,6 +71,7 @@ impl Fast<'_> {
                 let Some(Child::Object(object)) = node.child(slot) else { continue };
                 let (lo, hi) = node.corners(slot);
                 let met = memory.fan.meets(simd, lo, hi);
+                let sides = (DVec3::from_array(lo), DVec3::from_array(hi));
                 let mut left = met.frustums;
                 while left != 0 {
                     let k = left.trailing_zeros() as usize;
@@ -80,7 +81,10 @@ impl Fast<'_> {
                     if !behind {
                         asked += 1;
                         let (bundle, nearest) = (&bundles[k], &mut nearest[k]);
-                        if self.object_of_bundle(simd, object, bundle, nearest, memory, k) {
+                        let passing = memory.thin[k].passing(simd, sides, self.slack, bundle.live);
+                        if passing.rays != 0
+                            && self.object_of_bundle(simd, object, &passing, bundle, nearest, memory, k)
+                        {
                             memory.far[k] = nearest.farthest(simd, bundle);
                             memory.thin[k].look(
                                 #[inline(always)]
@@ -105,6 +109,7 @@ impl Fast<'_> {
         &self,
         simd: S,
         object: u32,
+        passing: &Passing,
         bundle: &Bundle,
         nearest: &mut Nearest,
         memory: &mut TileMemory,
@@ -120,21 +125,22 @@ impl Fast<'_> {
                     let thin = &memory.thin[k];
                     return simd.vectorize(
                         #[inline(always)]
-                        || ball_of_bundle(simd, (ball, form), thin, bundle, nearest, [object, *index]),
+                        || {
+                            let near = thin.near(simd, ball.center, ball.radius, passing.rays);
+                            ball_of_bundle(simd, (ball, form), near, bundle, nearest, [object, *index]);
+                            near != 0
+                        },
                     );
                 }
-                let wanted = asking(simd, &mut memory.thin[k], form, &own.bounds, self.slack, bundle.live);
-                if wanted != 0 {
-                    single(simd, form, (bundle, wanted), nearest, [object, *index]);
-                }
-                wanted != 0
+                single(simd, form, (bundle, passing.rays), nearest, [object, *index]);
+                true
             }
             Body::Surface(index) => {
                 memory.counts.primitive_tests += 1;
                 let primitive = &primitives[*index as usize];
                 let TileMemory { thin, sheared, found, .. } = memory;
-                let (thin, sheared) = (&mut thin[k], &mut sheared[k]);
-                let wanted = asking(simd, thin, &primitive.form, &own.bounds, self.slack, bundle.live);
+                let sheared = &mut sheared[k];
+                let wanted = asking(simd, &thin[k], &primitive.form, self.slack, passing.rays);
                 if wanted == 0 {
                     return false;
                 }
@@ -145,12 +151,8 @@ impl Fast<'_> {
                 found.any != 0
             }
             Body::Composite { whole, .. } => {
-                let passing = passing(simd, &mut memory.thin[k], &own.bounds, self.slack, bundle.live);
-                if passing.rays == 0 {
-                    return false;
-                }
                 let to = memory.far[k] + self.slack;
-                let passing = Passing { to: passing.to.min(to), ..passing };
+                let passing = Passing { to: passing.to.min(to), ..*passing };
                 self.composite(simd, (object, Flat::from(&**whole)), bundle, &passing, nearest, memory);
                 true
             }
@@ -176,20 +178,16 @@ impl Fast<'_> {
     }
 }
 
-/// The first hits of a bundle with a ball. Answers whether any ray came near it.
+/// The first hits of the rays of a bundle that are near a ball.
 #[inline(always)]
 fn ball_of_bundle<S: Simd>(
     simd: S,
     (ball, form): (&Ball, &Form),
-    thin: &Thin,
+    near: u64,
     bundle: &Bundle,
     nearest: &mut Nearest,
     [object, index]: [u32; 2],
-) -> bool {
-    let near = thin.near(simd, ball.center, ball.radius);
-    if near == 0 {
-        return false;
-    }
+) {
     let no = mask64x8::splat(simd, false);
     let zero = f64x8::splat(simd, 0.0);
     let primitive = f64x8::splat(simd, f64::from(index));
@@ -212,7 +210,6 @@ fn ball_of_bundle<S: Simd>(
         };
         nearest.offer(simd, row, &met);
     }
-    true
 }
 
 /// The frustum of a block of rays from the eye: that of its corners, where all start in the eye itself.

@@ -17,7 +17,7 @@ use super::Fast;
 use super::memory::TileMemory;
 use super::slices::{Slices, slices};
 use super::thin::{Passing, Thin};
-use super::walk::{asking, bounds_between, passing, push_nearest_last};
+use super::walk::{asking, bounds_between, push_nearest_last};
 
 /// The most objects that the shafts of a tile are asked about, one after the other: as for rays from the eye, but rays
 /// towards a light take less time one by one, and there are more objects that they pass.
@@ -160,13 +160,18 @@ impl Fast<'_> {
                 objects &= objects - 1;
                 let Some(Child::Object(object)) = node.child(slot) else { continue };
                 let (lo, hi) = node.corners(slot);
+                let sides = (DVec3::from_array(lo), DVec3::from_array(hi));
                 let mut left = memory.fan.meets(simd, lo, hi).frustums & open;
                 while left != 0 {
                     let k = left.trailing_zeros() as usize;
                     left &= left - 1;
                     asked += 1;
+                    let passing = memory.thin[k].passing(simd, sides, self.slack, shafts[k].open());
+                    if passing.rays == 0 {
+                        continue;
+                    }
                     let before = shafts[k].blocked;
-                    self.object_in_shaft(simd, object, &mut shafts[k], &departures[k], memory, k);
+                    self.object_in_shaft(simd, object, &passing, &mut shafts[k], &departures[k], memory, k);
                     if let Some(&clear) = lamp.clear.get(object as usize) {
                         let shaft = &mut shafts[k];
                         let met = shaft.blocked & !before;
@@ -197,15 +202,11 @@ impl Fast<'_> {
         &self,
         simd: S,
         (ball, form): (&Ball, &Form),
-        thin: &Thin,
+        near: u64,
         shaft: &mut Shaft,
         departures: &Departures,
         index: u32,
     ) {
-        let near = thin.near(simd, ball.center, ball.radius) & shaft.open();
-        if near == 0 {
-            return;
-        }
         let near = near & !departures.leaving(simd, index);
         let error = ball.most_error();
         let start = f64x8::splat(simd, error * (1.0 + self.assembly.off / ball.off()));
@@ -243,6 +244,7 @@ impl Fast<'_> {
         &self,
         simd: S,
         object: u32,
+        passing: &Passing,
         shaft: &mut Shaft,
         departures: &Departures,
         memory: &mut TileMemory,
@@ -258,16 +260,16 @@ impl Fast<'_> {
                     let thin = &memory.thin[k];
                     simd.vectorize(
                         #[inline(always)]
-                        || self.ball_in_shaft(simd, (ball, form), thin, shaft, departures, *index),
+                        || {
+                            let near = thin.near(simd, ball.center, ball.radius, passing.rays);
+                            if near != 0 {
+                                self.ball_in_shaft(simd, (ball, form), near, shaft, departures, *index);
+                            }
+                        },
                     );
                     return;
                 }
-                let thin = &mut memory.thin[k];
-                let wanted = asking(simd, thin, form, &own.bounds, self.slack, shaft.open());
-                if wanted == 0 {
-                    return;
-                }
-                let wanted = wanted & !departures.leaving(simd, *index);
+                let wanted = passing.rays & !departures.leaving(simd, *index);
                 if wanted != 0 {
                     single(simd, form, (shaft, wanted), departures, *index);
                 }
@@ -276,8 +278,8 @@ impl Fast<'_> {
                 memory.counts.primitive_tests += 1;
                 let primitive = &primitives[*index as usize];
                 let TileMemory { thin, sheared, found, .. } = memory;
-                let (thin, sheared) = (&mut thin[k], &mut sheared[k]);
-                let wanted = asking(simd, thin, &primitive.form, &own.bounds, self.slack, shaft.open());
+                let sheared = &mut sheared[k];
+                let wanted = asking(simd, &thin[k], &primitive.form, self.slack, passing.rays);
                 if wanted == 0 {
                     return;
                 }
@@ -289,11 +291,7 @@ impl Fast<'_> {
                 }
             }
             Body::Composite { whole, .. } => {
-                let Passing { rays: open, from, to } =
-                    passing(simd, &mut memory.thin[k], &own.bounds, self.slack, shaft.open());
-                if open == 0 {
-                    return;
-                }
+                let Passing { rays: open, from, to } = *passing;
                 memory.scratch.start();
                 let expression = Flat::from(&**whole);
                 let whole = self.subs.loose(object).map(|loose| (loose, expression));

@@ -17,8 +17,8 @@ use super::Fast;
 use super::memory::TileMemory;
 use super::nearest::{Nearest, Offer};
 use super::slices::{Slices, slices};
-use super::thin::{Passing, Thin};
-use super::walk::{asking, bounds_between, push_nearest_last};
+use super::thin::Thin;
+use super::walk::{asking, bounds_between, push_nearest_last, reach};
 
 /// The most objects that the bundles of a tile are asked about, one after the other. So many take about a tenth of the
 /// time that the tile's rays take one by one: where a dot holds many objects, rays have no company.
@@ -42,9 +42,7 @@ impl Fast<'_> {
         }
         fan.set(beams);
         thin.resize(bundles.len(), Thin::EMPTY);
-        for (thin, bundle) in thin.iter_mut().zip(bundles) {
-            thin.set(simd, bundle);
-        }
+        thin.iter_mut().for_each(Thin::forget);
         memory.forget_sheared(bundles.len());
         let TileMemory { far, stack, .. } = memory;
         far.clear();
@@ -81,9 +79,12 @@ impl Fast<'_> {
                     if !behind {
                         asked += 1;
                         let (bundle, nearest) = (&bundles[k], &mut nearest[k]);
+                        if !memory.thin[k].is_known() {
+                            memory.thin[k].set(simd, bundle);
+                        }
                         let passing = memory.thin[k].passing(simd, sides, self.slack, bundle.live);
-                        if passing.rays != 0
-                            && self.object_of_bundle(simd, object, &passing, bundle, nearest, memory, k)
+                        if passing != 0
+                            && self.object_of_bundle(simd, object, passing, bundle, nearest, memory, k)
                         {
                             memory.far[k] = nearest.farthest(simd, bundle);
                             memory.thin[k].look(
@@ -109,7 +110,7 @@ impl Fast<'_> {
         &self,
         simd: S,
         object: u32,
-        passing: &Passing,
+        passing: u64,
         bundle: &Bundle,
         nearest: &mut Nearest,
         memory: &mut TileMemory,
@@ -126,13 +127,13 @@ impl Fast<'_> {
                     return simd.vectorize(
                         #[inline(always)]
                         || {
-                            let near = thin.near(simd, ball.center, ball.radius, passing.rays);
+                            let near = thin.near(simd, ball.center, ball.radius, passing);
                             ball_of_bundle(simd, (ball, form), near, bundle, nearest, [object, *index]);
                             near != 0
                         },
                     );
                 }
-                single(simd, form, (bundle, passing.rays), nearest, [object, *index]);
+                single(simd, form, (bundle, passing), nearest, [object, *index]);
                 true
             }
             Body::Surface(index) => {
@@ -140,7 +141,7 @@ impl Fast<'_> {
                 let primitive = &primitives[*index as usize];
                 let TileMemory { thin, sheared, found, .. } = memory;
                 let sheared = &mut sheared[k];
-                let wanted = asking(simd, &thin[k], &primitive.form, self.slack, passing.rays);
+                let wanted = asking(simd, &thin[k], &primitive.form, self.slack, passing);
                 if wanted == 0 {
                     return false;
                 }
@@ -151,9 +152,9 @@ impl Fast<'_> {
                 found.any != 0
             }
             Body::Composite { whole, .. } => {
-                let to = memory.far[k] + self.slack;
-                let passing = Passing { to: passing.to.min(to), ..*passing };
-                self.composite(simd, (object, Flat::from(&**whole)), bundle, &passing, nearest, memory);
+                let (from, to) = reach(simd, &memory.thin[k], &own.bounds, self.slack, passing);
+                let way = (passing, from, to.min(memory.far[k] + self.slack));
+                self.composite(simd, (object, Flat::from(&**whole)), bundle, way, nearest, memory);
                 true
             }
         }
@@ -166,11 +167,10 @@ impl Fast<'_> {
         simd: S,
         (object, expression): (u32, Flat),
         bundle: &Bundle,
-        passing: &Passing,
+        (open, from, to): (u64, f64, f64),
         nearest: &mut Nearest,
         memory: &mut TileMemory,
     ) {
-        let Passing { rays: open, from, to } = *passing;
         memory.scratch.start();
         let whole = self.subs.loose(object).map(|loose| (loose, expression));
         let mut slicing = Slicing { fast: self, simd, bundle, object, open, nearest };

@@ -16,8 +16,8 @@ use crate::solid::{
 use super::Fast;
 use super::memory::TileMemory;
 use super::slices::{Slices, slices};
-use super::thin::{Passing, Thin};
-use super::walk::{asking, bounds_between, push_nearest_last};
+use super::thin::Thin;
+use super::walk::{asking, bounds_between, push_nearest_last, reach};
 
 /// The most objects that the shafts of a tile are asked about, one after the other: as for rays from the eye, but rays
 /// towards a light take less time one by one, and there are more objects that they pass.
@@ -132,13 +132,7 @@ impl Fast<'_> {
             return;
         }
         memory.thin.resize(shafts.len(), Thin::EMPTY);
-        for (thin, shaft) in memory.thin.iter_mut().zip(&*shafts) {
-            thin.set(simd, &shaft.rays);
-            thin.look(
-                #[inline(always)]
-                |lane| shaft.distance.0[lane] + self.slack,
-            );
-        }
+        memory.thin.iter_mut().for_each(Thin::forget);
         memory.forget_sheared(shafts.len());
         memory.stack.clear();
         memory.stack.push((f64::NEG_INFINITY, 0));
@@ -166,12 +160,20 @@ impl Fast<'_> {
                     let k = left.trailing_zeros() as usize;
                     left &= left - 1;
                     asked += 1;
-                    let passing = memory.thin[k].passing(simd, sides, self.slack, shafts[k].open());
-                    if passing.rays == 0 {
+                    let shaft = &shafts[k];
+                    if !memory.thin[k].is_known() {
+                        memory.thin[k].set(simd, &shaft.rays);
+                        memory.thin[k].look(
+                            #[inline(always)]
+                            |lane| shaft.distance.0[lane] + self.slack,
+                        );
+                    }
+                    let passing = memory.thin[k].passing(simd, sides, self.slack, shaft.open());
+                    if passing == 0 {
                         continue;
                     }
                     let before = shafts[k].blocked;
-                    self.object_in_shaft(simd, object, &passing, &mut shafts[k], &departures[k], memory, k);
+                    self.object_in_shaft(simd, object, passing, &mut shafts[k], &departures[k], memory, k);
                     if let Some(&clear) = lamp.clear.get(object as usize) {
                         let shaft = &mut shafts[k];
                         let met = shaft.blocked & !before;
@@ -244,7 +246,7 @@ impl Fast<'_> {
         &self,
         simd: S,
         object: u32,
-        passing: &Passing,
+        passing: u64,
         shaft: &mut Shaft,
         departures: &Departures,
         memory: &mut TileMemory,
@@ -261,7 +263,7 @@ impl Fast<'_> {
                     simd.vectorize(
                         #[inline(always)]
                         || {
-                            let near = thin.near(simd, ball.center, ball.radius, passing.rays);
+                            let near = thin.near(simd, ball.center, ball.radius, passing);
                             if near != 0 {
                                 self.ball_in_shaft(simd, (ball, form), near, shaft, departures, *index);
                             }
@@ -269,7 +271,7 @@ impl Fast<'_> {
                     );
                     return;
                 }
-                let wanted = passing.rays & !departures.leaving(simd, *index);
+                let wanted = passing & !departures.leaving(simd, *index);
                 if wanted != 0 {
                     single(simd, form, (shaft, wanted), departures, *index);
                 }
@@ -279,7 +281,7 @@ impl Fast<'_> {
                 let primitive = &primitives[*index as usize];
                 let TileMemory { thin, sheared, found, .. } = memory;
                 let sheared = &mut sheared[k];
-                let wanted = asking(simd, &thin[k], &primitive.form, self.slack, passing.rays);
+                let wanted = asking(simd, &thin[k], &primitive.form, self.slack, passing);
                 if wanted == 0 {
                     return;
                 }
@@ -291,11 +293,11 @@ impl Fast<'_> {
                 }
             }
             Body::Composite { whole, .. } => {
-                let Passing { rays: open, from, to } = *passing;
+                let (from, to) = reach(simd, &memory.thin[k], &own.bounds, self.slack, passing);
                 memory.scratch.start();
                 let expression = Flat::from(&**whole);
                 let whole = self.subs.loose(object).map(|loose| (loose, expression));
-                let mut slicing = Slicing { fast: self, simd, shaft, departures, open };
+                let mut slicing = Slicing { fast: self, simd, shaft, departures, open: passing };
                 slices(self, whole, &mut slicing, expression, (from, to), memory);
             }
         }

@@ -62,17 +62,7 @@ pub struct Thin {
     extent: f64,
     /// The rays that are to be asked in full, whatever they are asked about.
     odd: u64,
-}
-
-/// Rays that may pass a box, and between which distances all of these do.
-#[derive(Clone, Copy, Debug)]
-pub struct Passing {
-    /// A bit for each ray.
-    pub rays: u64,
-    /// No ray enters the box before this.
-    pub from: f64,
-    /// No ray leaves the box behind this.
-    pub to: f64,
+    known: bool,
 }
 
 impl Thin {
@@ -86,12 +76,23 @@ impl Thin {
         base: DVec3::ZERO,
         extent: 0.0,
         odd: 0,
+        known: false,
     };
+
+    /// Whether they have been set since they were forgotten.
+    pub fn is_known(&self) -> bool {
+        self.known
+    }
+
+    /// Forgets them.
+    pub fn forget(&mut self) {
+        self.known = false;
+    }
 
     /// The rays of a closed bundle, which look as far as they can.
     #[inline(always)]
     pub fn set<S: Simd>(&mut self, simd: S, bundle: &Bundle) {
-        (self.extent, self.odd) = (0.0, 0);
+        (self.extent, self.odd, self.known) = (0.0, 0, true);
         self.limit = [f32::INFINITY; BUNDLE];
         for axis in 0..3 {
             let base = bundle.o[axis].0[0];
@@ -105,8 +106,7 @@ impl Thin {
                 let o = row_of(simd, &self.o[axis], row).abs();
                 most = o.simd_gt(most).select(o, most);
             }
-            let most = most.to_array().into_iter().fold(0.0, |most, x| if x > most { x } else { most });
-            self.extent += f64::from(most);
+            self.extent += f64::from(most.reduce_max());
         }
         self.set_lines(simd);
     }
@@ -179,38 +179,59 @@ impl Thin {
     /// Those of some rays that may pass a box, ahead of their starts and no farther than they look; all others do not
     /// come nearer to it than `slack`.
     #[inline(always)]
-    pub fn passing<S: Simd>(&self, simd: S, (lo, hi): (DVec3, DVec3), slack: f64, wanted: u64) -> Passing {
-        let (middle, half) = (0.5 * lo + 0.5 * hi - self.base, 0.5 * hi - 0.5 * lo + slack);
-        let far = (middle.abs() + half).element_sum() + self.extent;
-        let half = half + LOST_OF_SIDE * far;
-        let zero = f32x16::splat(simd, 0.0);
-        let (middle, half) = (splats(simd, middle), splats(simd, half));
+    pub fn passing<S: Simd>(&self, simd: S, sides: (DVec3, DVec3), slack: f64, wanted: u64) -> u64 {
+        let slabs = self.slabs(simd, sides, slack);
         let mut rays = 0;
-        let (mut from, mut to) = (f32x16::splat(simd, f32::INFINITY), zero);
         for row in 0..THIN_ROWS {
-            if (wanted >> (row * WIDTH)) as u16 == 0 {
-                continue;
+            if (wanted >> (row * WIDTH)) as u16 != 0 {
+                let (near, end) = self.through(simd, &slabs, row);
+                rays |= (!near.simd_gt(end)).to_bitmask() << (row * WIDTH);
             }
-            let (mut near, mut end) = (zero, row_of(simd, &self.limit, row));
-            for axis in 0..3 {
-                let inverse = row_of(simd, &self.inverse[axis], row);
-                let t = (middle[axis] - row_of(simd, &self.o[axis], row)) * inverse;
-                let way = half[axis] * inverse.abs();
-                // Of numbers that are none the rays are odd.
-                (near, end) = (near.max(t - way), end.min(t + way));
-            }
+        }
+        (rays | self.odd) & wanted
+    }
+
+    /// Between which distances some rays pass a box, all of them, as far as they look.
+    #[inline(always)]
+    pub fn reach<S: Simd>(&self, simd: S, sides: (DVec3, DVec3), slack: f64, passing: u64) -> (f64, f64) {
+        if self.odd & passing != 0 {
+            return (0.0, f64::INFINITY);
+        }
+        let slabs = self.slabs(simd, sides, slack);
+        let (mut from, mut to) = (f32x16::splat(simd, f32::INFINITY), f32x16::splat(simd, 0.0));
+        for row in 0..THIN_ROWS {
+            let (near, end) = self.through(simd, &slabs, row);
             let beside = near.simd_gt(end);
-            rays |= (!beside).to_bitmask() << (row * WIDTH);
             (from, to) = (from.min(beside.select(from, near)), to.max(beside.select(to, end)));
         }
-        let odd = self.odd & wanted;
-        if odd != 0 {
-            return Passing { rays: rays & wanted | odd, from: 0.0, to: f64::INFINITY };
+        (f64::from(from.reduce_min()), f64::from(to.reduce_max()))
+    }
+
+    /// A box as its middle and half its size, and what is lost of it.
+    #[inline(always)]
+    fn slabs<S: Simd>(&self, simd: S, (lo, hi): (DVec3, DVec3), slack: f64) -> [[f32x16<S>; 3]; 2] {
+        let (middle, half) = (0.5 * lo + 0.5 * hi - self.base, 0.5 * hi - 0.5 * lo + slack);
+        let far = (middle.abs() + half).element_sum() + self.extent;
+        [splats(simd, middle), splats(simd, half + LOST_OF_SIDE * far)]
+    }
+
+    /// Where the rays of a row come into a box, and where they leave it or look no farther: those that miss it the other
+    /// way round. Of rays that are odd that means nothing.
+    #[inline(always)]
+    fn through<S: Simd>(
+        &self,
+        simd: S,
+        [middle, half]: &[[f32x16<S>; 3]; 2],
+        row: usize,
+    ) -> (f32x16<S>, f32x16<S>) {
+        let (mut near, mut end) = (f32x16::splat(simd, 0.0), row_of(simd, &self.limit, row));
+        for axis in 0..3 {
+            let inverse = row_of(simd, &self.inverse[axis], row);
+            let t = (middle[axis] - row_of(simd, &self.o[axis], row)) * inverse;
+            let way = half[axis] * inverse.abs();
+            (near, end) = (near.max(t - way), end.min(t + way));
         }
-        let least =
-            from.to_array().into_iter().fold(f32::INFINITY, |least, x| if x < least { x } else { least });
-        let most = to.to_array().into_iter().fold(0.0, |most, x| if x > most { x } else { most });
-        Passing { rays: rays & wanted, from: f64::from(least), to: f64::from(most) }
+        (near, end)
     }
 
     /// Those of some rays whose lines may come within a bar's radius of its axis, be it as long as it will; all others do

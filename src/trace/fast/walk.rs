@@ -37,6 +37,14 @@ pub fn asking<S: Simd>(simd: S, thin: &Thin, form: &Form, slack: f64, wanted: u6
     )
 }
 
+/// Between which distances some rays of a bundle pass a box, all of them.
+pub fn reach<S: Simd>(simd: S, thin: &Thin, b: &Bounds, slack: f64, passing: u64) -> (f64, f64) {
+    simd.vectorize(
+        #[inline(always)]
+        || thin.reach(simd, (b.lo, b.hi), slack, passing),
+    )
+}
+
 /// The box around the way of all rays of a bundle between two distances.
 pub fn bounds_between<S: Simd>(simd: S, bundle: &Bundle, from: f64, to: f64) -> Bounds {
     simd.vectorize(

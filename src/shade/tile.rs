@@ -5,6 +5,8 @@
 //! more, the light that arrives goes the same way back. Only where a ray must tell two surfaces in one place apart, it goes
 //! its way alone.
 
+use std::ops::Range;
+
 use crate::lattice::FAN;
 use crate::math::{Bundle, Column, Columns, DVec3, LANES, Ray};
 use crate::solid::{Crossing, Departure, Departures, Form};
@@ -123,7 +125,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         meter.at(Stage::Cell);
         let TileShading { trace, waves, .. } = tile;
         let wave = &mut waves[0];
-        self.engine.first_of(&wave.rays, &mut wave.nearest, trace);
+        self.engine.first_of(&wave.rays, None, &mut wave.nearest, trace);
         for k in 0..wave.rays.len() {
             let unsure = std::mem::take(&mut wave.nearest[k].unsure);
             let mut alone = Vec::new();
@@ -151,20 +153,44 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         memory: &mut Memory<Fast<'e>>,
         meter: &mut Meter<impl Probe>,
     ) {
-        let wave = &mut tile.waves[generation];
+        meter.at(Stage::Cell);
+        let TileShading { trace, waves, .. } = tile;
+        let wave = &mut waves[generation];
         wave.bundle_legs();
         wave.make_room();
-        for nearest in &mut wave.nearest {
-            nearest.clear();
-        }
         let kinds = std::mem::take(&mut wave.kinds);
         for kind in &kinds {
+            let mut ask = |wave: &mut Wave<C>, bundles: Range<usize>| {
+                let (rays, from) = (&wave.rays[bundles.clone()], &wave.from[bundles.clone()]);
+                self.engine.first_of(rays, Some(from), &mut wave.nearest[bundles], trace)
+            };
+            let Range { mut start, end } = kind.bundles();
+            // What curved surfaces send on runs apart: the first bundle shows it.
+            let together = start < end && ask(wave, start..start + 1) == 0;
+            start += 1;
+            while start < end {
+                let some = start..(start + FAN).min(end);
+                start = some.end;
+                if together {
+                    ask(wave, some);
+                } else {
+                    for k in some {
+                        wave.nearest[k].clear();
+                        wave.nearest[k].unsure = wave.rays[k].live;
+                    }
+                }
+            }
             for (number, leg) in kind.legs.iter().enumerate() {
                 let at = kind.place(number);
-                let Leg { sent, departure } = leg;
-                let hit = self.engine.next(&sent.ray, *departure, &mut memory.engine, meter);
-                self.take(wave, at, || sent.clone(), hit, memory, meter);
+                if wave.nearest[at.bundle].unsure >> at.lane & 1 == 1 {
+                    let Leg { sent, departure } = leg;
+                    let hit = self.engine.next(&sent.ray, *departure, &mut memory.engine, meter);
+                    self.take(wave, at, || sent.clone(), hit, memory, meter);
+                }
             }
+        }
+        for nearest in &mut wave.nearest {
+            nearest.unsure = 0;
         }
         wave.kinds = kinds;
         for k in 0..wave.rays.len() {

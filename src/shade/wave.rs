@@ -1,5 +1,7 @@
 //! One generation of a tile's rays: those from the eye, or the mirror and Snell rays that the generation before it sends on.
 
+use std::ops::Range;
+
 use crate::math::{BUNDLE, Bundle, Column, Columns, LANES};
 use crate::solid::{Departure, Departures};
 use crate::trace::{Hit, Nearest};
@@ -49,6 +51,8 @@ pub(super) struct Wave<C> {
     pub rays: Vec<Bundle>,
     /// The way from the eye to where each ray starts, in two parts that are to be added to a distance, the second first.
     pub before: Vec<[Column; 2]>,
+    /// The surfaces that they leave; nothing says so of rays from the eye.
+    pub from: Vec<Departures>,
     pub nearest: Vec<Nearest>,
     pub surfaces: Vec<Surfaces>,
     /// The surfaces that were met, for rays that leave them to the sides that these came from.
@@ -65,6 +69,11 @@ pub(super) struct Wave<C> {
 }
 
 impl Legs {
+    /// Their bundles.
+    pub fn bundles(&self) -> Range<usize> {
+        self.first..self.first + self.legs.len().div_ceil(BUNDLE)
+    }
+
     /// The place of a leg.
     pub fn place(&self, leg: usize) -> Place {
         Place { bundle: self.first + leg / BUNDLE, lane: leg % BUNDLE }
@@ -76,6 +85,7 @@ impl<C> Default for Wave<C> {
         Self {
             rays: Vec::new(),
             before: Vec::new(),
+            from: Vec::new(),
             nearest: Vec::new(),
             surfaces: Vec::new(),
             departures: Vec::new(),
@@ -118,18 +128,22 @@ impl<C: Channel> Wave<C> {
     pub fn bundle_legs(&mut self) {
         self.rays.clear();
         self.before.clear();
+        self.from.clear();
         for kind in &mut self.kinds {
             kind.first = self.rays.len();
             for legs in kind.legs.chunks(BUNDLE) {
                 let mut bundle = Bundle::EMPTY;
                 let mut before = [Column::filled(0.0); 2];
+                let mut from = Departures::NONE;
                 for (lane, leg) in legs.iter().enumerate() {
                     bundle.set(lane, &leg.sent.ray);
                     before[0].0[lane] = leg.sent.travelled;
+                    from.set(lane, &leg.departure);
                 }
                 bundle.close();
                 self.rays.push(bundle);
                 self.before.push(before);
+                self.from.push(from);
             }
         }
     }

@@ -41,6 +41,11 @@ impl Sheared {
     /// Of a bundle that was not looked at yet.
     pub const UNKNOWN: Self = Self { main: [0; 3], shear: [Column::filled(0.0), Column::filled(0.0)] };
 
+    /// Another bundle follows.
+    pub fn forget(&mut self) {
+        self.main = [0; 3];
+    }
+
     /// Computes them, where that was not done before.
     #[inline(always)]
     pub(super) fn know<S: Simd>(&mut self, simd: S, bundle: &Bundle) {

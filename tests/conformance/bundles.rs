@@ -44,7 +44,7 @@ impl FastEngine {
             engine.approach(bundle, way);
         }
         let mut nearest = vec![Nearest::NOTHING; bundles.len()];
-        engine.first_of(&bundles, &mut nearest, tile);
+        engine.first_of(&bundles, None, &mut nearest, tile);
         let mut answer = |(place, ray): (usize, &Ray)| {
             let (k, lane) = (place / RAYS, place % RAYS);
             // What the exact engine says of its error holds for the same bits.

@@ -6,10 +6,10 @@
 
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 
-use crate::lattice::{Beam, Child, SLACK, Spread};
+use crate::lattice::{Beam, Child, FAN, SLACK, Spread};
 use crate::math::{Bounds, Bundle, Columns, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
 use crate::solid::{
-    Asked, Ball, Body, Firsts, Flat, Form, Found, Reach, Spans, Starts, first_of_expressions,
+    Asked, Ball, Body, Departures, Firsts, Flat, Form, Found, Reach, Spans, Starts, first_of_expressions,
     firsts_of_spans, firsts_of_surface, with_spans,
 };
 
@@ -17,23 +17,46 @@ use super::Fast;
 use super::memory::TileMemory;
 use super::nearest::{Nearest, Offer};
 use super::slices::{Slices, slices};
-use super::thin::{Passing, Thin};
-use super::walk::{asking, bounds_between, passing, push_nearest_last};
+use super::thin::Thin;
+use super::walk::{asking, bounds_between, push_nearest_last, reach, wide};
 
-/// The most objects that the bundles of a tile are asked about, one after the other. So many take about a tenth of the
-/// time that the tile's rays take one by one: where a dot holds many objects, rays have no company.
-const CROWD: u64 = 1536;
+/// The most objects that a bundle is asked about, for each of its rays, as for shafts: where a dot holds many objects, or
+/// rays run apart, they have no company.
+const CROWD: u32 = 2;
+
+/// A bundle, and the surfaces that its rays leave: none from the eye.
+#[derive(Clone, Copy)]
+struct Outset<'a> {
+    rays: &'a Bundle,
+    departures: Option<&'a Departures>,
+}
+
+impl Outset<'_> {
+    /// The surfaces that the rays of a row start on, as seen from a primitive.
+    #[inline(always)]
+    fn starts<S: Simd>(&self, simd: S, row: usize, primitive: f64x8<S>) -> Starts<f64x8<S>> {
+        let no = mask64x8::splat(simd, false);
+        let Some(departures) = self.departures else { return Starts { here: no, inward: no, off: None } };
+        Starts {
+            here: departures.primitive.load(simd, row).is_equal(primitive),
+            inward: row_of(simd, departures.inward, row),
+            off: Some(departures.off.load(simd, row)),
+        }
+    }
+}
 
 impl Fast<'_> {
-    /// The first hits of the rays of a tile. `nearest` has as many as there are bundles.
+    /// The first hits of the rays of a tile. `nearest` has as many as there are bundles, and so has `departures`, which is
+    /// none for rays from the eye. Answers how many bundles were given up.
     #[inline(always)]
     pub(super) fn first_of_tile<S: Simd>(
         &self,
         simd: S,
         bundles: &[Bundle],
+        departures: Option<&[Departures]>,
         nearest: &mut [Nearest],
         memory: &mut TileMemory,
-    ) {
+    ) -> usize {
         let whole = beam_of_tile(simd, bundles);
         let TileMemory { beams, thin, fan, .. } = memory;
         beams.clear();
@@ -42,9 +65,7 @@ impl Fast<'_> {
         }
         fan.set(beams);
         thin.resize(bundles.len(), Thin::EMPTY);
-        for (thin, bundle) in thin.iter_mut().zip(bundles) {
-            thin.set(simd, bundle);
-        }
+        thin.iter_mut().for_each(Thin::forget);
         memory.forget_sheared(bundles.len());
         let TileMemory { far, stack, .. } = memory;
         far.clear();
@@ -54,7 +75,11 @@ impl Fast<'_> {
         }
         stack.clear();
         stack.push((f64::NEG_INFINITY, 0));
-        let mut asked = 0;
+        let mut given_up = 0;
+        let mut left_to_ask = [0; FAN];
+        for (left, bundle) in left_to_ask.iter_mut().zip(bundles) {
+            *left = CROWD * bundle.live.count_ones();
+        }
         while let Some((near, node)) = memory.stack.pop() {
             let farthest = memory.far.iter().fold(f64::NEG_INFINITY, |most, &far| f64::max(most, far));
             if near > farthest + self.slack {
@@ -71,6 +96,7 @@ impl Fast<'_> {
                 let Some(Child::Object(object)) = node.child(slot) else { continue };
                 let (lo, hi) = node.corners(slot);
                 let met = memory.fan.meets(simd, lo, hi);
+                let sides = (wide(lo), wide(hi));
                 let mut left = met.frustums;
                 while left != 0 {
                     let k = left.trailing_zeros() as usize;
@@ -78,9 +104,22 @@ impl Fast<'_> {
                     // What is not a number is not known to be farther.
                     let behind = f64::from(met.near[k]) > memory.far[k] + self.slack;
                     if !behind {
-                        asked += 1;
                         let (bundle, nearest) = (&bundles[k], &mut nearest[k]);
-                        if self.object_of_bundle(simd, object, bundle, nearest, memory, k) {
+                        let Some(left_to_ask_now) = left_to_ask[k].checked_sub(1) else {
+                            given_up += 1;
+                            nearest.unsure = bundle.live;
+                            memory.far[k] = f64::NEG_INFINITY;
+                            continue;
+                        };
+                        left_to_ask[k] = left_to_ask_now;
+                        let outset = Outset { rays: bundle, departures: departures.map(|all| &all[k]) };
+                        if !memory.thin[k].is_known() {
+                            memory.thin[k].set(simd, bundle);
+                        }
+                        let passing = memory.thin[k].passing(simd, sides, self.slack, bundle.live);
+                        if passing != 0
+                            && self.object_of_bundle(simd, object, passing, outset, nearest, memory, k)
+                        {
                             memory.far[k] = nearest.farthest(simd, bundle);
                             memory.thin[k].look(
                                 #[inline(always)]
@@ -90,14 +129,9 @@ impl Fast<'_> {
                     }
                 }
             }
-            if asked > CROWD {
-                for (found, bundle) in nearest.iter_mut().zip(bundles) {
-                    found.unsure = bundle.live;
-                }
-                return;
-            }
             push_nearest_last(&mut memory.stack, node, &met);
         }
+        given_up
     }
 
     /// The first hits of a bundle with one object. Answers whether any ray came near it.
@@ -105,7 +139,8 @@ impl Fast<'_> {
         &self,
         simd: S,
         object: u32,
-        bundle: &Bundle,
+        passing: u64,
+        outset: Outset,
         nearest: &mut Nearest,
         memory: &mut TileMemory,
         k: usize,
@@ -120,38 +155,41 @@ impl Fast<'_> {
                     let thin = &memory.thin[k];
                     return simd.vectorize(
                         #[inline(always)]
-                        || ball_of_bundle(simd, (ball, form), thin, bundle, nearest, [object, *index]),
+                        || {
+                            let near = thin.near(simd, ball.center, ball.radius, passing);
+                            let start = match outset.departures {
+                                None => 2.0 * ball.most_error(),
+                                Some(_) => ball.most_error() * (1.0 + self.assembly.off / ball.off()),
+                            };
+                            let about = (ball, form, start);
+                            ball_of_bundle(simd, about, near, outset, nearest, [object, *index]);
+                            near != 0
+                        },
                     );
                 }
-                let wanted = asking(simd, &mut memory.thin[k], form, &own.bounds, self.slack, bundle.live);
-                if wanted != 0 {
-                    single(simd, form, (bundle, wanted), nearest, [object, *index]);
-                }
-                wanted != 0
+                single(simd, form, (outset, passing), nearest, [object, *index]);
+                true
             }
             Body::Surface(index) => {
                 memory.counts.primitive_tests += 1;
                 let primitive = &primitives[*index as usize];
                 let TileMemory { thin, sheared, found, .. } = memory;
-                let (thin, sheared) = (&mut thin[k], &mut sheared[k]);
-                let wanted = asking(simd, thin, &primitive.form, &own.bounds, self.slack, bundle.live);
+                let sheared = &mut sheared[k];
+                let wanted = asking(simd, &thin[k], &primitive.form, self.slack, passing);
                 if wanted == 0 {
                     return false;
                 }
-                firsts_of_surface(simd, bundle, wanted, (primitive, *index), None, sheared, found);
+                let Outset { rays, departures } = outset;
+                firsts_of_surface(simd, rays, wanted, (primitive, *index), departures, sheared, found);
                 if found.any != 0 {
                     offer_found(simd, found, object, nearest);
                 }
                 found.any != 0
             }
             Body::Composite { whole, .. } => {
-                let passing = passing(simd, &mut memory.thin[k], &own.bounds, self.slack, bundle.live);
-                if passing.rays == 0 {
-                    return false;
-                }
-                let to = memory.far[k] + self.slack;
-                let passing = Passing { to: passing.to.min(to), ..passing };
-                self.composite(simd, (object, Flat::from(&**whole)), bundle, &passing, nearest, memory);
+                let (from, to) = reach(simd, &memory.thin[k], &own.bounds, self.slack, passing);
+                let way = (passing, from, to.min(memory.far[k] + self.slack));
+                self.composite(simd, (object, Flat::from(&**whole)), outset, way, nearest, memory);
                 true
             }
         }
@@ -163,56 +201,50 @@ impl Fast<'_> {
         &self,
         simd: S,
         (object, expression): (u32, Flat),
-        bundle: &Bundle,
-        passing: &Passing,
+        outset: Outset,
+        (open, from, to): (u64, f64, f64),
         nearest: &mut Nearest,
         memory: &mut TileMemory,
     ) {
-        let Passing { rays: open, from, to } = *passing;
         memory.scratch.start();
         let whole = self.subs.loose(object).map(|loose| (loose, expression));
-        let mut slicing = Slicing { fast: self, simd, bundle, object, open, nearest };
+        let mut slicing = Slicing { fast: self, simd, outset, object, open, nearest };
         slices(self, whole, &mut slicing, expression, (from, to), memory);
     }
 }
 
-/// The first hits of a bundle with a ball. Answers whether any ray came near it.
+/// The first hits of the rays of a bundle that are near a ball. A crossing beyond `start` lies at the start of no ray.
 #[inline(always)]
 fn ball_of_bundle<S: Simd>(
     simd: S,
-    (ball, form): (&Ball, &Form),
-    thin: &Thin,
-    bundle: &Bundle,
+    (ball, form, start): (&Ball, &Form, f64),
+    near: u64,
+    outset: Outset,
     nearest: &mut Nearest,
     [object, index]: [u32; 2],
-) -> bool {
-    let near = thin.near(simd, ball.center, ball.radius);
-    if near == 0 {
-        return false;
-    }
-    let no = mask64x8::splat(simd, false);
-    let zero = f64x8::splat(simd, 0.0);
+) {
+    let yes = mask64x8::splat(simd, true);
+    let surface = f64x8::splat(simd, 0.0);
     let primitive = f64x8::splat(simd, f64::from(index));
-    let start = f64x8::splat(simd, 2.0 * ball.most_error());
+    let start = f64x8::splat(simd, start);
     for row in 0..ROWS {
         if (near >> (row * LANES)) as u8 == 0 {
             continue;
         }
-        let spans = ball.spans(&bundle.load(simd, row));
+        let spans = ball.spans(&outset.rays.load(simd, row));
         if !spans.any.any() {
             continue;
         }
-        let ahead = spans.enter.t.is_above(start);
+        let starts = outset.starts(simd, row, primitive);
+        let ahead = spans.enter.t.is_above(start) & !starts.here;
         let met = if (spans.any & !ahead).any() {
-            let starts = Starts { here: no, inward: no, off: None };
             let Firsts { end, entering, any } = firsts_of_spans(spans, form, &starts);
-            Offer { any, t: end.t, entering, object, primitive, surface: zero }
+            Offer { any, t: end.t, entering, object, primitive, surface }
         } else {
-            Offer { any: spans.any, t: spans.enter.t, entering: !no, object, primitive, surface: zero }
+            Offer { any: spans.any, t: spans.enter.t, entering: yes, object, primitive, surface }
         };
         nearest.offer(simd, row, &met);
     }
-    true
 }
 
 /// The frustum of a block of rays from the eye: that of its corners, where all start in the eye itself.
@@ -252,7 +284,7 @@ fn corners(bundle: &Bundle, lanes: [usize; 4]) -> Option<(DVec3, [DVec3; 4])> {
 struct Slicing<'a, S> {
     fast: &'a Fast<'a>,
     simd: S,
-    bundle: &'a Bundle,
+    outset: Outset<'a>,
     object: u32,
     /// The rays that have not met the object yet.
     open: u64,
@@ -265,17 +297,17 @@ impl<S: Simd> Slices for Slicing<'_, S> {
     }
 
     fn bounds(&self, from: f64, to: f64) -> Bounds {
-        bounds_between(self.simd, self.bundle, from, to)
+        bounds_between(self.simd, self.outset.rays, from, to)
     }
 
     fn ask(&mut self, expression: Flat, (from, to): (f64, f64), memory: &mut TileMemory) {
-        let (simd, bundle) = (self.simd, self.bundle);
+        let (simd, Outset { rays: bundle, departures }) = (self.simd, self.outset);
         let reach = Reach { from: from - SLACK, to: to + SLACK };
         let primitives = &self.fast.assembly.primitives;
         memory.counts.primitive_tests += expression.leaves.len() as u64;
         memory.counts.csg_evaluations += 1;
         let TileMemory { scratch, found, .. } = memory;
-        let asked = Asked { bundle, wanted: self.open, departures: None, reach };
+        let asked = Asked { bundle, wanted: self.open, departures, reach };
         first_of_expressions(simd, &asked, expression, primitives, scratch, found);
         self.nearest.unsure |= found.unsure;
         self.open &= !(found.unsure | found.any);
@@ -312,33 +344,32 @@ fn offer_found<S: Simd>(simd: S, found: &Found, object: u32, nearest: &mut Neare
 fn single<S: Simd>(
     simd: S,
     form: &Form,
-    (bundle, wanted): (&Bundle, u64),
+    (outset, wanted): (Outset, u64),
     nearest: &mut Nearest,
     [object, index]: [u32; 2],
 ) {
     #[inline(always)]
     fn rows<S: Simd>(
         simd: S,
-        (form, bundle, wanted, object, index): (&Form, &Bundle, u64, u32, u32),
+        (form, outset, wanted, object, index): (&Form, Outset, u64, u32, u32),
         nearest: &mut Nearest,
         spans: impl Fn(&Rays<f64x8<S>>) -> Spans<f64x8<S>>,
     ) {
-        let no = mask64x8::splat(simd, false);
-        let starts = Starts { here: no, inward: no, off: None };
+        let primitive = f64x8::splat(simd, f64::from(index));
         for row in 0..ROWS {
             if (wanted >> (row * LANES)) as u8 == 0 {
                 continue;
             }
-            let spans = spans(&bundle.load(simd, row));
+            let spans = spans(&outset.rays.load(simd, row));
             if !spans.any.any() {
                 continue;
             }
+            let starts = outset.starts(simd, row, primitive);
             let Firsts { end, entering, any } = firsts_of_spans(spans, form, &starts);
-            let primitive = f64x8::splat(simd, f64::from(index));
             let met = Offer { any, t: end.t, entering, object, primitive, surface: end.surface };
             nearest.offer(simd, row, &met);
         }
     }
-    let about = (form, bundle, wanted, object, index);
+    let about = (form, outset, wanted, object, index);
     with_spans!(simd, form, rows, about, nearest);
 }

@@ -34,8 +34,8 @@ impl TileMemory {
 
     /// Forgets the planes across the rays of the last tile; this one has so many bundles.
     pub(super) fn forget_sheared(&mut self, bundles: usize) {
-        self.sheared.clear();
         self.sheared.resize(bundles, Sheared::UNKNOWN);
+        self.sheared.iter_mut().for_each(Sheared::forget);
     }
 }
 

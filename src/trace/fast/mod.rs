@@ -63,16 +63,25 @@ impl<'a> Fast<'a> {
         dispatch!(self.level, simd => approached(simd, bundle, ways));
     }
 
-    /// The first hits of a tile of rays from the eye, by bundles that are [closed](Bundle::close). Those that are
-    /// unsure, and those that meet two objects in one place, are to be asked of [`Engine::first`] one by one.
-    pub fn first_of(&self, bundles: &[Bundle], nearest: &mut [Nearest], memory: &mut TileMemory) {
+    /// The first hits of a tile of rays, by bundles that are [closed](Bundle::close), up to [`FAN`](crate::lattice::FAN)
+    /// of them; `departures` are the surfaces that the rays of each leave, none for rays from the eye. Those that are unsure,
+    /// and those that meet two objects in one place, are to be asked of [`Engine::first`] or [`Engine::next`] one by one.
+    /// Answers how many bundles had so many objects between their rays that they were given up.
+    pub fn first_of(
+        &self,
+        bundles: &[Bundle],
+        departures: Option<&[Departures]>,
+        nearest: &mut [Nearest],
+        memory: &mut TileMemory,
+    ) -> usize {
         dispatch!(self.level, simd => {
-            self.first_of_tile(simd, bundles, nearest, memory);
+            let given_up = self.first_of_tile(simd, bundles, departures, nearest, memory);
             for (bundle, found) in bundles.iter().zip(&mut *nearest) {
                 found.doubt(simd, self.slack);
                 found.unsure &= bundle.live;
             }
-        });
+            given_up
+        })
     }
 
     /// Which rays of a tile towards one light are blocked, and which meet something that lets light through; of up to

@@ -97,7 +97,7 @@ impl Nearest {
                 most = self.t.load(simd, row).larger(most);
             }
         }
-        most.to_array().into_iter().fold(f64::NEG_INFINITY, |most, t| if t > most { t } else { most })
+        most.reduce_max()
     }
 }
 

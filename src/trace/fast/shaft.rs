@@ -16,8 +16,8 @@ use crate::solid::{
 use super::Fast;
 use super::memory::TileMemory;
 use super::slices::{Slices, slices};
-use super::thin::{Passing, Thin};
-use super::walk::{asking, bounds_between, passing, push_nearest_last};
+use super::thin::Thin;
+use super::walk::{asking, bounds_between, push_nearest_last, reach, wide};
 
 /// The most objects that a shaft is asked about, for each of its rays: rays that run apart, and have so many objects
 /// between them, take less time one by one.
@@ -145,13 +145,7 @@ impl Fast<'_> {
         }
         let mut given_up = 0;
         memory.thin.resize(shafts.len(), Thin::EMPTY);
-        for (thin, shaft) in memory.thin.iter_mut().zip(&*shafts) {
-            thin.set(simd, &shaft.rays);
-            thin.look(
-                #[inline(always)]
-                |lane| shaft.distance.0[lane] + self.slack,
-            );
-        }
+        memory.thin.iter_mut().for_each(Thin::forget);
         memory.forget_sheared(shafts.len());
         memory.stack.clear();
         memory.stack.push((f64::NEG_INFINITY, 0));
@@ -170,12 +164,34 @@ impl Fast<'_> {
                 objects &= objects - 1;
                 let Some(Child::Object(object)) = node.child(slot) else { continue };
                 let (lo, hi) = node.corners(slot);
+                let sides = (wide(lo), wide(hi));
                 let mut left = memory.fan.meets(simd, lo, hi).frustums & open;
                 while left != 0 {
                     let k = left.trailing_zeros() as usize;
                     left &= left - 1;
+                    let shaft = &shafts[k];
+                    if !memory.thin[k].is_known() {
+                        memory.thin[k].set(simd, &shaft.rays);
+                        memory.thin[k].look(
+                            #[inline(always)]
+                            |lane| shaft.distance.0[lane] + self.slack,
+                        );
+                    }
+                    let passing = memory.thin[k].passing(simd, sides, self.slack, shaft.open());
+                    match left_to_ask[k].checked_sub(1) {
+                        Some(left) => left_to_ask[k] = left,
+                        None => {
+                            given_up += 1;
+                            shafts[k].unsure |= shafts[k].open();
+                            open &= !(1 << k);
+                            continue;
+                        }
+                    }
+                    if passing == 0 {
+                        continue;
+                    }
                     let before = shafts[k].blocked;
-                    self.object_in_shaft(simd, object, &mut shafts[k], &departures[k], memory, k);
+                    self.object_in_shaft(simd, object, passing, &mut shafts[k], &departures[k], memory, k);
                     if let Some(&clear) = lamp.clear.get(object as usize) {
                         let shaft = &mut shafts[k];
                         let met = shaft.blocked & !before;
@@ -188,15 +204,7 @@ impl Fast<'_> {
                             shaft.blocked &= !shaft.unsure;
                         }
                     }
-                    let shaft = &mut shafts[k];
-                    match left_to_ask[k].checked_sub(1) {
-                        Some(left) => left_to_ask[k] = left,
-                        None => {
-                            given_up += usize::from(shaft.open() != 0);
-                            shaft.unsure |= shaft.open();
-                        }
-                    }
-                    if shaft.open() == 0 {
+                    if shafts[k].open() == 0 {
                         open &= !(1 << k);
                     }
                 }
@@ -215,15 +223,11 @@ impl Fast<'_> {
         &self,
         simd: S,
         (ball, form): (&Ball, &Form),
-        thin: &Thin,
+        near: u64,
         shaft: &mut Shaft,
         departures: &Departures,
         index: u32,
     ) {
-        let near = thin.near(simd, ball.center, ball.radius) & shaft.open();
-        if near == 0 {
-            return;
-        }
         let near = near & !departures.leaving(simd, index);
         let error = ball.most_error();
         let start = f64x8::splat(simd, error * (1.0 + self.assembly.off / ball.off()));
@@ -261,6 +265,7 @@ impl Fast<'_> {
         &self,
         simd: S,
         object: u32,
+        passing: u64,
         shaft: &mut Shaft,
         departures: &Departures,
         memory: &mut TileMemory,
@@ -276,16 +281,16 @@ impl Fast<'_> {
                     let thin = &memory.thin[k];
                     simd.vectorize(
                         #[inline(always)]
-                        || self.ball_in_shaft(simd, (ball, form), thin, shaft, departures, *index),
+                        || {
+                            let near = thin.near(simd, ball.center, ball.radius, passing);
+                            if near != 0 {
+                                self.ball_in_shaft(simd, (ball, form), near, shaft, departures, *index);
+                            }
+                        },
                     );
                     return;
                 }
-                let thin = &mut memory.thin[k];
-                let wanted = asking(simd, thin, form, &own.bounds, self.slack, shaft.open());
-                if wanted == 0 {
-                    return;
-                }
-                let wanted = wanted & !departures.leaving(simd, *index);
+                let wanted = passing & !departures.leaving(simd, *index);
                 if wanted != 0 {
                     single(simd, form, (shaft, wanted), departures, *index);
                 }
@@ -294,8 +299,8 @@ impl Fast<'_> {
                 memory.counts.primitive_tests += 1;
                 let primitive = &primitives[*index as usize];
                 let TileMemory { thin, sheared, found, .. } = memory;
-                let (thin, sheared) = (&mut thin[k], &mut sheared[k]);
-                let wanted = asking(simd, thin, &primitive.form, &own.bounds, self.slack, shaft.open());
+                let sheared = &mut sheared[k];
+                let wanted = asking(simd, &thin[k], &primitive.form, self.slack, passing);
                 if wanted == 0 {
                     return;
                 }
@@ -307,15 +312,11 @@ impl Fast<'_> {
                 }
             }
             Body::Composite { whole, .. } => {
-                let Passing { rays: open, from, to } =
-                    passing(simd, &mut memory.thin[k], &own.bounds, self.slack, shaft.open());
-                if open == 0 {
-                    return;
-                }
+                let (from, to) = reach(simd, &memory.thin[k], &own.bounds, self.slack, passing);
                 memory.scratch.start();
                 let expression = Flat::from(&**whole);
                 let whole = self.subs.loose(object).map(|loose| (loose, expression));
-                let mut slicing = Slicing { fast: self, simd, shaft, departures, open };
+                let mut slicing = Slicing { fast: self, simd, shaft, departures, open: passing };
                 slices(self, whole, &mut slicing, expression, (from, to), memory);
             }
         }

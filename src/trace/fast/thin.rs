@@ -5,7 +5,7 @@
 
 use fearless_simd::{Select, Simd, SimdBase, SimdMask, f32x16};
 
-use crate::math::{BUNDLE, Bounds, Bundle, DVec3};
+use crate::math::{BUNDLE, Bundle, DVec3};
 use crate::solid::Bar;
 
 /// Rays in a register.
@@ -52,7 +52,7 @@ const WITHIN: f32 = 64.0;
 pub struct Thin {
     o: [[f32; BUNDLE]; 3],
     d: [[f32; BUNDLE]; 3],
-    /// The inverse of the direction, and the moment `o × d`; where `lines` says so.
+    /// The inverse of the direction, and the moment `o × d`.
     inverse: [[f32; BUNDLE]; 3],
     moment: [[f32; BUNDLE]; 3],
     /// How far each looks.
@@ -62,19 +62,7 @@ pub struct Thin {
     extent: f64,
     /// The rays that are to be asked in full, whatever they are asked about.
     odd: u64,
-    /// Whether `inverse` and `moment` are known.
-    lines: bool,
-}
-
-/// Rays that may pass a box, and between which distances all of these do.
-#[derive(Clone, Copy, Debug)]
-pub struct Passing {
-    /// A bit for each ray.
-    pub rays: u64,
-    /// No ray enters the box before this.
-    pub from: f64,
-    /// No ray leaves the box behind this.
-    pub to: f64,
+    known: bool,
 }
 
 impl Thin {
@@ -88,13 +76,23 @@ impl Thin {
         base: DVec3::ZERO,
         extent: 0.0,
         odd: 0,
-        lines: false,
+        known: false,
     };
+
+    /// Whether they have been set since they were forgotten.
+    pub fn is_known(&self) -> bool {
+        self.known
+    }
+
+    /// Forgets them.
+    pub fn forget(&mut self) {
+        self.known = false;
+    }
 
     /// The rays of a closed bundle, which look as far as they can.
     #[inline(always)]
     pub fn set<S: Simd>(&mut self, simd: S, bundle: &Bundle) {
-        (self.extent, self.odd, self.lines) = (0.0, 0, false);
+        (self.extent, self.odd, self.known) = (0.0, 0, true);
         self.limit = [f32::INFINITY; BUNDLE];
         for axis in 0..3 {
             let base = bundle.o[axis].0[0];
@@ -108,9 +106,9 @@ impl Thin {
                 let o = row_of(simd, &self.o[axis], row).abs();
                 most = o.simd_gt(most).select(o, most);
             }
-            let most = most.to_array().into_iter().fold(0.0, |most, x| if x > most { x } else { most });
-            self.extent += f64::from(most);
+            self.extent += f64::from(most.reduce_max());
         }
+        self.set_lines(simd);
     }
 
     /// The rays look no farther than this, and what is lost of it.
@@ -122,27 +120,19 @@ impl Thin {
         }
     }
 
-    /// Computes what only boxes and bars ask for.
+    /// What only boxes and bars ask for.
     #[inline(always)]
-    fn know_lines<S: Simd>(&mut self, simd: S) {
-        if self.lines {
-            return;
-        }
-        self.lines = true;
+    fn set_lines<S: Simd>(&mut self, simd: S) {
         if !self.base.abs().cmplt(DVec3::splat(f64::from(WITHIN))).all() {
             self.odd = u64::MAX;
         }
         let (one, still) = (f32x16::splat(simd, 1.0), f32x16::splat(simd, STILL));
         let within = f32x16::splat(simd, WITHIN);
         for row in 0..THIN_ROWS {
-            let o = [0, 1, 2].map(
-                #[inline(always)]
-                |axis| row_of(simd, &self.o[axis], row),
-            );
-            let d = [0, 1, 2].map(
-                #[inline(always)]
-                |axis| row_of(simd, &self.d[axis], row),
-            );
+            let [o, d] = [
+                [row_of(simd, &self.o[0], row), row_of(simd, &self.o[1], row), row_of(simd, &self.o[2], row)],
+                [row_of(simd, &self.d[0], row), row_of(simd, &self.d[1], row), row_of(simd, &self.d[2], row)],
+            ];
             for axis in 0..3 {
                 let plain = o[axis].abs().simd_lt(within) & d[axis].abs().simd_lt(within);
                 self.odd |= (!plain).to_bitmask() << (row * WIDTH);
@@ -155,9 +145,9 @@ impl Thin {
         }
     }
 
-    /// The rays whose lines may come within `radius` of a point; all others do not.
+    /// Those of some rays whose lines may come within `radius` of a point; all others do not.
     #[inline(always)]
-    pub fn near<S: Simd>(&self, simd: S, center: DVec3, radius: f64) -> u64 {
+    pub fn near<S: Simd>(&self, simd: S, center: DVec3, radius: f64, wanted: u64) -> u64 {
         let from_base = center - self.base;
         let far = from_base.abs().element_sum() + self.extent;
         let reach = (radius + LOST * far) as f32;
@@ -168,6 +158,9 @@ impl Thin {
         let cz = f32x16::splat(simd, from_base.z as f32);
         let mut rays = 0;
         for row in 0..THIN_ROWS {
+            if (wanted >> (row * WIDTH)) as u16 == 0 {
+                continue;
+            }
             let x = row_of(simd, &self.o[0], row) - cx;
             let y = row_of(simd, &self.o[1], row) - cy;
             let z = row_of(simd, &self.o[2], row) - cz;
@@ -180,59 +173,71 @@ impl Thin {
             let beside = (x * x + y * y + z * z).simd_gt(limit);
             rays |= (!beside).to_bitmask() << (row * WIDTH);
         }
-        rays
+        rays & wanted
     }
 
     /// Those of some rays that may pass a box, ahead of their starts and no farther than they look; all others do not
     /// come nearer to it than `slack`.
     #[inline(always)]
-    pub fn passing<S: Simd>(&mut self, simd: S, b: &Bounds, slack: f64, wanted: u64) -> Passing {
-        self.know_lines(simd);
-        let (middle, half) = (b.center() - self.base, b.half() + slack);
-        let far = (middle.abs() + half).element_sum() + self.extent;
-        let half = half + LOST_OF_SIDE * far;
-        let zero = f32x16::splat(simd, 0.0);
-        let middle = [middle.x, middle.y, middle.z].map(
-            #[inline(always)]
-            |x| f32x16::splat(simd, x as f32),
-        );
-        let half = [half.x, half.y, half.z].map(
-            #[inline(always)]
-            |x| f32x16::splat(simd, x as f32),
-        );
+    pub fn passing<S: Simd>(&self, simd: S, sides: (DVec3, DVec3), slack: f64, wanted: u64) -> u64 {
+        let slabs = self.slabs(simd, sides, slack);
         let mut rays = 0;
-        let (mut from, mut to) = (f32x16::splat(simd, f32::INFINITY), zero);
         for row in 0..THIN_ROWS {
-            if (wanted >> (row * WIDTH)) as u16 == 0 {
-                continue;
+            if (wanted >> (row * WIDTH)) as u16 != 0 {
+                let (near, end) = self.through(simd, &slabs, row);
+                rays |= (!near.simd_gt(end)).to_bitmask() << (row * WIDTH);
             }
-            let (mut near, mut end) = (zero, row_of(simd, &self.limit, row));
-            for axis in 0..3 {
-                let inverse = row_of(simd, &self.inverse[axis], row);
-                let t = (middle[axis] - row_of(simd, &self.o[axis], row)) * inverse;
-                let way = half[axis] * inverse.abs();
-                // Of numbers that are none the rays are odd.
-                (near, end) = (near.max(t - way), end.min(t + way));
-            }
+        }
+        (rays | self.odd) & wanted
+    }
+
+    /// Between which distances some rays pass a box, all of them, as far as they look.
+    #[inline(always)]
+    pub fn reach<S: Simd>(&self, simd: S, sides: (DVec3, DVec3), slack: f64, passing: u64) -> (f64, f64) {
+        if self.odd & passing != 0 {
+            return (0.0, f64::INFINITY);
+        }
+        let slabs = self.slabs(simd, sides, slack);
+        let (mut from, mut to) = (f32x16::splat(simd, f32::INFINITY), f32x16::splat(simd, 0.0));
+        for row in 0..THIN_ROWS {
+            let (near, end) = self.through(simd, &slabs, row);
             let beside = near.simd_gt(end);
-            rays |= (!beside).to_bitmask() << (row * WIDTH);
             (from, to) = (from.min(beside.select(from, near)), to.max(beside.select(to, end)));
         }
-        let odd = self.odd & wanted;
-        if odd != 0 {
-            return Passing { rays: rays & wanted | odd, from: 0.0, to: f64::INFINITY };
+        (f64::from(from.reduce_min()), f64::from(to.reduce_max()))
+    }
+
+    /// A box as its middle and half its size, and what is lost of it.
+    #[inline(always)]
+    fn slabs<S: Simd>(&self, simd: S, (lo, hi): (DVec3, DVec3), slack: f64) -> [[f32x16<S>; 3]; 2] {
+        let (middle, half) = (0.5 * lo + 0.5 * hi - self.base, 0.5 * hi - 0.5 * lo + slack);
+        let far = (middle.abs() + half).element_sum() + self.extent;
+        [splats(simd, middle), splats(simd, half + LOST_OF_SIDE * far)]
+    }
+
+    /// Where the rays of a row come into a box, and where they leave it or look no farther: those that miss it the other
+    /// way round. Of rays that are odd that means nothing.
+    #[inline(always)]
+    fn through<S: Simd>(
+        &self,
+        simd: S,
+        [middle, half]: &[[f32x16<S>; 3]; 2],
+        row: usize,
+    ) -> (f32x16<S>, f32x16<S>) {
+        let (mut near, mut end) = (f32x16::splat(simd, 0.0), row_of(simd, &self.limit, row));
+        for axis in 0..3 {
+            let inverse = row_of(simd, &self.inverse[axis], row);
+            let t = (middle[axis] - row_of(simd, &self.o[axis], row)) * inverse;
+            let way = half[axis] * inverse.abs();
+            (near, end) = (near.max(t - way), end.min(t + way));
         }
-        let least =
-            from.to_array().into_iter().fold(f32::INFINITY, |least, x| if x < least { x } else { least });
-        let most = to.to_array().into_iter().fold(0.0, |most, x| if x > most { x } else { most });
-        Passing { rays: rays & wanted, from: f64::from(least), to: f64::from(most) }
+        (near, end)
     }
 
     /// Those of some rays whose lines may come within a bar's radius of its axis, be it as long as it will; all others do
     /// not.
     #[inline(always)]
-    pub fn beside<S: Simd>(&mut self, simd: S, bar: &Bar, slack: f64, wanted: u64) -> u64 {
-        self.know_lines(simd);
+    pub fn beside<S: Simd>(&self, simd: S, bar: &Bar, slack: f64, wanted: u64) -> u64 {
         let (from_base, along, radius) = (bar.middle - self.base, bar.along, bar.radius + slack);
         // The product of two lines, by their moments, is their distance times the sine of the angle between them.
         let moment = along.cross(from_base);
@@ -242,10 +247,7 @@ impl Thin {
         let up = 1.0 + 8.0 * f32::EPSILON;
         let (square, least) =
             (f32x16::splat(simd, square as f32 * up), f32x16::splat(simd, least as f32 * up));
-        let [ax, ay, az, mx, my, mz] = [along.x, along.y, along.z, moment.x, moment.y, moment.z].map(
-            #[inline(always)]
-            |x| f32x16::splat(simd, x as f32),
-        );
+        let ([ax, ay, az], [mx, my, mz]) = (splats(simd, along), splats(simd, moment));
         let mut rays = 0;
         for row in 0..THIN_ROWS {
             if (wanted >> (row * WIDTH)) as u16 == 0 {
@@ -264,6 +266,12 @@ impl Thin {
         }
         (rays | self.odd) & wanted
     }
+}
+
+/// A vector for sixteen.
+#[inline(always)]
+fn splats<S: Simd>(simd: S, v: DVec3) -> [f32x16<S>; 3] {
+    [f32x16::splat(simd, v.x as f32), f32x16::splat(simd, v.y as f32), f32x16::splat(simd, v.z as f32)]
 }
 
 /// Sixteen of a number of each ray.

@@ -6,7 +6,7 @@ use crate::lattice::{Child, Met, Node, highest, lowest};
 use crate::math::{Bounds, Bundle, DVec3, Number, ROWS};
 use crate::solid::Form;
 
-use super::thin::{Passing, Thin};
+use super::thin::Thin;
 
 /// Puts the nodes among a node's children that were met on the stack, the nearest last.
 #[inline(always)]
@@ -28,26 +28,20 @@ pub fn push_nearest_last<S: Simd>(stack: &mut Vec<(f64, u32)>, node: &Node, met:
     }
 }
 
-/// Those of some rays of a bundle that may meet a form within a box.
-pub fn asking<S: Simd>(simd: S, thin: &mut Thin, form: &Form, b: &Bounds, slack: f64, wanted: u64) -> u64 {
+/// Those of some rays of a bundle that may meet a surface, as far as its own form says.
+pub fn asking<S: Simd>(simd: S, thin: &Thin, form: &Form, slack: f64, wanted: u64) -> u64 {
+    let Form::Tube(tube) = form else { return wanted };
     simd.vectorize(
         #[inline(always)]
-        || {
-            let wanted = if let Form::Tube(tube) = form {
-                thin.beside(simd, &tube.bar(), slack, wanted)
-            } else {
-                wanted
-            };
-            if wanted == 0 { 0 } else { thin.passing(simd, b, slack, wanted).rays }
-        },
+        || thin.beside(simd, &tube.bar(), slack, wanted),
     )
 }
 
-/// Those of some rays of a bundle that may pass a box.
-pub fn passing<S: Simd>(simd: S, thin: &mut Thin, b: &Bounds, slack: f64, wanted: u64) -> Passing {
+/// Between which distances some rays of a bundle pass a box, all of them.
+pub fn reach<S: Simd>(simd: S, thin: &Thin, b: &Bounds, slack: f64, passing: u64) -> (f64, f64) {
     simd.vectorize(
         #[inline(always)]
-        || thin.passing(simd, b, slack, wanted),
+        || thin.reach(simd, (b.lo, b.hi), slack, passing),
     )
 }
 
@@ -78,4 +72,10 @@ pub fn bounds_between<S: Simd>(simd: S, bundle: &Bundle, from: f64, to: f64) -> 
             Bounds::new(DVec3::from_array(lo), DVec3::from_array(hi))
         },
     )
+}
+
+/// A corner of a box in all digits.
+#[inline(always)]
+pub fn wide([x, y, z]: [f32; 3]) -> DVec3 {
+    DVec3::new(f64::from(x), f64::from(y), f64::from(z))
 }

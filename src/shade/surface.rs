@@ -5,7 +5,7 @@ use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::solid::{Assembly, Departure, Form};
 use crate::stage::{Meter, Probe, Stage};
-use crate::trace::{Engine, Hit};
+use crate::trace::{Clarity, Engine, Hit};
 use crate::view::settled;
 
 use super::channel::Channel;
@@ -32,8 +32,10 @@ pub struct Shader<'a, E, C> {
     pub(super) shadows: bool,
     /// Whether light can come through anything.
     pub(super) glass: bool,
-    /// By object: whether light comes through any of its surfaces; empty where it comes through nothing.
-    pub(super) clear: Vec<bool>,
+    /// By object; empty where light comes through nothing.
+    pub(super) clarity: Vec<Clarity>,
+    /// By primitive: the share of light that its material lets through; empty where none does.
+    pub(super) lets_through: Vec<f64>,
     pub(super) generations: u32,
     pub(super) least_weight: f64,
     /// The glass that the eye is in.
@@ -137,11 +139,16 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
             .lamps
             .iter()
             .map(|l| Lamp { at: assembly.datum.inward_near(l.at), light: C::source(l.light) });
-        let clear = |object: u32| {
-            let primitives = assembly.primitives_of(object).into_iter();
-            primitives.map(|p| assembly.material(p).0).any(|m| scene.materials[m as usize].kt > 0.0)
+        let kt = |primitive: u32| scene.materials[assembly.material(primitive).0 as usize].kt;
+        let clarity = |object: u32| {
+            let primitives = assembly.primitives_of(object);
+            match primitives.iter().filter(|&&primitive| kt(primitive) > 0.0).count() {
+                0 => Clarity::Opaque,
+                clear if clear == primitives.len() => Clarity::Clear,
+                _ => Clarity::Mixed,
+            }
         };
-        let objects = if plan.glass { assembly.objects.len() as u32 } else { 0 };
+        let if_glass = |count: usize| if plan.glass { count as u32 } else { 0 };
         let secondary = plan.secondary.as_ref();
         let around_eye = secondary.iter().flat_map(|s| &s.around_eye);
         Self {
@@ -154,7 +161,8 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
             depth: plan.depth,
             shadows: plan.shadows,
             glass: plan.glass,
-            clear: (0..objects).map(clear).collect(),
+            clarity: (0..if_glass(assembly.objects.len())).map(clarity).collect(),
+            lets_through: (0..if_glass(assembly.primitives.len())).map(kt).collect(),
             generations: secondary.map_or(0, |s| s.generations),
             least_weight: secondary.map_or(0.0, |s| s.least_weight),
             around_eye: around_eye.map(|&(object, index)| Filling { object, index }).collect(),

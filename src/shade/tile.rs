@@ -318,7 +318,8 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         }
         if self.shadows {
             meter.at(Stage::Cell);
-            let shone = Shone { at: place, clear: &self.clear };
+            let (clarity, lets_through) = (&self.clarity[..], &self.lets_through[..]);
+            let shone = Shone { at: place, clarity, lets_through };
             let mut ask = |shafts: &mut [Shaft], departures: &[Departures]| {
                 self.engine.blocked_of(shafts, departures, &shone, trace)
             };
@@ -345,10 +346,15 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
             let mut dimmed = false;
             if self.shadows {
                 let blocked = asked & shaft.blocked;
-                let alone = asked & !blocked & (shaft.unsure | shaft.tinted);
+                let alone = asked & !blocked & shaft.unsure;
+                let tinted = asked & !blocked & !alone & shaft.tint.rays;
                 meter.counts.shadow_rays += u64::from((asked & !alone).count_ones());
-                meter.counts.shadow_hits += u64::from(blocked.count_ones());
+                meter.counts.shadow_hits += u64::from((blocked | tinted).count_ones());
                 reached &= !blocked;
+                for at in places(k, tinted) {
+                    lit[k].visible.0[at.lane] = shaft.tint.share.0[at.lane];
+                    dimmed = true;
+                }
                 for at in places(k, alone) {
                     let (ray, distance) = (shaft.rays.ray(at.lane), shaft.distance.0[at.lane]);
                     let visible = self.visibility(&ray, wave.departure(at), distance, memory, meter);

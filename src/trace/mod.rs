@@ -5,7 +5,7 @@ mod exact;
 mod fast;
 
 pub use exact::{Exact, Memory};
-pub use fast::{Fast, Nearest, Shaft, Shone, TileMemory};
+pub use fast::{Clarity, Fast, Nearest, Shaft, Shone, TileMemory, Tint};
 
 use crate::math::{DVec3, Ray};
 use crate::solid::{Crossing, Departure};

@@ -9,7 +9,7 @@ use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 use crate::lattice::{Beam, Child, FAN, SLACK, Spread};
 use crate::math::{Bounds, Bundle, Columns, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
 use crate::solid::{
-    Asked, Ball, Body, Departures, Firsts, Flat, Form, Found, Reach, Spans, Starts, first_of_expressions,
+    Asked, Ball, Body, Departures, Ends, Firsts, Flat, Form, Found, Reach, Spans, Starts, first_of_expressions,
     firsts_of_spans, firsts_of_surface, with_spans,
 };
 
@@ -26,9 +26,9 @@ const CROWD: u32 = 2;
 
 /// A bundle, and the surfaces that its rays leave: none from the eye.
 #[derive(Clone, Copy)]
-struct Outset<'a> {
-    rays: &'a Bundle,
-    departures: Option<&'a Departures>,
+pub(super) struct Outset<'a> {
+    pub rays: &'a Bundle,
+    pub departures: Option<&'a Departures>,
 }
 
 impl Outset<'_> {
@@ -135,7 +135,7 @@ impl Fast<'_> {
     }
 
     /// The first hits of a bundle with one object. Answers whether any ray came near it.
-    fn object_of_bundle<S: Simd>(
+    pub(super) fn object_of_bundle<S: Simd>(
         &self,
         simd: S,
         object: u32,
@@ -239,9 +239,12 @@ fn ball_of_bundle<S: Simd>(
         let ahead = spans.enter.t.is_above(start) & !starts.here;
         let met = if (spans.any & !ahead).any() {
             let Firsts { end, entering, any } = firsts_of_spans(spans, form, &starts);
-            Offer { any, t: end.t, entering, object, primitive, surface }
+            Offer { any, t: end.t, error: end.error, entering, object, primitive, surface }
         } else {
-            Offer { any: spans.any, t: spans.enter.t, entering: yes, object, primitive, surface }
+            {
+                let Ends { t, error, .. } = spans.enter;
+                Offer { any: spans.any, t, error, entering: yes, object, primitive, surface }
+            }
         };
         nearest.offer(simd, row, &met);
     }
@@ -329,6 +332,7 @@ fn offer_found<S: Simd>(simd: S, found: &Found, object: u32, nearest: &mut Neare
                 let met = Offer {
                     any: row_of(simd, found.any, row),
                     t: found.t.load(simd, row),
+                    error: found.error.load(simd, row),
                     entering: row_of(simd, found.entering, row),
                     object,
                     primitive: found.primitive.load(simd, row),
@@ -366,7 +370,8 @@ fn single<S: Simd>(
             }
             let starts = outset.starts(simd, row, primitive);
             let Firsts { end, entering, any } = firsts_of_spans(spans, form, &starts);
-            let met = Offer { any, t: end.t, entering, object, primitive, surface: end.surface };
+            let Ends { t, error, surface } = end;
+            let met = Offer { any, t, error, entering, object, primitive, surface };
             nearest.offer(simd, row, &met);
         }
     }

@@ -4,6 +4,7 @@ use crate::lattice::{Beam, Fan};
 use crate::solid::{BundleScratch, Found, Pruning, Remains, Sheared};
 use crate::stage::Counts;
 
+use super::nearest::Nearest;
 use super::thin::Thin;
 
 /// What tracing a tile needs, used again for every tile.
@@ -20,6 +21,8 @@ pub struct TileMemory {
     pub(super) stack: Vec<(f64, u32)>,
     pub(super) scratch: BundleScratch,
     pub(super) found: Box<Found>,
+    /// What rays meet of one object.
+    pub(super) met: Box<Nearest>,
     pub(super) pruning: Pruning,
     /// Pruned expressions that are not in use.
     pub(super) remains: Vec<Remains>,
@@ -50,6 +53,7 @@ impl Default for TileMemory {
             stack: Vec::new(),
             scratch: BundleScratch::default(),
             found: Box::new(Found::NONE),
+            met: Box::default(),
             pruning: Pruning::default(),
             remains: Vec::new(),
             counts: Counts::default(),

@@ -11,6 +11,7 @@ mod nearest;
 mod shaft;
 mod slices;
 mod thin;
+mod tint;
 mod walk;
 
 use fearless_simd::{Level, Simd, dispatch};
@@ -26,6 +27,7 @@ use super::{Engine, Exact, Hit, Memory};
 pub use memory::TileMemory;
 pub use nearest::Nearest;
 pub use shaft::{Shaft, Shone};
+pub use tint::{Clarity, Tint};
 
 /// The engine for tiles of rays, over an assembly and a hierarchy of its boxes.
 #[derive(Clone, Copy, Debug)]

@@ -11,6 +11,8 @@ use super::super::Hit;
 pub struct Nearest {
     /// Where; infinite where nothing was met.
     pub t: Column,
+    /// How far that may be off.
+    pub error: Column,
     /// Where it met what comes next, another object's surface.
     pub second: Column,
     /// The object, by its index in the assembly.
@@ -25,10 +27,17 @@ pub struct Nearest {
     pub unsure: u64,
 }
 
+impl Default for Nearest {
+    fn default() -> Self {
+        Self::NOTHING
+    }
+}
+
 impl Nearest {
     /// Nothing was met yet.
     pub const NOTHING: Self = Self {
         t: Column::filled(f64::INFINITY),
+        error: Column::filled(0.0),
         second: Column::filled(f64::INFINITY),
         object: Column::filled(0.0),
         primitive: Column::filled(0.0),
@@ -52,6 +61,7 @@ impl Nearest {
             return;
         };
         self.t.0[lane] = hit.t;
+        self.error.0[lane] = hit.error;
         self.object.0[lane] = f64::from(hit.object);
         self.primitive.0[lane] = f64::from(hit.primitive);
         self.surface.0[lane] = f64::from(hit.surface);
@@ -69,6 +79,7 @@ impl Nearest {
             return;
         }
         self.t.put(simd, row, nearer, t);
+        self.error.put(simd, row, nearer, met.error);
         self.object.put(simd, row, nearer, f64x8::splat(simd, f64::from(met.object)));
         self.primitive.put(simd, row, nearer, met.primitive);
         self.surface.put(simd, row, nearer, met.surface);
@@ -108,6 +119,8 @@ pub struct Offer<S: Simd> {
     pub any: mask64x8<S>,
     /// Where.
     pub t: f64x8<S>,
+    /// How far that may be off.
+    pub error: f64x8<S>,
     /// Whether the ray goes into the object there.
     pub entering: mask64x8<S>,
     /// The object.

@@ -17,6 +17,7 @@ use super::Fast;
 use super::memory::TileMemory;
 use super::slices::{Slices, slices};
 use super::thin::Thin;
+use super::tint::{Clarity, Tint};
 use super::walk::{asking, bounds_between, push_nearest_last, reach, wide};
 
 /// The most objects that a shaft is asked about, for each of its rays: rays that run apart, and have so many objects
@@ -35,8 +36,8 @@ pub struct Shaft {
     pub distance: Column,
     /// Which of the rays are blocked.
     pub blocked: u64,
-    /// Which meet an object that lets light through.
-    pub tinted: u64,
+    /// What glass does to the rays that are not blocked.
+    pub tint: Tint,
     /// Which of the blocked started inside of what blocks them.
     pub leaving: u64,
     /// Which are to be asked one by one.
@@ -48,8 +49,10 @@ pub struct Shaft {
 pub struct Shone<'a> {
     /// Where it stands.
     pub at: DVec3,
-    /// By object: whether it lets light through; empty where none does.
-    pub clear: &'a [bool],
+    /// By object; empty where all are opaque.
+    pub clarity: &'a [Clarity],
+    /// By primitive: the share of the light that its material lets through.
+    pub lets_through: &'a [f64],
 }
 
 impl Shaft {
@@ -58,7 +61,7 @@ impl Shaft {
         rays: Bundle::EMPTY,
         distance: Column::filled(0.0),
         blocked: 0,
-        tinted: 0,
+        tint: Tint::NONE,
         leaving: 0,
         unsure: 0,
     };
@@ -66,7 +69,8 @@ impl Shaft {
     /// No ray asks, and nothing is known.
     pub fn clear(&mut self) {
         self.rays.live = 0;
-        (self.blocked, self.tinted, self.leaving, self.unsure) = (0, 0, 0, 0);
+        (self.blocked, self.leaving, self.unsure) = (0, 0, 0);
+        self.tint.clear();
     }
 
     /// All rays that ask are to be asked one by one.
@@ -89,7 +93,7 @@ impl Shaft {
 
     /// The rays that are neither blocked nor unsure.
     #[inline(always)]
-    fn open(&self) -> u64 {
+    pub(super) fn open(&self) -> u64 {
         self.rays.live & !(self.blocked | self.unsure)
     }
 
@@ -147,6 +151,8 @@ impl Fast<'_> {
         memory.thin.resize(shafts.len(), Thin::EMPTY);
         memory.thin.iter_mut().for_each(Thin::forget);
         memory.forget_sheared(shafts.len());
+        memory.far.clear();
+        memory.far.extend(shafts.iter().map(|shaft| shaft.distance.0.iter().copied().fold(0.0, f64::max)));
         memory.stack.clear();
         memory.stack.push((f64::NEG_INFINITY, 0));
         let mut left_to_ask = [0; FAN];
@@ -190,17 +196,17 @@ impl Fast<'_> {
                     if passing == 0 {
                         continue;
                     }
-                    let before = shafts[k].blocked;
-                    self.object_in_shaft(simd, object, passing, &mut shafts[k], &departures[k], memory, k);
-                    if let Some(&clear) = lamp.clear.get(object as usize) {
-                        let shaft = &mut shafts[k];
-                        let met = shaft.blocked & !before;
-                        if clear {
-                            shaft.tinted |= met;
-                            shaft.blocked = before;
-                        } else {
+                    let shaft = &mut shafts[k];
+                    let clarity = lamp.clarity.get(object as usize).copied();
+                    if let Some(clarity @ (Clarity::Clear | Clarity::Mixed)) = clarity {
+                        let about = (&departures[k], lamp);
+                        self.glass_in_shaft(simd, (object, clarity), passing, shaft, about, memory, k);
+                    } else {
+                        let before = shaft.blocked;
+                        self.object_in_shaft(simd, object, passing, shaft, &departures[k], memory, k);
+                        if clarity.is_some() {
                             // Where a ray leaves glass and an opaque solid together, the glass has the say.
-                            shaft.unsure |= met & shaft.leaving;
+                            shaft.unsure |= shaft.blocked & !before & shaft.leaving;
                             shaft.blocked &= !shaft.unsure;
                         }
                     }

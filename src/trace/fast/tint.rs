@@ -1,0 +1,109 @@
+//! Glass between the lit points of a tile and one light.
+//!
+//! A glass object takes its share of the light once, however often a ray crosses its surface, and whatever else is on the
+//! way: so what a ray meets of it first is all there is to know. Where two of them lie in one place, or more than two on one
+//! way, the ray is asked alone.
+
+use fearless_simd::Simd;
+
+use crate::math::Column;
+use crate::solid::Departures;
+
+use super::Fast;
+use super::first::Outset;
+use super::memory::TileMemory;
+use super::shaft::{Shaft, Shone};
+
+/// What glass leaves of the light of a shaft's rays.
+#[derive(Clone, Debug)]
+pub struct Tint {
+    /// Which of the rays meet glass.
+    pub rays: u64,
+    /// What is left of their light.
+    pub share: Column,
+    /// Where they meet the first of it that was found, and how far that may be off.
+    at: Column,
+    error: Column,
+    /// Which meet a second one.
+    again: u64,
+}
+
+/// How an object treats light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Clarity {
+    /// It lets none through.
+    Opaque,
+    /// All of it lets some through.
+    Clear,
+    /// Parts of it do.
+    Mixed,
+}
+
+impl Tint {
+    /// None.
+    pub const NONE: Self = Self {
+        rays: 0,
+        share: Column::filled(1.0),
+        at: Column::filled(0.0),
+        error: Column::filled(0.0),
+        again: 0,
+    };
+
+    /// Forgets all.
+    pub fn clear(&mut self) {
+        (self.rays, self.again) = (0, 0);
+    }
+
+    /// A ray meets glass that leaves so much of its light. Answers whether that is certain.
+    fn add(&mut self, lane: usize, (t, error): (f64, f64), left: f64, slack: f64) -> bool {
+        let bit = 1 << lane;
+        if self.rays & bit == 0 {
+            self.rays |= bit;
+            (self.share.0[lane], self.at.0[lane], self.error.0[lane]) = (left, t, error);
+            return true;
+        }
+        let apart = (t - self.at.0[lane]).abs() > error + self.error.0[lane] + slack;
+        let second = self.again & bit == 0;
+        self.again |= bit;
+        // Of two factors the order does not matter.
+        self.share.0[lane] *= left;
+        apart && second
+    }
+}
+
+impl Fast<'_> {
+    /// Glass in the way of a light.
+    pub(super) fn glass_in_shaft<S: Simd>(
+        &self,
+        simd: S,
+        (object, clarity): (u32, Clarity),
+        passing: u64,
+        shaft: &mut Shaft,
+        (departures, lamp): (&Departures, &Shone),
+        memory: &mut TileMemory,
+        k: usize,
+    ) {
+        let mut met = std::mem::take(&mut memory.met);
+        met.clear();
+        let outset = Outset { rays: &shaft.rays, departures: Some(departures) };
+        self.object_of_bundle(simd, object, passing, outset, &mut met, memory, k);
+        shaft.unsure |= met.unsure & shaft.rays.live;
+        let mut rest = shaft.open();
+        while rest != 0 {
+            let lane = rest.trailing_zeros() as usize;
+            rest &= rest - 1;
+            let (t, error, distance) = (met.t.0[lane], met.error.0[lane], shaft.distance.0[lane]);
+            // Seen from the glass before it, both may be off by as much again.
+            let off = 2.0 * error + self.slack;
+            if t - off > distance {
+                continue;
+            }
+            let left = lamp.lets_through[met.primitive.0[lane] as usize];
+            let certain = clarity == Clarity::Clear && t + off < distance;
+            if !(certain && shaft.tint.add(lane, (t, error), left, self.slack)) {
+                shaft.unsure |= 1 << lane;
+            }
+        }
+        memory.met = met;
+    }
+}

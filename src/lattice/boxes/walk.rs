@@ -83,7 +83,11 @@ impl<S: Simd> Asked<S> {
         // Not by `map`, nor by a closure, which are compiled by themselves, for any processor.
         let [x, y, z] = [inverse(d.x), inverse(d.y), inverse(d.z)];
         Self {
-            o: [f32x8::splat(simd, o.x as f32), f32x8::splat(simd, o.y as f32), f32x8::splat(simd, o.z as f32)],
+            o: [
+                f32x8::splat(simd, o.x as f32),
+                f32x8::splat(simd, o.y as f32),
+                f32x8::splat(simd, o.z as f32),
+            ],
             inverse: [f32x8::splat(simd, x), f32x8::splat(simd, y), f32x8::splat(simd, z)],
             first: [usize::from(d.x < 0.0), usize::from(d.y < 0.0), usize::from(d.z < 0.0)],
             from: f32x8::splat(simd, lower(from)),

@@ -17,7 +17,7 @@ const ROUNDED: f64 = 8.0 * f64::EPSILON * (WORLD + WAY);
 /// What half the digits lose of a dot product with a plane's normal, as a share of what the normal's components add up
 /// to: six products and five sums of rounded numbers, for points within 2.01 of the origin on each axis, and the offset:
 /// 14 roundings of numbers up to 2.01, rounded up to 32 · 2⁻²⁴. A difference with the place of a start, which is within
-/// [`WORLD`], takes 14 · 2⁻²⁴ more; but three products and two sums are all that is there before it.
+/// [`WORLD`], takes 16 · 2⁻²⁴ more; but three products and two sums are all that is there before it.
 const LOST: f64 = 32.0 / 16_777_216.0;
 
 /// The least cosine between a ray and the beam's axis: past 78° off the slopes, and with them the planes, say little.

@@ -43,9 +43,6 @@ pub fn first_of_surface(
                 inward: here.is_some_and(|d| d.inward),
                 off: departure.map(|d| d.off),
             };
-            if tube.is_passed(&Rays::from(ray)) {
-                return None;
-            }
             let first = firsts_of_tube(&Rays::from(ray), tube, &primitive.form, &starts);
             first.any.then(|| crossing(first.end.one(), first.entering))
         }

@@ -75,7 +75,11 @@ impl Tube {
     /// which is steeper than the wall or parallel to it, has only one of them.
     #[inline(always)]
     pub fn crossings<N: Number>(&self, rays: &Rays<N>) -> SideCrossings<N> {
-        let rays = self.space.centred(rays);
+        let rays = self.space.brought(rays);
+        if !self.near(&rays).any() {
+            return SideCrossings::none(rays.o.x);
+        }
+        let rays = self.space.recentred(&rays);
         let near = !rays.pass_by();
         if !near.any() {
             return SideCrossings::none(rays.t);
@@ -91,18 +95,18 @@ impl Tube {
         }
     }
 
-    /// Whether the line of a ray certainly passes the tube at a distance from its axis, which is known without a division.
+    /// Which lines, brought to the unit space, come so near the axis that they may meet the tube: known without a division.
     ///
-    /// Every crossing that [`Tube::crossings`] finds lies between the caps, where the tube is no wider than `widest`, and
-    /// satisfies the tube's equation as near as [`UnitSpace::off`] says: the line comes so near the axis, but for the
-    /// rounding of that distance, which is within the same.
-    #[inline]
-    pub fn is_passed(&self, ray: &Rays<f64>) -> bool {
-        let o = (ray.o - self.space.center).mapped(&self.space.inverse);
-        let d = ray.d.mapped(&self.space.inverse);
+    /// Every crossing that is found lies between the caps, where the tube is no wider than its widest, and satisfies the
+    /// tube's equation as near as [`UnitSpace::off`] says: the line comes so near the axis, but for the rounding of that
+    /// distance, which is within the same.
+    #[inline(always)]
+    fn near<N: Number>(&self, rays: &Rays<N>) -> N::Mask {
+        let Rays { o, d } = *rays;
         let across = d.x * o.y - d.y * o.x;
         let reach = self.taper.widest() * BEYOND + 4.0 * self.space.off.element_sum();
-        across * across > reach * reach * (d.x * d.x + d.y * d.y) + FULL_DIGITS
+        let most = (d.x * d.x + d.y * d.y) * (reach * reach) + FULL_DIGITS;
+        !(across * across).is_above(most)
     }
 
     /// The normals at points of the tube, away from its axis, of length 1.

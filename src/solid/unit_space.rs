@@ -49,9 +49,20 @@ impl UnitSpace {
     /// Rays there.
     #[inline(always)]
     pub fn centred<N: Number>(&self, rays: &Rays<N>) -> Centred<N> {
+        self.recentred(&self.brought(rays))
+    }
+
+    /// Rays there, not re-centred yet.
+    #[inline(always)]
+    pub fn brought<N: Number>(&self, rays: &Rays<N>) -> Rays<N> {
         let from_center = rays.o - self.center;
-        let o = from_center.mapped(&self.inverse);
-        let d = rays.d.mapped(&self.inverse);
+        Rays { o: from_center.mapped(&self.inverse), d: rays.d.mapped(&self.inverse) }
+    }
+
+    /// Rays that were brought there, re-centred.
+    #[inline(always)]
+    pub fn recentred<N: Number>(&self, rays: &Rays<N>) -> Centred<N> {
+        let Rays { o, d } = *rays;
         let d_squared = d.length_squared();
         let first = -o.dot(d) / d_squared;
         let o = o + d * first;

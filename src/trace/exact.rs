@@ -118,33 +118,28 @@ impl<'a> Exact<'a> {
                 first_of_span(ray, primitive, index, departure, meter)
             };
         }
-        match &self.assembly.objects[object as usize].body {
-            Body::Single(_) | Body::Surface(_) => None,
-            Body::Composite { whole, .. } => {
-                let primitives = &self.assembly.primitives;
-                let scratch = &mut memory.scratch;
-                match self.structure.sub(object) {
-                    None => {
-                        let reach = Reach { from: 0.0, to };
-                        first_of_expression(ray, whole, primitives, departure, reach, scratch, meter)
+        let Body::Composite { whole, .. } = &self.assembly.objects[object as usize].body else { return None };
+        let primitives = &self.assembly.primitives;
+        let scratch = &mut memory.scratch;
+        match self.structure.sub(object) {
+            None => {
+                let reach = Reach { from: 0.0, to };
+                first_of_expression(ray, whole, primitives, departure, reach, scratch, meter)
+            }
+            Some(sub) => {
+                meter.at(Stage::Cell);
+                let mut visited = 0;
+                let found = sub.walk(ray, &mut visited, |part, step| {
+                    if step.from > to {
+                        return ControlFlow::Break(None);
                     }
-                    Some(sub) => {
-                        meter.at(Stage::Cell);
-                        let mut visited = 0;
-                        let found = sub.walk(ray, &mut visited, |part, step| {
-                            if step.from > to {
-                                return ControlFlow::Break(None);
-                            }
-                            let reach = Reach { from: step.from - SLACK, to: step.to + SLACK };
-                            let found =
-                                first_of_expression(ray, part, primitives, departure, reach, scratch, meter);
-                            meter.at(Stage::Cell);
-                            found.map_or(ControlFlow::Continue(()), |c| ControlFlow::Break(Some(c)))
-                        });
-                        meter.counts.cells_visited += visited;
-                        found.flatten()
-                    }
-                }
+                    let reach = Reach { from: step.from - SLACK, to: step.to + SLACK };
+                    let found = first_of_expression(ray, part, primitives, departure, reach, scratch, meter);
+                    meter.at(Stage::Cell);
+                    found.map_or(ControlFlow::Continue(()), |c| ControlFlow::Break(Some(c)))
+                });
+                meter.counts.cells_visited += visited;
+                found.flatten()
             }
         }
     }

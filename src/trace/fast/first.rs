@@ -17,7 +17,7 @@ use super::Fast;
 use super::memory::TileMemory;
 use super::nearest::{Nearest, Offer};
 use super::slices::{Slices, slices};
-use super::thin::Thin;
+use super::thin::{Slabs, Thin};
 use super::walk::{asking, bounds_between, push_nearest_last, reach};
 
 /// The most objects that the bundles of a tile are asked about, one after the other. So many take about a tenth of the
@@ -69,7 +69,7 @@ impl Fast<'_> {
                 let Some(Child::Object(object)) = node.child(slot) else { continue };
                 let (lo, hi) = node.corners(slot);
                 let met = memory.fan.meets(simd, lo, hi);
-                let sides = (DVec3::from_array(lo), DVec3::from_array(hi));
+                let slabs = Slabs::around(simd, DVec3::from_array(lo), DVec3::from_array(hi), self.slack);
                 let mut left = met.frustums;
                 while left != 0 {
                     let k = left.trailing_zeros() as usize;
@@ -82,7 +82,7 @@ impl Fast<'_> {
                         if !memory.thin[k].is_known() {
                             memory.thin[k].set(simd, bundle);
                         }
-                        let passing = memory.thin[k].passing(simd, sides, self.slack, bundle.live);
+                        let passing = memory.thin[k].passing(simd, &slabs, bundle.live);
                         if passing != 0
                             && self.object_of_bundle(simd, object, passing, bundle, nearest, memory, k)
                         {

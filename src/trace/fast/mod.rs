@@ -5,6 +5,7 @@
 //! place or a solid that is not convex, the exact engine is asked for that ray; and so are rays that have no
 //! company.
 
+mod company;
 mod first;
 mod memory;
 mod nearest;
@@ -81,6 +82,24 @@ impl<'a> Fast<'a> {
     /// Which rays of a tile towards one light are blocked, and which meet something that lets light through. Those that are unsure are to be asked of
     /// [`Engine::blocked`] one by one.
     pub fn blocked_of(
+        &self,
+        shafts: &mut [Shaft],
+        departures: &[Departures],
+        lamp: &Shone,
+        memory: &mut TileMemory,
+    ) {
+        let mut company = std::mem::take(&mut memory.company);
+        if dispatch!(self.level, simd => company.would_help(simd, shafts, lamp.at)) {
+            company.gather(shafts, departures);
+            self.blocked_in_company(&mut company.shafts, &company.departures, lamp, memory);
+            company.scatter(shafts);
+        } else {
+            self.blocked_in_company(shafts, departures, lamp, memory);
+        }
+        memory.company = company;
+    }
+
+    fn blocked_in_company(
         &self,
         shafts: &mut [Shaft],
         departures: &[Departures],

@@ -16,7 +16,7 @@ use crate::solid::{
 use super::Fast;
 use super::memory::TileMemory;
 use super::slices::{Slices, slices};
-use super::thin::Thin;
+use super::thin::{Slabs, Thin};
 use super::walk::{asking, bounds_between, push_nearest_last, reach};
 
 /// The most objects that the shafts of a tile are asked about, one after the other: as for rays from the eye, but rays
@@ -154,7 +154,7 @@ impl Fast<'_> {
                 objects &= objects - 1;
                 let Some(Child::Object(object)) = node.child(slot) else { continue };
                 let (lo, hi) = node.corners(slot);
-                let sides = (DVec3::from_array(lo), DVec3::from_array(hi));
+                let slabs = Slabs::around(simd, DVec3::from_array(lo), DVec3::from_array(hi), self.slack);
                 let mut left = memory.fan.meets(simd, lo, hi).frustums & open;
                 while left != 0 {
                     let k = left.trailing_zeros() as usize;
@@ -168,7 +168,7 @@ impl Fast<'_> {
                             |lane| shaft.distance.0[lane] + self.slack,
                         );
                     }
-                    let passing = memory.thin[k].passing(simd, sides, self.slack, shaft.open());
+                    let passing = memory.thin[k].passing(simd, &slabs, shaft.open());
                     if passing == 0 {
                         continue;
                     }

@@ -84,7 +84,7 @@ impl Fast<'_> {
                         }
                         let passing = memory.thin[k].passing(simd, &slabs, bundle.live);
                         if passing != 0
-                            && self.object_of_bundle(simd, object, passing, bundle, nearest, memory, k)
+                            && self.object_of_bundle(simd, (object, passing), bundle, nearest, memory, k)
                         {
                             memory.far[k] = nearest.farthest(simd, bundle);
                             memory.thin[k].look(
@@ -105,12 +105,11 @@ impl Fast<'_> {
         }
     }
 
-    /// The first hits of a bundle with one object. Answers whether any ray came near it.
+    /// The first hits of a bundle with one object, whose box some of its rays may pass. Answers whether any ray came near it.
     fn object_of_bundle<S: Simd>(
         &self,
         simd: S,
-        object: u32,
-        passing: u64,
+        (object, passing): (u32, u64),
         bundle: &Bundle,
         nearest: &mut Nearest,
         memory: &mut TileMemory,

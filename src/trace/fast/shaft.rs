@@ -173,7 +173,7 @@ impl Fast<'_> {
                         continue;
                     }
                     let before = shafts[k].blocked;
-                    self.object_in_shaft(simd, object, passing, &mut shafts[k], &departures[k], memory, k);
+                    self.object_in_shaft(simd, (object, passing), &mut shafts[k], &departures[k], memory, k);
                     if let Some(&clear) = lamp.clear.get(object as usize) {
                         let shaft = &mut shafts[k];
                         let met = shaft.blocked & !before;
@@ -245,8 +245,7 @@ impl Fast<'_> {
     fn object_in_shaft<S: Simd>(
         &self,
         simd: S,
-        object: u32,
-        passing: u64,
+        (object, passing): (u32, u64),
         shaft: &mut Shaft,
         departures: &Departures,
         memory: &mut TileMemory,

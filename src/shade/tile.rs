@@ -9,7 +9,7 @@ use std::ops::Range;
 
 use crate::lattice::FAN;
 use crate::math::{Bundle, Column, Columns, DVec3, LANES, Ray};
-use crate::solid::{Crossing, Departure, Departures, Form};
+use crate::solid::{Crossing, Departure, Form};
 use crate::stage::{Meter, Probe, Stage};
 use crate::trace::{Engine, Fast, Hit, Shaft, Shone, TileMemory};
 
@@ -23,6 +23,10 @@ use super::wave::{Arrival, Leg, Legs, Place, Wave};
 
 /// So few rays that are sent on take less time one by one than a bundle of them does.
 const FEW_LEGS: usize = 6;
+
+/// The most rays that a generation is let grow to, 16 times as many as a tile has dots: at each glass surface there may be
+/// two for one. Those past it go alone.
+const MOST_LEGS: usize = 16 * 1024;
 
 /// What shading a tile needs, used again for every tile.
 #[derive(Debug)]
@@ -320,23 +324,12 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
             meter.at(Stage::Cell);
             let (clarity, lets_through) = (&self.clarity[..], &self.lets_through[..]);
             let shone = Shone { at: place, clarity, lets_through };
-            let mut ask = |shafts: &mut [Shaft], departures: &[Departures]| {
-                self.engine.blocked_of(shafts, departures, &shone, trace)
-            };
-            // What was sent on by curved surfaces runs apart: one shaft shows it.
-            if generation > 0 && lamp == 0 {
-                let fullest = (0..count).max_by_key(|&k| shafts[k].rays.live.count_ones()).unwrap_or(0);
-                let probe = fullest..fullest + 1;
-                wave.apart = ask(&mut shafts[probe.clone()], &wave.departures[probe]) > 0;
-            }
             if wave.apart {
                 shafts.iter_mut().for_each(Shaft::give_up);
             } else {
-                let mut given_up = 0;
-                for (shafts, departures) in shafts.chunks_mut(FAN).zip(wave.departures.chunks(FAN)) {
-                    given_up += ask(shafts, departures);
-                }
-                wave.apart = generation > 0 && 2 * given_up > count;
+                // What curved surfaces send on mostly runs apart, towards one lamp as towards another.
+                wave.apart =
+                    self.engine.blocked_of(shafts, &wave.departures, &shone, trace) && generation > 0;
             }
             meter.at(Stage::Shade);
         }
@@ -421,7 +414,11 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
             let sends = |finish: &Finish<C>| (finish.kr > 0.0 || finish.kt > 0.0) && !unfollowed(finish);
             let senders = self.made_so(&wave.surfaces[k], sends);
             for at in places(k, senders) {
-                self.send_on(generation, wave, at, inside, next, &mut memory.media, meter);
+                if next.legs() < MOST_LEGS {
+                    self.send_on(generation, wave, at, inside, next, &mut memory.media, meter);
+                } else {
+                    self.send_alone(generation, wave, at, inside, memory, meter);
+                }
             }
         }
         if next.legs() > FEW_LEGS {
@@ -440,6 +437,31 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
             }
         }
         false
+    }
+
+    /// The light of one surface, with all that it sends on.
+    fn send_alone(
+        &self,
+        generation: usize,
+        wave: &mut Wave<C>,
+        at: Place,
+        inside: &List,
+        memory: &mut Memory<Fast<'e>>,
+        meter: &mut Meter<impl Probe>,
+    ) {
+        let met = wave.met(at);
+        let Hit { t, error, object, primitive, surface, entering, .. } = met.hit;
+        let (weight, inside) = match wave.leg(at) {
+            None => (1.0, inside.clone()),
+            Some(Leg { sent, .. }) => (sent.weight, sent.inside.clone()),
+        };
+        let together = [(object, Crossing { t, error, primitive, surface, entering })];
+        let change = self.change_at(&inside, &together, &mut memory.media);
+        // The whole way is counted as that of this ray.
+        let ray = wave.rays[at.bundle].ray(at.lane);
+        let sent = Sent { ray, travelled: 0.0, weight, generation: generation as u32, inside };
+        let light = self.sending_surface(&sent, &met, &change, wave.light(at), memory, meter);
+        wave.set_light(at, light);
     }
 
     /// Sends on what one surface does.

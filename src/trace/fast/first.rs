@@ -9,15 +9,15 @@ use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 use crate::lattice::{Beam, Child, FAN, SLACK, Spread};
 use crate::math::{Bounds, Bundle, Columns, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
 use crate::solid::{
-    Asked, Ball, Body, Departures, Ends, Firsts, Flat, Form, Found, Reach, Spans, Starts, first_of_expressions,
-    firsts_of_spans, firsts_of_surface, with_spans,
+    Asked, Ball, Body, Departures, Ends, Firsts, Flat, Form, Found, Reach, Spans, Starts,
+    first_of_expressions, firsts_of_spans, firsts_of_surface, with_spans,
 };
 
 use super::Fast;
 use super::memory::TileMemory;
 use super::nearest::{Nearest, Offer};
 use super::slices::{Slices, slices};
-use super::thin::Thin;
+use super::thin::{Slabs, Thin};
 use super::walk::{asking, bounds_between, push_nearest_last, reach, wide};
 
 /// The most objects that a bundle is asked about, for each of its rays, as for shafts: where a dot holds many objects, or
@@ -96,7 +96,7 @@ impl Fast<'_> {
                 let Some(Child::Object(object)) = node.child(slot) else { continue };
                 let (lo, hi) = node.corners(slot);
                 let met = memory.fan.meets(simd, lo, hi);
-                let sides = (wide(lo), wide(hi));
+                let slabs = Slabs::around(simd, wide(lo), wide(hi), self.slack);
                 let mut left = met.frustums;
                 while left != 0 {
                     let k = left.trailing_zeros() as usize;
@@ -116,9 +116,9 @@ impl Fast<'_> {
                         if !memory.thin[k].is_known() {
                             memory.thin[k].set(simd, bundle);
                         }
-                        let passing = memory.thin[k].passing(simd, sides, self.slack, bundle.live);
+                        let passing = memory.thin[k].passing(simd, &slabs, bundle.live);
                         if passing != 0
-                            && self.object_of_bundle(simd, object, passing, outset, nearest, memory, k)
+                            && self.object_of_bundle(simd, (object, passing), outset, nearest, memory, k)
                         {
                             memory.far[k] = nearest.farthest(simd, bundle);
                             memory.thin[k].look(
@@ -134,12 +134,11 @@ impl Fast<'_> {
         given_up
     }
 
-    /// The first hits of a bundle with one object. Answers whether any ray came near it.
+    /// The first hits of a bundle with one object, whose box some of its rays may pass. Answers whether any ray came near it.
     pub(super) fn object_of_bundle<S: Simd>(
         &self,
         simd: S,
-        object: u32,
-        passing: u64,
+        (object, passing): (u32, u64),
         outset: Outset,
         nearest: &mut Nearest,
         memory: &mut TileMemory,

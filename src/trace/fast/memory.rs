@@ -4,6 +4,7 @@ use crate::lattice::{Beam, Fan};
 use crate::solid::{BundleScratch, Found, Pruning, Remains, Sheared};
 use crate::stage::Counts;
 
+use super::company::Company;
 use super::nearest::Nearest;
 use super::thin::Thin;
 
@@ -15,6 +16,7 @@ pub struct TileMemory {
     pub(super) far: Vec<f64>,
     pub(super) thin: Vec<Thin>,
     pub(super) fan: Fan,
+    pub(super) company: Company,
     /// By bundle: the planes across its rays, where they were asked for.
     pub(super) sheared: Vec<Sheared>,
     /// Nodes to be walked, and how near they are at least.
@@ -49,6 +51,7 @@ impl Default for TileMemory {
             far: Vec::new(),
             thin: Vec::new(),
             fan: Fan::default(),
+            company: Company::default(),
             sheared: Vec::new(),
             stack: Vec::new(),
             scratch: BundleScratch::default(),

@@ -5,6 +5,7 @@
 //! place or a solid that is not convex, the exact engine is asked for that ray; and so are rays that have no
 //! company.
 
+mod company;
 mod first;
 mod memory;
 mod nearest;
@@ -16,7 +17,7 @@ mod walk;
 
 use fearless_simd::{Level, Simd, dispatch};
 
-use crate::lattice::{Boxes, Structure, SubLattices, slack};
+use crate::lattice::{Boxes, FAN, Structure, SubLattices, slack};
 use crate::math::{Bundle, Column, Columns, ROWS, Ray};
 use crate::solid::{Assembly, Crossing, Departure, Departures};
 use crate::stage::{Meter, Probe};
@@ -65,7 +66,7 @@ impl<'a> Fast<'a> {
         dispatch!(self.level, simd => approached(simd, bundle, ways));
     }
 
-    /// The first hits of a tile of rays, by bundles that are [closed](Bundle::close), up to [`FAN`](crate::lattice::FAN)
+    /// The first hits of a tile of rays, by bundles that are [closed](Bundle::close), up to [`FAN`]
     /// of them; `departures` are the surfaces that the rays of each leave, none for rays from the eye. Those that are unsure,
     /// and those that meet two objects in one place, are to be asked of [`Engine::first`] or [`Engine::next`] one by one.
     /// Answers how many bundles had so many objects between their rays that they were given up.
@@ -86,17 +87,49 @@ impl<'a> Fast<'a> {
         })
     }
 
-    /// Which rays of a tile towards one light are blocked, and which meet something that lets light through; of up to
-    /// [`FAN`](crate::lattice::FAN) shafts. Those that are unsure are to be asked of [`Engine::blocked`] one by one. Answers
-    /// how many shafts had so many objects between their rays that they were given up.
+    /// Which rays towards one light are blocked, and what glass leaves of the light of the others. Those that are unsure are
+    /// to be asked of [`Engine::blocked`] one by one. Answers whether most shafts had so many objects between their rays that
+    /// they were given up.
     pub fn blocked_of(
         &self,
         shafts: &mut [Shaft],
         departures: &[Departures],
         lamp: &Shone,
         memory: &mut TileMemory,
-    ) -> usize {
-        dispatch!(self.level, simd => self.blocked_of_tile(simd, shafts, departures, lamp, memory))
+    ) -> bool {
+        let mut company = std::mem::take(&mut memory.company);
+        let helps = dispatch!(self.level, simd => company.would_help(simd, shafts, lamp.at));
+        let apart = if helps {
+            company.gather(shafts, departures);
+            let apart = self.blocked_in_company(&mut company.shafts, &company.departures, lamp, memory);
+            company.scatter(shafts);
+            apart
+        } else {
+            self.blocked_in_company(shafts, departures, lamp, memory)
+        };
+        memory.company = company;
+        apart
+    }
+
+    fn blocked_in_company(
+        &self,
+        shafts: &mut [Shaft],
+        departures: &[Departures],
+        lamp: &Shone,
+        memory: &mut TileMemory,
+    ) -> bool {
+        let mut apart = false;
+        for (shafts, departures) in shafts.chunks_mut(FAN).zip(departures.chunks(FAN)) {
+            if apart {
+                shafts.iter_mut().for_each(Shaft::give_up);
+                continue;
+            }
+            let asking = shafts.iter().filter(|shaft| shaft.rays.live != 0).count();
+            let given_up =
+                dispatch!(self.level, simd => self.blocked_of_tile(simd, shafts, departures, lamp, memory));
+            apart = 2 * given_up > asking;
+        }
+        apart
     }
 }
 

@@ -16,7 +16,7 @@ use crate::solid::{
 use super::Fast;
 use super::memory::TileMemory;
 use super::slices::{Slices, slices};
-use super::thin::Thin;
+use super::thin::{Slabs, Thin};
 use super::tint::{Clarity, Tint};
 use super::walk::{asking, bounds_between, push_nearest_last, reach, wide};
 
@@ -170,7 +170,7 @@ impl Fast<'_> {
                 objects &= objects - 1;
                 let Some(Child::Object(object)) = node.child(slot) else { continue };
                 let (lo, hi) = node.corners(slot);
-                let sides = (wide(lo), wide(hi));
+                let slabs = Slabs::around(simd, wide(lo), wide(hi), self.slack);
                 let mut left = memory.fan.meets(simd, lo, hi).frustums & open;
                 while left != 0 {
                     let k = left.trailing_zeros() as usize;
@@ -183,7 +183,7 @@ impl Fast<'_> {
                             |lane| shaft.distance.0[lane] + self.slack,
                         );
                     }
-                    let passing = memory.thin[k].passing(simd, sides, self.slack, shaft.open());
+                    let passing = memory.thin[k].passing(simd, &slabs, shaft.open());
                     match left_to_ask[k].checked_sub(1) {
                         Some(left) => left_to_ask[k] = left,
                         None => {
@@ -200,10 +200,10 @@ impl Fast<'_> {
                     let clarity = lamp.clarity.get(object as usize).copied();
                     if let Some(clarity @ (Clarity::Clear | Clarity::Mixed)) = clarity {
                         let about = (&departures[k], lamp);
-                        self.glass_in_shaft(simd, (object, clarity), passing, shaft, about, memory, k);
+                        self.glass_in_shaft(simd, (object, passing), clarity, shaft, about, memory, k);
                     } else {
                         let before = shaft.blocked;
-                        self.object_in_shaft(simd, object, passing, shaft, &departures[k], memory, k);
+                        self.object_in_shaft(simd, (object, passing), shaft, &departures[k], memory, k);
                         if clarity.is_some() {
                             // Where a ray leaves glass and an opaque solid together, the glass has the say.
                             shaft.unsure |= shaft.blocked & !before & shaft.leaving;
@@ -270,8 +270,7 @@ impl Fast<'_> {
     fn object_in_shaft<S: Simd>(
         &self,
         simd: S,
-        object: u32,
-        passing: u64,
+        (object, passing): (u32, u64),
         shaft: &mut Shaft,
         departures: &Departures,
         memory: &mut TileMemory,

@@ -24,10 +24,11 @@ const HALF_ULP: f64 = 1.0 / 16_777_216.0;
 /// that): 24, rounded up to 32.
 const LOST: f64 = 32.0 * HALF_ULP;
 
-/// What may be lost of a ray's way to a side of a box, in the same share, where it is taken for the place of that side:
-/// the start, the middle of the box and half its size are rounded (3), the difference of the first two (1), the direction,
-/// its inverse and the products with it (2 · 3), and the sum of the products (1): 11, rounded up to 16.
-const LOST_OF_SIDE: f64 = 16.0 * HALF_ULP;
+/// What may be lost of a ray's way to a side of a box, where it is taken for the place of that side: of as much as a box
+/// and a start can be apart, and the box's size, on one axis (2 + 2 and [`WITHIN`]), the start, the middle of the box and half its size are rounded (3), the difference of the first two (1), the direction,
+/// its inverse and the products with it (2 · 3), and the sum of the products (1): 11, rounded up to
+/// 16.
+const LOST_OF_SIDE: f64 = 16.0 * HALF_ULP * (4.0 + WITHIN as f64);
 
 /// What may be lost of the product of two lines, in the same share: of the ray's moment, whose start and direction are
 /// rounded (2), the products and their difference (2); of the bar's direction (1), the product of both (1) and three sums
@@ -44,7 +45,7 @@ const LOST_OF_SINE: f64 = 16.0 * HALF_ULP;
 const STILL: f32 = 1.0 / (1_u128 << 100) as f32;
 
 /// Rays within the world start within this; what starts elsewhere, or nowhere, is asked in full.
-const WITHIN: f32 = 64.0;
+const WITHIN: f32 = 8.0;
 
 /// Rays of a bundle, seen from the start of its first.
 #[derive(Clone, Debug)]
@@ -52,6 +53,8 @@ const WITHIN: f32 = 64.0;
 pub struct Thin {
     o: [[f32; BUNDLE]; 3],
     d: [[f32; BUNDLE]; 3],
+    /// Where they start, seen from the origin.
+    start: [[f32; BUNDLE]; 3],
     /// The inverse of the direction, and the moment `o × d`.
     inverse: [[f32; BUNDLE]; 3],
     moment: [[f32; BUNDLE]; 3],
@@ -62,7 +65,24 @@ pub struct Thin {
     extent: f64,
     /// The rays that are to be asked in full, whatever they are asked about.
     odd: u64,
+    /// Whether these are the rays of a bundle, not yet forgotten.
     known: bool,
+}
+
+/// A box as its middle and half its size, and what is lost of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Slabs<S: Simd> {
+    middle: [f32x16<S>; 3],
+    half: [f32x16<S>; 3],
+}
+
+impl<S: Simd> Slabs<S> {
+    /// All that is no farther from a box within the world than `slack`.
+    #[inline(always)]
+    pub fn around(simd: S, lo: DVec3, hi: DVec3, slack: f64) -> Self {
+        let (middle, half) = (0.5 * lo + 0.5 * hi, 0.5 * hi - 0.5 * lo);
+        Self { middle: splats(simd, middle), half: splats(simd, half + (slack + LOST_OF_SIDE)) }
+    }
 }
 
 impl Thin {
@@ -70,6 +90,7 @@ impl Thin {
     pub const EMPTY: Self = Self {
         o: [[0.0; BUNDLE]; 3],
         d: [[0.0; BUNDLE]; 3],
+        start: [[0.0; BUNDLE]; 3],
         inverse: [[0.0; BUNDLE]; 3],
         moment: [[0.0; BUNDLE]; 3],
         limit: [0.0; BUNDLE],
@@ -100,6 +121,7 @@ impl Thin {
             for lane in 0..BUNDLE {
                 self.o[axis][lane] = (bundle.o[axis].0[lane] - base) as f32;
                 self.d[axis][lane] = bundle.d[axis].0[lane] as f32;
+                self.start[axis][lane] = bundle.o[axis].0[lane] as f32;
             }
             let mut most = f32x16::splat(simd, 0.0);
             for row in 0..THIN_ROWS {
@@ -123,9 +145,6 @@ impl Thin {
     /// What only boxes and bars ask for.
     #[inline(always)]
     fn set_lines<S: Simd>(&mut self, simd: S) {
-        if !self.base.abs().cmplt(DVec3::splat(f64::from(WITHIN))).all() {
-            self.odd = u64::MAX;
-        }
         let (one, still) = (f32x16::splat(simd, 1.0), f32x16::splat(simd, STILL));
         let within = f32x16::splat(simd, WITHIN);
         for row in 0..THIN_ROWS {
@@ -134,7 +153,8 @@ impl Thin {
                 [row_of(simd, &self.d[0], row), row_of(simd, &self.d[1], row), row_of(simd, &self.d[2], row)],
             ];
             for axis in 0..3 {
-                let plain = o[axis].abs().simd_lt(within) & d[axis].abs().simd_lt(within);
+                let start = row_of(simd, &self.start[axis], row);
+                let plain = start.abs().simd_lt(within) & d[axis].abs().simd_lt(within);
                 self.odd |= (!plain).to_bitmask() << (row * WIDTH);
                 let inverse = d[axis].abs().simd_lt(still).select(one / still, one / d[axis]);
                 inverse.store_slice(&mut self.inverse[axis][row * WIDTH..][..WIDTH]);
@@ -176,15 +196,13 @@ impl Thin {
         rays & wanted
     }
 
-    /// Those of some rays that may pass a box, ahead of their starts and no farther than they look; all others do not
-    /// come nearer to it than `slack`.
+    /// Those of some rays that may pass a box, ahead of their starts and no farther than they look; all others do not.
     #[inline(always)]
-    pub fn passing<S: Simd>(&self, simd: S, sides: (DVec3, DVec3), slack: f64, wanted: u64) -> u64 {
-        let slabs = self.slabs(simd, sides, slack);
+    pub fn passing<S: Simd>(&self, simd: S, slabs: &Slabs<S>, wanted: u64) -> u64 {
         let mut rays = 0;
         for row in 0..THIN_ROWS {
             if (wanted >> (row * WIDTH)) as u16 != 0 {
-                let (near, end) = self.through(simd, &slabs, row);
+                let (near, end) = self.through(simd, slabs, row);
                 rays |= (!near.simd_gt(end)).to_bitmask() << (row * WIDTH);
             }
         }
@@ -193,26 +211,17 @@ impl Thin {
 
     /// Between which distances some rays pass a box, all of them, as far as they look.
     #[inline(always)]
-    pub fn reach<S: Simd>(&self, simd: S, sides: (DVec3, DVec3), slack: f64, passing: u64) -> (f64, f64) {
+    pub fn reach<S: Simd>(&self, simd: S, slabs: &Slabs<S>, passing: u64) -> (f64, f64) {
         if self.odd & passing != 0 {
             return (0.0, f64::INFINITY);
         }
-        let slabs = self.slabs(simd, sides, slack);
         let (mut from, mut to) = (f32x16::splat(simd, f32::INFINITY), f32x16::splat(simd, 0.0));
         for row in 0..THIN_ROWS {
-            let (near, end) = self.through(simd, &slabs, row);
+            let (near, end) = self.through(simd, slabs, row);
             let beside = near.simd_gt(end);
             (from, to) = (from.min(beside.select(from, near)), to.max(beside.select(to, end)));
         }
         (f64::from(from.reduce_min()), f64::from(to.reduce_max()))
-    }
-
-    /// A box as its middle and half its size, and what is lost of it.
-    #[inline(always)]
-    fn slabs<S: Simd>(&self, simd: S, (lo, hi): (DVec3, DVec3), slack: f64) -> [[f32x16<S>; 3]; 2] {
-        let (middle, half) = (0.5 * lo + 0.5 * hi - self.base, 0.5 * hi - 0.5 * lo + slack);
-        let far = (middle.abs() + half).element_sum() + self.extent;
-        [splats(simd, middle), splats(simd, half + LOST_OF_SIDE * far)]
     }
 
     /// Where the rays of a row come into a box, and where they leave it or look no farther: those that miss it the other
@@ -221,13 +230,13 @@ impl Thin {
     fn through<S: Simd>(
         &self,
         simd: S,
-        [middle, half]: &[[f32x16<S>; 3]; 2],
+        Slabs { middle, half }: &Slabs<S>,
         row: usize,
     ) -> (f32x16<S>, f32x16<S>) {
         let (mut near, mut end) = (f32x16::splat(simd, 0.0), row_of(simd, &self.limit, row));
         for axis in 0..3 {
             let inverse = row_of(simd, &self.inverse[axis], row);
-            let t = (middle[axis] - row_of(simd, &self.o[axis], row)) * inverse;
+            let t = (middle[axis] - row_of(simd, &self.start[axis], row)) * inverse;
             let way = half[axis] * inverse.abs();
             (near, end) = (near.max(t - way), end.min(t + way));
         }
@@ -278,4 +287,98 @@ fn splats<S: Simd>(simd: S, v: DVec3) -> [f32x16<S>; 3] {
 #[inline(always)]
 fn row_of<S: Simd>(simd: S, numbers: &[f32; BUNDLE], row: usize) -> f32x16<S> {
     f32x16::from_slice(simd, &numbers[row * WIDTH..][..WIDTH])
+}
+
+#[cfg(test)]
+mod tests {
+    use fearless_simd::{Level, dispatch};
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::math::Ray;
+
+    fn point() -> impl Strategy<Value = DVec3> {
+        // Round numbers make rays along axes, and along the sides of boxes.
+        let coordinate = || prop_oneof![-2.0..2.0_f64, (-4..=4_i8).prop_map(|i| f64::from(i) / 2.0)];
+        (coordinate(), coordinate(), coordinate()).prop_map(|(x, y, z)| DVec3::new(x, y, z))
+    }
+
+    proptest! {
+        #[test]
+        fn whoever_goes_through_a_point_of_a_solid_is_asked(
+            starts in prop::collection::vec((point(), point(), point(), 0..4_usize), BUNDLE),
+            (a, b) in (point(), point()),
+            radius in 1e-6..0.1_f64,
+        ) {
+            let (lo, hi) = (a.min(b), a.max(b));
+            let (middle, along) = (0.5 * a + 0.5 * b, (b - a).normalize_or_zero());
+            let mut bundle = Bundle::EMPTY;
+            let mut expected = [0_u64; 3];
+            for (lane, &(o, to, free, kind)) in starts.iter().enumerate() {
+                let share = (to + 2.0) / 4.0;
+                // To a point of the box, of the bar and of the ball; or anywhere.
+                let target = match kind {
+                    0 => lo + (hi - lo) * share,
+                    1 => a + (b - a) * share.x + (free.cross(along)).normalize_or_zero() * (radius * share.y),
+                    2 => middle + free.normalize_or_zero() * (radius * share.y),
+                    _ => to,
+                };
+                bundle.set(lane, &Ray::new(o, (target - o).normalize_or(DVec3::X)));
+                if kind < 3 && target != o {
+                    expected[kind] |= 1 << lane;
+                }
+            }
+            let bar = Bar { middle, along, radius };
+            for level in [Level::new(), Level::baseline()] {
+                let mut thin = Thin::EMPTY;
+                let asked = dispatch!(level, simd => {
+                    thin.set(simd, &bundle);
+                    let slabs = Slabs::around(simd, lo, hi, 0.0);
+                    let all = u64::MAX;
+                    [thin.passing(simd, &slabs, all), thin.beside(simd, &bar, 0.0, all),
+                        thin.near(simd, middle, radius, all)]
+                });
+                for (expected, asked) in expected.into_iter().zip(asked) {
+                    prop_assert_eq!(expected & !asked, 0);
+                }
+                let (from, to) = dispatch!(level, simd => {
+                    thin.reach(simd, &Slabs::around(simd, lo, hi, 0.0), u64::MAX)
+                });
+                for (lane, &(o, share, ..)) in starts.iter().enumerate() {
+                    if expected[0] >> lane & 1 == 1 {
+                        let t = (lo + (hi - lo) * ((share + 2.0) / 4.0)).distance(o);
+                        prop_assert!(from <= t && t <= to, "{} {} {}", from, t, to);
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn most_rays_miss_what_is_small_or_lies_behind_what_they_met() {
+        let mut bundle = Bundle::EMPTY;
+        for lane in 0..BUNDLE {
+            let aim = DVec3::new((lane % 8) as f64 / 8.0, (lane / 8) as f64 / 8.0, 1.0);
+            bundle.set(lane, &Ray::new(DVec3::new(0.4, 0.4, -1.0), (aim - DVec3::Z).normalize_or(DVec3::Z)));
+        }
+        let (lo, hi) = (DVec3::new(0.6, 0.4, -1.1), DVec3::new(0.7, 0.5, -0.9));
+        let mut thin = Thin::EMPTY;
+        let mut asked = |limit: f64| {
+            dispatch!(Level::new(), simd => {
+                thin.set(simd, &bundle);
+                thin.look(|_| limit);
+                thin.passing(simd, &Slabs::around(simd, lo, hi, 0.0), u64::MAX).count_ones()
+            })
+        };
+        assert!((1..32).contains(&asked(f64::INFINITY)));
+        assert_eq!(asked(0.19), 0);
+        // What is no number is asked in full.
+        bundle.d[0].0[5] = f64::NAN;
+        let mut thin = Thin::EMPTY;
+        let asked = dispatch!(Level::new(), simd => {
+            thin.set(simd, &bundle);
+            thin.passing(simd, &Slabs::around(simd, lo, hi, 0.0), u64::MAX)
+        });
+        assert_eq!(asked >> 5 & 1, 1);
+    }
 }

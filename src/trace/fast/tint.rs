@@ -72,12 +72,12 @@ impl Tint {
 }
 
 impl Fast<'_> {
-    /// Glass in the way of a light.
+    /// Glass in the way of a light; `about` is the object, and which rays may pass its box.
     pub(super) fn glass_in_shaft<S: Simd>(
         &self,
         simd: S,
-        (object, clarity): (u32, Clarity),
-        passing: u64,
+        about: (u32, u64),
+        clarity: Clarity,
         shaft: &mut Shaft,
         (departures, lamp): (&Departures, &Shone),
         memory: &mut TileMemory,
@@ -86,7 +86,7 @@ impl Fast<'_> {
         let mut met = std::mem::take(&mut memory.met);
         met.clear();
         let outset = Outset { rays: &shaft.rays, departures: Some(departures) };
-        self.object_of_bundle(simd, object, passing, outset, &mut met, memory, k);
+        self.object_of_bundle(simd, about, outset, &mut met, memory, k);
         shaft.unsure |= met.unsure & shaft.rays.live;
         let mut rest = shaft.open();
         while rest != 0 {

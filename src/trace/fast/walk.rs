@@ -6,7 +6,7 @@ use crate::lattice::{Child, Met, Node, highest, lowest};
 use crate::math::{Bounds, Bundle, DVec3, Number, ROWS};
 use crate::solid::Form;
 
-use super::thin::Thin;
+use super::thin::{Slabs, Thin};
 
 /// Puts the nodes among a node's children that were met on the stack, the nearest last.
 #[inline(always)]
@@ -41,7 +41,7 @@ pub fn asking<S: Simd>(simd: S, thin: &Thin, form: &Form, slack: f64, wanted: u6
 pub fn reach<S: Simd>(simd: S, thin: &Thin, b: &Bounds, slack: f64, passing: u64) -> (f64, f64) {
     simd.vectorize(
         #[inline(always)]
-        || thin.reach(simd, (b.lo, b.hi), slack, passing),
+        || thin.reach(simd, &Slabs::around(simd, b.lo, b.hi, slack), passing),
     )
 }
 

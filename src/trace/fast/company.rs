@@ -1,0 +1,216 @@
+//! Other company for the rays towards a light: those that lie side by side seen from the light.
+//!
+//! Neighbours in the picture that start on things one behind the other are far apart in the light's view, and what
+//! stands between their ways is nothing to them. Sorted by that view, the rays of a tile make thin shafts again. Each
+//! ray finds what it finds in any company.
+
+use fearless_simd::{Simd, SimdBase, f64x8};
+
+use crate::lattice::WAY;
+use crate::math::{BUNDLE, Column, Columns, DVec3, Number, ROWS};
+use crate::solid::Departures;
+
+use super::shaft::Shaft;
+
+/// Cells across the light's view of a tile: as many in all as a tile has rays.
+const CELLS: usize = 32;
+
+/// Shafts wider than this on average, as a share of their tile, are to be put together anew: those of one surface,
+/// sixteen to a tile, are a quarter of it, and a little more where they lie askew.
+const WIDE: f64 = 0.3;
+
+/// Rays put together anew.
+#[derive(Debug, Default)]
+pub struct Company {
+    /// By shaft: where its rays are in the light's view.
+    seen: Vec<[Column; 2]>,
+    /// The lower corner of the part of the view that holds all, and how large it is.
+    corner: [f64; 2],
+    size: [f64; 2],
+    /// By cell: where its rays start in `order`.
+    starts: Vec<u16>,
+    /// The rays by cells: the number of the shaft, and six bits for the lane.
+    order: Vec<u16>,
+    /// The new shafts.
+    pub shafts: Vec<Shaft>,
+    /// By new shaft: what its rays leave.
+    pub departures: Vec<Departures>,
+}
+
+impl Company {
+    /// Looks at the rays from where they go, and answers whether they are better put together anew.
+    #[inline(always)]
+    pub fn would_help<S: Simd>(&mut self, simd: S, shafts: &[Shaft], lamp: DVec3) -> bool {
+        let live = || shafts.iter().filter(|shaft| shaft.rays.live != 0);
+        let mut sum = DVec3::ZERO;
+        for shaft in live() {
+            sum += shaft.rays.d.get(0) + shaft.rays.d.get(BUNDLE - 1);
+        }
+        let (u, v) = sum.normalize_or(DVec3::X).any_orthonormal_pair();
+        // Near a light the view is one of directions, far from it of places.
+        let near = lamp.abs().max_element() <= WAY;
+        let infinite = f64x8::splat(simd, f64::INFINITY);
+        let (mut from, mut to) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        let (mut widths, mut count) = (0.0, 0.0);
+        self.seen.resize(shafts.len(), [Column::filled(0.0); 2]);
+        for (shaft, seen) in shafts.iter().zip(&mut self.seen) {
+            if shaft.rays.live == 0 {
+                continue;
+            }
+            count += 1.0;
+            let (mut low, mut high) = ([infinite; 2], [-infinite; 2]);
+            for row in 0..ROWS {
+                let p = if near { shaft.rays.d.load(simd, row) } else { shaft.rays.o.load(simd, row) };
+                let at = [p.dot_one(u), p.dot_one(v)];
+                for k in 0..2 {
+                    seen[k].store(row, at[k]);
+                    (low[k], high[k]) = (at[k].smaller(low[k]), at[k].larger(high[k]));
+                }
+            }
+            for k in 0..2 {
+                let (low, high) = (low[k].reduce_min(), high[k].reduce_max());
+                widths += high - low;
+                (from[k], to[k]) = (from[k].min(low), to[k].max(high));
+            }
+        }
+        self.corner = from;
+        self.size = [to[0] - from[0], to[1] - from[1]];
+        widths > WIDE * count * (self.size[0] + self.size[1])
+    }
+
+    /// Puts the rays together anew.
+    pub fn gather(&mut self, shafts: &[Shaft], departures: &[Departures]) {
+        let scale = CELLS as f64 / self.size[0].max(self.size[1]);
+        // Digits of both numbers in turn: cells side by side are mostly near in that order (Morton).
+        let spread = |x: f64| {
+            let x = ((x * scale) as usize).min(CELLS - 1);
+            (0..5).fold(0, |sum, bit| sum | (x >> bit & 1) << (2 * bit))
+        };
+        let cell = |seen: &[Column; 2], lane: usize| {
+            spread(seen[0].0[lane] - self.corner[0]) | spread(seen[1].0[lane] - self.corner[1]) << 1
+        };
+        self.starts.clear();
+        self.starts.resize(CELLS * CELLS + 1, 0);
+        let mut count = 0;
+        for (shaft, seen) in shafts.iter().zip(&self.seen) {
+            for lane in lanes(shaft.rays.live) {
+                self.starts[cell(seen, lane) + 1] += 1;
+                count += 1;
+            }
+        }
+        for cell in 1..self.starts.len() {
+            self.starts[cell] += self.starts[cell - 1];
+        }
+        self.order.resize(count, 0);
+        for (k, (shaft, seen)) in shafts.iter().zip(&self.seen).enumerate() {
+            for lane in lanes(shaft.rays.live) {
+                let start = &mut self.starts[cell(seen, lane)];
+                self.order[*start as usize] = (k * BUNDLE + lane) as u16;
+                *start += 1;
+            }
+        }
+        self.shafts.resize(count.div_ceil(BUNDLE), Shaft::EMPTY);
+        self.departures.resize(self.shafts.len(), Departures::NONE);
+        let groups = self.order.chunks(BUNDLE);
+        for ((to, left), group) in self.shafts.iter_mut().zip(&mut self.departures).zip(groups) {
+            to.clear();
+            left.inward = 0;
+            for (lane, &ray) in group.iter().enumerate() {
+                let (k, own) = place(ray);
+                let (from, leaves) = (&shafts[k], &departures[k]);
+                for axis in 0..3 {
+                    to.rays.o[axis].0[lane] = from.rays.o[axis].0[own];
+                    to.rays.d[axis].0[lane] = from.rays.d[axis].0[own];
+                }
+                to.distance.0[lane] = from.distance.0[own];
+                left.primitive.0[lane] = leaves.primitive.0[own];
+                left.off.0[lane] = leaves.off.0[own];
+                left.inward |= (leaves.inward >> own & 1) << lane;
+                to.rays.live |= 1 << lane;
+            }
+            to.close();
+        }
+    }
+
+    /// Gives each ray back what was found for it.
+    pub fn scatter(&self, shafts: &mut [Shaft]) {
+        for (from, group) in self.shafts.iter().zip(self.order.chunks(BUNDLE)) {
+            for lane in lanes(from.blocked | from.tint.rays | from.unsure) {
+                let (k, own) = place(group[lane]);
+                let to = &mut shafts[k];
+                to.blocked |= (from.blocked >> lane & 1) << own;
+                to.unsure |= (from.unsure >> lane & 1) << own;
+                to.tint.rays |= (from.tint.rays >> lane & 1) << own;
+                to.tint.share.0[own] = from.tint.share.0[lane];
+            }
+        }
+    }
+}
+
+/// The shaft of a ray, and its lane there.
+fn place(ray: u16) -> (usize, usize) {
+    (ray as usize / BUNDLE, ray as usize % BUNDLE)
+}
+
+/// The rays of a bundle whose bits are set.
+fn lanes(mut bits: u64) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let lane = bits.trailing_zeros() as usize;
+        let some = bits != 0;
+        bits &= bits.wrapping_sub(1);
+        some.then_some(lane)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use fearless_simd::{Level, dispatch};
+
+    use super::*;
+    use crate::math::Ray;
+
+    #[test]
+    fn rays_that_were_mixed_are_sorted_by_the_lights_view_and_get_their_own_answers() {
+        let lamp = DVec3::new(0.0, 0.0, 8.0);
+        // Every shaft reaches over the whole view; every third ray is missing.
+        let start = |k: usize, lane: usize| {
+            let place = (lane * 16 + k) * 389 % 1024;
+            DVec3::new((place % 32) as f64 / 32.0, (place / 32) as f64 / 32.0, 0.0)
+        };
+        let mut shafts = vec![Shaft::EMPTY; 16];
+        let mut departures = vec![Departures::NONE; 16];
+        for (k, (shaft, left)) in shafts.iter_mut().zip(&mut departures).enumerate() {
+            for lane in (0..BUNDLE).filter(|lane| (lane + k) % 3 != 0) {
+                let o = start(k, lane);
+                shaft.rays.set(lane, &Ray::new(o, (lamp - o).normalize()));
+                shaft.distance.0[lane] = (lamp - o).length();
+                left.primitive.0[lane] = (k * BUNDLE + lane) as f64;
+            }
+            shaft.close();
+        }
+        let mut company = Company::default();
+        assert!(dispatch!(Level::new(), simd => company.would_help(simd, &shafts, lamp)));
+        company.gather(&shafts, &departures);
+        let rays: u32 = shafts.iter().map(|shaft| shaft.rays.live.count_ones()).sum();
+        assert_eq!(company.shafts.len(), (rays as usize).div_ceil(BUNDLE));
+        for (shaft, left) in company.shafts.iter_mut().zip(&company.departures) {
+            for lane in lanes(shaft.rays.live) {
+                let ray = left.primitive.0[lane] as usize;
+                assert_eq!(shaft.rays.o.get(lane), start(ray / BUNDLE, ray % BUNDLE));
+                shaft.blocked |= u64::from(ray.is_multiple_of(2)) << lane;
+                shaft.unsure |= u64::from(ray.is_multiple_of(5)) << lane;
+            }
+        }
+        company.scatter(&mut shafts);
+        for (k, shaft) in shafts.iter().enumerate() {
+            for lane in 0..BUNDLE {
+                let (ray, live) = (k * BUNDLE + lane, shaft.rays.live >> lane & 1 == 1);
+                assert_eq!(shaft.blocked >> lane & 1 == 1, live && ray.is_multiple_of(2));
+                assert_eq!(shaft.unsure >> lane & 1 == 1, live && ray.is_multiple_of(5));
+            }
+        }
+        // Once they are sorted there is nothing to gain.
+        let sorted = company.shafts.clone();
+        assert!(!dispatch!(Level::new(), simd => company.would_help(simd, &sorted, lamp)));
+    }
+}

@@ -209,8 +209,20 @@ mod tests {
                 assert_eq!(shaft.unsure >> lane & 1 == 1, live && ray.is_multiple_of(5));
             }
         }
-        // Once they are sorted there is nothing to gain.
-        let sorted = company.shafts.clone();
-        assert!(!dispatch!(Level::new(), simd => company.would_help(simd, &sorted, lamp)));
+    }
+
+    #[test]
+    fn shafts_of_one_surface_stay_together() {
+        let lamp = DVec3::new(0.0, 0.0, 8.0);
+        let mut shafts = vec![Shaft::EMPTY; 16];
+        for (k, shaft) in shafts.iter_mut().enumerate() {
+            for lane in 0..BUNDLE {
+                let (x, y) = (k % 4 * 8 + lane % 8, k / 4 * 8 + lane / 8);
+                let o = DVec3::new(x as f64 / 32.0, y as f64 / 32.0, 0.0);
+                shaft.rays.set(lane, &Ray::new(o, (lamp - o).normalize()));
+            }
+        }
+        let mut company = Company::default();
+        assert!(!dispatch!(Level::new(), simd => company.would_help(simd, &shafts, lamp)));
     }
 }

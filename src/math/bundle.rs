@@ -36,6 +36,12 @@ impl Column {
 
     /// Eight of them: those of row `row`, below [`ROWS`].
     #[inline(always)]
+    pub fn row(&self, row: usize) -> [f64; LANES] {
+        std::array::from_fn(|lane| self.0[row * LANES + lane])
+    }
+
+    /// The same in a register.
+    #[inline(always)]
     pub fn load<S: Simd>(&self, simd: S, row: usize) -> f64x8<S> {
         f64x8::from_slice(simd, &self.0[row * LANES..][..LANES])
     }
@@ -44,6 +50,17 @@ impl Column {
     #[inline(always)]
     pub fn put<S: Simd>(&mut self, simd: S, row: usize, which: mask64x8<S>, x: f64x8<S>) {
         self.store(row, which.select(x, self.load(simd, row)));
+    }
+
+    /// Gives those whose bit is not among `kept` the number of another, `from`.
+    #[inline(always)]
+    pub fn fill_rest<S: Simd>(&mut self, simd: S, kept: u64, from: usize) {
+        let x = f64x8::splat(simd, self.0[from]);
+        for row in 0..ROWS {
+            if (kept >> (row * LANES)) as u8 != u8::MAX {
+                self.put(simd, row, row_of(simd, !kept, row), x);
+            }
+        }
     }
 
     /// Sets eight of them.
@@ -122,17 +139,15 @@ impl Bundle {
     }
 
     /// Gives those that are not there the numbers of the first that is: bounds around all are bounds around the live.
-    pub fn close(&mut self) {
+    #[inline(always)]
+    pub fn close<S: Simd>(&mut self, simd: S) {
         if self.live == 0 || self.live == u64::MAX {
             return;
         }
-        let first = self.ray(self.live.trailing_zeros() as usize);
-        let mut rest = !self.live;
-        while rest != 0 {
-            let lane = rest.trailing_zeros() as usize;
-            self.o.set(lane, first.o);
-            self.d.set(lane, first.d);
-            rest &= rest - 1;
+        let first = self.live.trailing_zeros() as usize;
+        for axis in 0..3 {
+            self.o[axis].fill_rest(simd, self.live, first);
+            self.d[axis].fill_rest(simd, self.live, first);
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Div, Mul};
 
-use crate::math::{DVec3, Number};
+use crate::math::{Column, DVec3, LANES, Number};
 
 /// The shares of the linear primaries (sRGB, Rec. 709) in luminance.
 const LUMINANCE: DVec3 = DVec3::new(0.2126, 0.7152, 0.0722);
@@ -46,6 +46,9 @@ pub trait Channel:
     /// The amount whose numbers are the first of these.
     fn from_parts(parts: [f64; 3]) -> Self;
 
+    /// Those of a row of rays, `row` below [`ROWS`](crate::math::ROWS), out of a column for each part.
+    fn row(columns: &[Column], row: usize) -> [Self; LANES];
+
     /// From the three primaries.
     fn from_rgb(rgb: DVec3) -> Self;
 
@@ -80,6 +83,11 @@ impl Channel for f64 {
         gray
     }
 
+    #[inline(always)]
+    fn row(columns: &[Column], row: usize) -> [Self; LANES] {
+        columns[0].row(row)
+    }
+
     fn from_rgb(rgb: DVec3) -> Self {
         // Three equal channels are that gray; the weights' sum is 1 only within rounding.
         if rgb.x == rgb.y && rgb.y == rgb.z { rgb.x } else { luminance(rgb) }
@@ -111,6 +119,12 @@ impl Channel for DVec3 {
     #[inline(always)]
     fn from_parts(parts: [f64; 3]) -> Self {
         Self::from_array(parts)
+    }
+
+    #[inline(always)]
+    fn row(columns: &[Column], row: usize) -> [Self; LANES] {
+        let [red, green, blue] = [columns[0].row(row), columns[1].row(row), columns[2].row(row)];
+        std::array::from_fn(|lane| Self::new(red[lane], green[lane], blue[lane]))
     }
 
     fn from_rgb(rgb: DVec3) -> Self {

@@ -41,7 +41,6 @@ impl Lit {
         shaft.clear();
         if shines != 0 {
             dispatch!(level, simd => self.lit(simd, lamp, bundle, surfaces, shines, shaft));
-            shaft.close();
         }
     }
 
@@ -78,6 +77,7 @@ impl Lit {
             shaft.rays.live |= u64::from(asks.bits()) << (row * LANES);
         }
         shaft.rays.live &= shines;
+        shaft.close(simd);
     }
 
     /// Adds what a lamp of this light gives to the rays of `lanes`, which met a surface of one material. `sum` has a column
@@ -129,6 +129,20 @@ impl Lit {
             }
         }
     }
+}
+
+/// The light of the rays of a bundle before any lamp gave some: what is `missed` for those that are not among `hits`, and
+/// for those that are nothing. Of the `known` it stays.
+pub(super) fn before_lamps(missed: f64, hits: u64, known: u64, light: &mut Column, level: Level) {
+    #[inline(always)]
+    fn set<S: Simd>(simd: S, missed: f64, hits: u64, known: u64, light: &mut Column) {
+        let zero = f64x8::splat(simd, 0.0);
+        for row in 0..ROWS {
+            let own = row_of(simd, hits, row).choose(zero, zero.same(missed));
+            light.put(simd, row, row_of(simd, !known, row), own);
+        }
+    }
+    dispatch!(level, simd => set(simd, missed, hits, known, light));
 }
 
 /// Adds the same light to that of all rays of `lanes`.

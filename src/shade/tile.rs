@@ -14,7 +14,7 @@ use crate::stage::{Meter, Probe, Stage};
 use crate::trace::{Engine, Fast, Hit, Shaft, Shone, TileMemory};
 
 use super::channel::Channel;
-use super::lit::{Gathering, Lit, add_everywhere};
+use super::lit::{Gathering, Lit, add_everywhere, before_lamps};
 use super::media::{List, Media, OUTSIDE};
 use super::path::{Onward, Sent};
 use super::surface::{Finish, Lamp, Memory, Met, Seen, Shader};
@@ -129,7 +129,8 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         meter.at(Stage::Cell);
         let TileShading { trace, waves, .. } = tile;
         let wave = &mut waves[0];
-        self.engine.first_of(&wave.rays, None, &mut wave.nearest, trace);
+        let count = wave.rays.len();
+        self.engine.first_of(&wave.rays, None, &mut wave.nearest[..count], trace);
         for k in 0..wave.rays.len() {
             let unsure = std::mem::take(&mut wave.nearest[k].unsure);
             let mut alone = Vec::new();
@@ -160,7 +161,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         meter.at(Stage::Cell);
         let TileShading { trace, waves, .. } = tile;
         let wave = &mut waves[generation];
-        wave.bundle_legs();
+        wave.bundle_legs(self.engine.level());
         wave.make_room();
         let kinds = std::mem::take(&mut wave.kinds);
         for kind in &kinds {
@@ -271,18 +272,8 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         let wave = &mut tile.waves[generation];
         for k in 0..wave.rays.len() {
             let (hits, known) = (wave.surfaces[k].hits, wave.known[k]);
-            for part in 0..C::PARTS {
-                let missed = self.background.part(part);
-                let column = &mut wave.light[k * C::PARTS + part];
-                if hits == u64::MAX {
-                    *column = Column::filled(0.0);
-                    continue;
-                }
-                for (lane, light) in column.0.iter_mut().enumerate() {
-                    if known >> lane & 1 == 0 {
-                        *light = if hits >> lane & 1 == 0 { missed } else { 0.0 };
-                    }
-                }
+            for (part, light) in wave.light_mut(k).iter_mut().enumerate() {
+                before_lamps(self.background.part(part), hits, known, light, self.engine.level());
             }
         }
         for lamp in 0..self.lamps.len() {
@@ -290,8 +281,10 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         }
         let wave = &mut tile.waves[generation];
         let unit = self.assembly.datum.unit;
-        let Wave { surfaces, light, .. } = wave;
-        for (Surfaces { materials, way, .. }, light) in surfaces.iter().zip(light.chunks_mut(C::PARTS)) {
+        let Wave { rays, surfaces, light, .. } = wave;
+        for (Surfaces { materials, way, .. }, light) in
+            surfaces[..rays.len()].iter().zip(light.chunks_mut(C::PARTS))
+        {
             for &(material, lanes) in materials {
                 let ambient = self.ambient * self.finishes[material as usize].color;
                 let gathering = Gathering { depth: self.depth, unit, ambient };
@@ -314,8 +307,11 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         let TileShading { trace, waves, shafts, lit } = tile;
         let wave = &mut waves[generation];
         let count = wave.rays.len();
-        shafts.resize(count, Shaft::EMPTY);
-        lit.resize(count, Lit::NONE);
+        if shafts.len() < count {
+            shafts.resize(count, Shaft::EMPTY);
+            lit.resize(count, Lit::NONE);
+        }
+        let shafts = &mut shafts[..count];
         for k in 0..count {
             let shines = self.made_so(&wave.surfaces[k], |finish| finish.kd > 0.0 || finish.ks > 0.0);
             lit[k].light(place, &wave.rays[k], &wave.surfaces[k], shines, &mut shafts[k], level);

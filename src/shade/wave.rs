@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use fearless_simd::{Level, dispatch};
+
 use crate::math::{BUNDLE, Bundle, Column, Columns, LANES};
 use crate::solid::{Departure, Departures};
 use crate::trace::{Hit, Nearest};
@@ -99,13 +101,15 @@ impl<C> Default for Wave<C> {
 }
 
 impl<C: Channel> Wave<C> {
-    /// Room for what so many bundles meet.
+    /// Room for what its bundles meet; there may be more.
     pub fn make_room(&mut self) {
         let count = self.rays.len();
-        self.nearest.resize(count, Nearest::NOTHING);
-        self.surfaces.resize(count, Surfaces::NONE);
-        self.departures.resize(count, Departures::NONE);
-        self.light.resize(count * C::PARTS, Column::filled(0.0));
+        if self.nearest.len() < count {
+            self.nearest.resize(count, Nearest::NOTHING);
+            self.surfaces.resize(count, Surfaces::NONE);
+            self.departures.resize(count, Departures::NONE);
+            self.light.resize(count * C::PARTS, Column::filled(0.0));
+        }
         self.apart = false;
         self.known.clear();
         self.known.resize(count, 0);
@@ -125,25 +129,27 @@ impl<C: Channel> Wave<C> {
     }
 
     /// Puts the rays that were sent on into bundles, each kind into its own.
-    pub fn bundle_legs(&mut self) {
-        self.rays.clear();
-        self.before.clear();
-        self.from.clear();
+    pub fn bundle_legs(&mut self, level: Level) {
+        let mut k = 0;
         for kind in &mut self.kinds {
-            kind.first = self.rays.len();
-            for legs in kind.legs.chunks(BUNDLE) {
-                let mut bundle = Bundle::EMPTY;
-                let mut before = [Column::filled(0.0); 2];
-                let mut from = Departures::NONE;
+            kind.first = k;
+            k = kind.bundles().end;
+        }
+        self.rays.resize(k, Bundle::EMPTY);
+        if self.from.len() < k {
+            self.before.resize(k, [Column::filled(0.0); 2]);
+            self.from.resize(k, Departures::NONE);
+        }
+        for kind in &self.kinds {
+            for (k, legs) in kind.bundles().zip(kind.legs.chunks(BUNDLE)) {
+                let (bundle, [before, _], from) = (&mut self.rays[k], &mut self.before[k], &mut self.from[k]);
+                bundle.live = 0;
                 for (lane, leg) in legs.iter().enumerate() {
                     bundle.set(lane, &leg.sent.ray);
-                    before[0].0[lane] = leg.sent.travelled;
+                    before.0[lane] = leg.sent.travelled;
                     from.set(lane, &leg.departure);
                 }
-                bundle.close();
-                self.rays.push(bundle);
-                self.before.push(before);
-                self.from.push(from);
+                dispatch!(level, simd => bundle.close(simd));
             }
         }
     }
@@ -166,13 +172,7 @@ impl<C: Channel> Wave<C> {
     /// The light that arrives along the rays of a row.
     #[inline]
     pub fn row_of_light(&self, bundle: usize, row: usize) -> [C; LANES] {
-        let mut parts = [[0.0; 3]; LANES];
-        for (part, column) in self.light[bundle * C::PARTS..][..C::PARTS].iter().enumerate() {
-            for (parts, &light) in parts.iter_mut().zip(&column.0[row * LANES..][..LANES]) {
-                parts[part] = light;
-            }
-        }
-        parts.map(C::from_parts)
+        C::row(&self.light[bundle * C::PARTS..][..C::PARTS], row)
     }
 
     /// Sets it.

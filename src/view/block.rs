@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
 
-use crate::math::{Bundle, Columns, DVec3, Number, ROWS, Size, Vector};
+use crate::math::{Bundle, Columns, DVec3, Number, ROWS, Size};
 
 use super::direction::all_settled;
 use super::lens::Lens;
@@ -44,18 +44,20 @@ impl Block {
     pub fn rays(&self, lens: &Lens, off: [f64; 2], eye: DVec3, way: f64, level: Level, bundle: &mut Bundle) {
         bundle.live = self.live();
         dispatch!(level, simd => self.fill(simd, lens, off, eye, way, bundle));
-        bundle.close();
     }
 
     #[inline(always)]
     fn fill<S: Simd>(&self, simd: S, lens: &Lens, off: [f64; 2], eye: DVec3, way: f64, bundle: &mut Bundle) {
         let columns = f64x8::load_array(simd, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
+        let x = columns + f64::from(self.corner[0]) + 0.5 + off[0];
+        let across = lens.across(x);
+        let start = across.same(eye);
         for row in 0..ROWS {
-            let x = columns + f64::from(self.corner[0]) + 0.5 + off[0];
-            let y = columns.same(f64::from(self.corner[1] + row as u32) + 0.5 + off[1]);
-            let d = all_settled(lens.directions(x, y), way);
-            bundle.o.store(row, Vector { x, y, z: x }.same(eye));
+            let y = f64::from(self.corner[1] + row as u32) + 0.5 + off[1];
+            let d = all_settled(lens.upward(across, x.same(lens.height(y))), way);
+            bundle.o.store(row, start);
             bundle.d.store(row, d);
         }
+        bundle.close(simd);
     }
 }

@@ -83,11 +83,28 @@ impl Lens {
     /// The directions, of length 1, through one point of the picture or through several, as for [`Lens::ray`].
     #[inline(always)]
     pub fn directions<N: Number>(&self, x: N, y: N) -> Vector<N> {
+        self.upward(self.across(x), self.height(y))
+    }
+
+    /// Where columns of the picture look, before rows are asked: not of length 1.
+    #[inline(always)]
+    pub fn across<N: Number>(&self, x: N) -> Vector<N> {
         let across = (x * 2.0 / f64::from(self.dots.width) - 1.0) * self.tangents[0];
-        let upward = (-(y * 2.0 / f64::from(self.dots.height)) + 1.0) * self.tangents[1];
-        let like = Vector { x, y, z: x };
-        let d = like.same(self.right) * across + like.same(self.forward) + like.same(self.up) * upward;
-        d * (x.same(1.0) / d.length())
+        let like = Vector { x, y: x, z: x };
+        like.same(self.right) * across + like.same(self.forward)
+    }
+
+    /// How far above the middle a row looks, as a tangent.
+    #[inline(always)]
+    pub fn height<N: Number>(&self, y: N) -> N {
+        (-(y * 2.0 / f64::from(self.dots.height)) + 1.0) * self.tangents[1]
+    }
+
+    /// The directions, of length 1, in which columns look in rows.
+    #[inline(always)]
+    pub fn upward<N: Number>(&self, across: Vector<N>, height: N) -> Vector<N> {
+        let d = across + across.same(self.up) * height;
+        d * (height.same(1.0) / d.length())
     }
 
     /// The full angles of the field across and down, in degrees.

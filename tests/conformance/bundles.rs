@@ -1,10 +1,11 @@
 //! The fast engine's answers: rays in bundles, and those that are unsure one by one.
 
+use fearless_simd::dispatch;
 use ray13::frame::Frame;
 use ray13::math::{BUNDLE, Bundle, Column, DVec3, Ray, Size};
 use ray13::plan::{EngineChoice, Options};
 use ray13::scene::{Camera, Primitive, Scene};
-use ray13::solid::Departures;
+use ray13::solid::{Departure, Departures};
 use ray13::stage::{Meter, Silent};
 use ray13::trace::{Engine, Fast, Hit, Nearest, Shaft, Shone, TileMemory};
 
@@ -26,29 +27,39 @@ impl FastEngine {
         Fast::new(&self.0.assembly, &self.0.boxes, &self.0.subs)
     }
 
-    /// The answers for as many rays as a tile has.
-    fn first_of_tile(&self, rays: &[Ray], tile: &mut TileMemory) -> Vec<Option<Found>> {
+    /// The answers for as many rays as a tile has, all of which leave a surface, or none.
+    fn first_of_tile(&self, rays: &[(Ray, Option<Departure>)], tile: &mut TileMemory) -> Vec<Option<Found>> {
         let engine = self.engine();
         let (mut memory, mut meter) = (engine.memory(), Meter::new(Silent));
-        let mut bundles = Vec::new();
+        let (mut bundles, mut from) = (Vec::new(), Vec::new());
         for part in rays.chunks(RAYS) {
-            let mut bundle = Bundle::EMPTY;
-            for (lane, ray) in part.iter().enumerate() {
+            let (mut bundle, mut departures) = (Bundle::EMPTY, Departures::NONE);
+            for (lane, (ray, departure)) in part.iter().enumerate() {
                 bundle.set(lane, ray);
+                if let Some(departure) = departure {
+                    departures.set(lane, departure);
+                }
             }
-            bundle.close();
+            dispatch!(engine.level(), simd => bundle.close(simd));
             bundles.push(bundle);
+            from.push(departures);
         }
+        let leave = rays.iter().all(|(_, departure)| departure.is_some());
         let mut ways = vec![[Column::filled(0.0); 2]; bundles.len()];
-        for (bundle, way) in bundles.iter_mut().zip(&mut ways) {
-            engine.approach(bundle, way);
+        if !leave {
+            for (bundle, way) in bundles.iter_mut().zip(&mut ways) {
+                engine.approach(bundle, way);
+            }
         }
         let mut nearest = vec![Nearest::NOTHING; bundles.len()];
-        engine.first_of(&bundles, None, &mut nearest, tile);
-        let mut answer = |(place, ray): (usize, &Ray)| {
+        engine.first_of(&bundles, leave.then_some(&from[..]), &mut nearest, tile);
+        let mut answer = |(place, (ray, departure)): (usize, &(Ray, Option<Departure>))| {
             let (k, lane) = (place / RAYS, place % RAYS);
             // What the exact engine says of its error holds for the same bits.
-            let alone = engine.first(ray, &mut memory, &mut meter);
+            let alone = match departure {
+                None => engine.first(ray, &mut memory, &mut meter),
+                Some(departure) => engine.next(ray, *departure, &mut memory, &mut meter),
+            };
             let met = &nearest[k];
             if met.unsure >> lane & 1 == 1 {
                 return alone;
@@ -66,6 +77,11 @@ impl FastEngine {
         };
         rays.iter().enumerate().map(|ray| answer(ray).map(|hit| self.0.found(hit))).collect()
     }
+
+    fn first_of(&self, rays: &[(Ray, Option<Departure>)]) -> Vec<Option<Found>> {
+        let mut tile = TileMemory::default();
+        rays.chunks(RAYS * BUNDLES).flat_map(|rays| self.first_of_tile(rays, &mut tile)).collect()
+    }
 }
 
 impl Subject for FastEngine {
@@ -77,20 +93,16 @@ impl Subject for FastEngine {
     }
 
     fn first(&self, rays: &[Ray]) -> Vec<Option<Found>> {
-        let rays: Vec<Ray> = rays.iter().map(|ray| self.0.assembly.ray(ray)).collect();
-        let mut tile = TileMemory::default();
-        rays.chunks(RAYS * BUNDLES).flat_map(|rays| self.first_of_tile(rays, &mut tile)).collect()
+        let rays: Vec<_> = rays.iter().map(|ray| (self.0.assembly.ray(ray), None)).collect();
+        self.first_of(&rays)
     }
 
-    /// Rays that leave a surface go alone: those that it sends on are too unlike each other.
     fn next(&self, starts: &[Start]) -> Vec<Option<Found>> {
-        let engine = self.engine();
-        let (mut memory, mut meter) = (engine.memory(), Meter::new(Silent));
-        let mut next = |start| {
+        let rays = starts.iter().map(|start| {
             let (ray, departure) = self.0.leaving(start);
-            engine.next(&ray, departure, &mut memory, &mut meter)
-        };
-        starts.iter().map(|start| next(start).map(|hit| self.0.found(hit))).collect()
+            (ray, Some(departure))
+        });
+        self.first_of(&rays.collect::<Vec<_>>())
     }
 
     /// Each towards a light of its own.
@@ -104,11 +116,11 @@ impl Subject for FastEngine {
             let mut shaft = Shaft::EMPTY;
             shaft.rays.set(0, &ray);
             shaft.distance.0[0] = distance;
-            shaft.close();
+            dispatch!(engine.level(), simd => shaft.close(simd));
             let mut departures = Departures::NONE;
             departures.set(0, &departure);
             let mut shafts = [shaft];
-            let lamp = Shone { at: ray.at(distance), clear: &[] };
+            let lamp = Shone { at: ray.at(distance), clarity: &[], lets_through: &[] };
             engine.blocked_of(&mut shafts, &[departures], &lamp, &mut tile);
             if shafts[0].unsure & 1 == 1 {
                 return engine.blocked(&ray, departure, distance, &mut memory, &mut meter);

@@ -79,7 +79,8 @@ impl Company {
     }
 
     /// Puts the rays together anew.
-    pub fn gather(&mut self, shafts: &[Shaft], departures: &[Departures]) {
+    #[inline(always)]
+    pub fn gather<S: Simd>(&mut self, simd: S, shafts: &[Shaft], departures: &[Departures]) {
         let scale = CELLS as f64 / self.size[0].max(self.size[1]);
         // Digits of both numbers in turn: cells side by side are mostly near in that order (Morton).
         let spread = |x: f64| {
@@ -128,7 +129,7 @@ impl Company {
                 left.inward |= (leaves.inward >> own & 1) << lane;
                 to.rays.live |= 1 << lane;
             }
-            to.close();
+            to.close(simd);
         }
     }
 
@@ -186,11 +187,11 @@ mod tests {
                 shaft.distance.0[lane] = (lamp - o).length();
                 left.primitive.0[lane] = (k * BUNDLE + lane) as f64;
             }
-            shaft.close();
+            dispatch!(Level::new(), simd => shaft.close(simd));
         }
         let mut company = Company::default();
         assert!(dispatch!(Level::new(), simd => company.would_help(simd, &shafts, lamp)));
-        company.gather(&shafts, &departures);
+        dispatch!(Level::new(), simd => company.gather(simd, &shafts, &departures));
         let rays: u32 = shafts.iter().map(|shaft| shaft.rays.live.count_ones()).sum();
         assert_eq!(company.shafts.len(), (rays as usize).div_ceil(BUNDLE));
         for (shaft, left) in company.shafts.iter_mut().zip(&company.departures) {

@@ -18,7 +18,7 @@ use super::memory::TileMemory;
 use super::nearest::{Nearest, Offer};
 use super::slices::{Slices, slices};
 use super::thin::{Slabs, Thin};
-use super::walk::{asking, bounds_between, push_nearest_last, reach, wide};
+use super::walk::{Waits, asking, bounds_between, push_nearest_last, reach, wide};
 
 /// The most objects that a bundle is asked about, for each of its rays, as for shafts: where a dot holds many objects, or
 /// rays run apart, they have no company.
@@ -57,11 +57,12 @@ impl Fast<'_> {
         nearest: &mut [Nearest],
         memory: &mut TileMemory,
     ) -> usize {
-        let whole = beam_of_tile(simd, bundles);
+        let from_eye = departures.is_none();
+        let whole = beam_of_tile(simd, bundles, from_eye);
         let TileMemory { beams, thin, fan, .. } = memory;
         beams.clear();
         for bundle in bundles {
-            beams.push(beam_of(simd, bundle));
+            beams.push(beam_of(simd, bundle, from_eye));
         }
         fan.set(beams);
         thin.resize(bundles.len(), Thin::EMPTY);
@@ -74,13 +75,13 @@ impl Fast<'_> {
             found.clear();
         }
         stack.clear();
-        stack.push((f64::NEG_INFINITY, 0));
+        stack.push(Waits::root(u16::MAX));
         let mut given_up = 0;
         let mut left_to_ask = [0; FAN];
         for (left, bundle) in left_to_ask.iter_mut().zip(bundles) {
             *left = CROWD * bundle.live.count_ones();
         }
-        while let Some((near, node)) = memory.stack.pop() {
+        while let Some(Waits { near, node, frustums }) = memory.stack.pop() {
             let farthest = memory.far.iter().fold(f64::NEG_INFINITY, |most, &far| f64::max(most, far));
             if near > farthest + self.slack {
                 continue;
@@ -97,7 +98,7 @@ impl Fast<'_> {
                 let (lo, hi) = node.corners(slot);
                 let met = memory.fan.meets(simd, lo, hi);
                 let slabs = Slabs::around(simd, wide(lo), wide(hi), self.slack);
-                let mut left = met.frustums;
+                let mut left = met.frustums & frustums;
                 while left != 0 {
                     let k = left.trailing_zeros() as usize;
                     left &= left - 1;
@@ -129,7 +130,8 @@ impl Fast<'_> {
                     }
                 }
             }
-            push_nearest_last(&mut memory.stack, node, &met);
+            let TileMemory { fan, stack, .. } = memory;
+            push_nearest_last(simd, stack, node, &met, (fan, frustums));
         }
         given_up
     }
@@ -249,19 +251,19 @@ fn ball_of_bundle<S: Simd>(
     }
 }
 
-/// The frustum of a block of rays from the eye: that of its corners, where all start in the eye itself.
+/// The frustum of a bundle: of a block of rays from the eye that of its corners, where all start in the eye itself.
 #[inline(always)]
-fn beam_of<S: Simd>(simd: S, bundle: &Bundle) -> Beam {
+fn beam_of<S: Simd>(simd: S, bundle: &Bundle, from_eye: bool) -> Beam {
     match corners(bundle, [0, 7, 56, 63]) {
-        Some((o, d)) => Beam::between(o, d),
-        None => Beam::around(simd, std::iter::once((bundle, None)), Spread::Apart),
+        Some((o, d)) if from_eye => Beam::between(o, d),
+        _ => Beam::around(simd, std::iter::once((bundle, None)), Spread::Apart),
     }
 }
 
 /// The frustum of a tile of four by four blocks, or of what there is at the rim of the picture.
 #[inline(always)]
-fn beam_of_tile<S: Simd>(simd: S, bundles: &[Bundle]) -> Beam {
-    if bundles.len() == 16 {
+fn beam_of_tile<S: Simd>(simd: S, bundles: &[Bundle], from_eye: bool) -> Beam {
+    if from_eye && bundles.len() == 16 {
         let ends = [(0, 0), (3, 7), (12, 56), (15, 63)].map(|(k, lane)| corners(&bundles[k], [lane; 4]));
         if let [Some((o, a)), Some((p, b)), Some((q, c)), Some((r, d))] = ends
             && o == p

@@ -7,6 +7,7 @@ use crate::stage::Counts;
 use super::company::Company;
 use super::nearest::Nearest;
 use super::thin::Thin;
+use super::walk::Waits;
 
 /// What tracing a tile needs, used again for every tile.
 #[derive(Debug)]
@@ -19,8 +20,8 @@ pub struct TileMemory {
     pub(super) company: Company,
     /// By bundle: the planes across its rays, where they were asked for.
     pub(super) sheared: Vec<Sheared>,
-    /// Nodes to be walked, and how near they are at least.
-    pub(super) stack: Vec<(f64, u32)>,
+    /// Nodes to be walked.
+    pub(super) stack: Vec<Waits>,
     pub(super) scratch: BundleScratch,
     pub(super) found: Box<Found>,
     /// What rays meet of one object.

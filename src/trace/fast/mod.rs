@@ -100,7 +100,7 @@ impl<'a> Fast<'a> {
         let mut company = std::mem::take(&mut memory.company);
         let helps = dispatch!(self.level, simd => company.would_help(simd, shafts, lamp.at));
         let apart = if helps {
-            company.gather(shafts, departures);
+            dispatch!(self.level, simd => company.gather(simd, shafts, departures));
             let apart = self.blocked_in_company(&mut company.shafts, &company.departures, lamp, memory);
             company.scatter(shafts);
             apart

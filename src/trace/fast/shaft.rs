@@ -18,7 +18,7 @@ use super::memory::TileMemory;
 use super::slices::{Slices, slices};
 use super::thin::{Slabs, Thin};
 use super::tint::{Clarity, Tint};
-use super::walk::{asking, bounds_between, push_nearest_last, reach, wide};
+use super::walk::{Waits, asking, bounds_between, push_nearest_last, reach, wide};
 
 /// The most objects that a shaft is asked about, for each of its rays: rays that run apart, and have so many objects
 /// between them, take less time one by one.
@@ -79,15 +79,11 @@ impl Shaft {
     }
 
     /// Gives those that do not ask the numbers of the first that does ([`Bundle::close`]).
-    pub fn close(&mut self) {
-        self.rays.close();
+    #[inline(always)]
+    pub fn close<S: Simd>(&mut self, simd: S) {
+        self.rays.close(simd);
         if self.rays.live != 0 {
-            let first = self.distance.0[self.rays.live.trailing_zeros() as usize];
-            for (lane, distance) in self.distance.0.iter_mut().enumerate() {
-                if self.rays.live >> lane & 1 == 0 {
-                    *distance = first;
-                }
-            }
+            self.distance.fill_rest(simd, self.rays.live, self.rays.live.trailing_zeros() as usize);
         }
     }
 
@@ -154,12 +150,16 @@ impl Fast<'_> {
         memory.far.clear();
         memory.far.extend(shafts.iter().map(|shaft| shaft.distance.0.iter().copied().fold(0.0, f64::max)));
         memory.stack.clear();
-        memory.stack.push((f64::NEG_INFINITY, 0));
+        memory.stack.push(Waits::root(open));
         let mut left_to_ask = [0; FAN];
         for (left, shaft) in left_to_ask.iter_mut().zip(&*shafts) {
             *left = CROWD * shaft.open().count_ones();
         }
-        while let Some((_, node)) = memory.stack.pop() {
+        while let Some(Waits { node, frustums, .. }) = memory.stack.pop() {
+            let frustums = frustums & open;
+            if frustums == 0 {
+                continue;
+            }
             let node = &self.boxes.nodes()[node as usize];
             memory.counts.cells_visited += 1;
             let (lo, hi) = node.sides(simd);
@@ -171,7 +171,7 @@ impl Fast<'_> {
                 let Some(Child::Object(object)) = node.child(slot) else { continue };
                 let (lo, hi) = node.corners(slot);
                 let slabs = Slabs::around(simd, wide(lo), wide(hi), self.slack);
-                let mut left = memory.fan.meets(simd, lo, hi).frustums & open;
+                let mut left = memory.fan.meets(simd, lo, hi).frustums & frustums & open;
                 while left != 0 {
                     let k = left.trailing_zeros() as usize;
                     left &= left - 1;
@@ -218,7 +218,8 @@ impl Fast<'_> {
                     return given_up;
                 }
             }
-            push_nearest_last(&mut memory.stack, node, &met);
+            let TileMemory { fan, stack, .. } = memory;
+            push_nearest_last(simd, stack, node, &met, (fan, frustums & open));
         }
         given_up
     }

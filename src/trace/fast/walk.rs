@@ -2,28 +2,57 @@
 
 use fearless_simd::{Simd, SimdBase, f64x8};
 
-use crate::lattice::{Child, Met, Node, highest, lowest};
+use crate::lattice::{Child, Fan, Met, Node, highest, lowest};
 use crate::math::{Bounds, Bundle, DVec3, Number, ROWS};
 use crate::solid::Form;
 
 use super::thin::{Slabs, Thin};
 
-/// Puts the nodes among a node's children that were met on the stack, the nearest last.
+/// A node that is to be walked.
+#[derive(Clone, Copy, Debug)]
+pub struct Waits {
+    /// How near it is at least.
+    pub near: f64,
+    /// Its index.
+    pub node: u32,
+    /// Which frustums may meet it, a bit for each.
+    pub frustums: u16,
+}
+
+impl Waits {
+    /// The root, for these frustums.
+    pub fn root(frustums: u16) -> Self {
+        Self { near: f64::NEG_INFINITY, node: 0, frustums }
+    }
+}
+
+/// Puts the nodes among a node's children that were met, and that some of the frustums may meet, on the stack, the nearest
+/// last.
 #[inline(always)]
-pub fn push_nearest_last<S: Simd>(stack: &mut Vec<(f64, u32)>, node: &Node, met: &Met<S>) {
+pub fn push_nearest_last<S: Simd>(
+    simd: S,
+    stack: &mut Vec<Waits>,
+    node: &Node,
+    met: &Met<S>,
+    (fan, frustums): (&Fan, u16),
+) {
     let first = stack.len();
     let mut left = met.boxes & node.inner();
     while left != 0 {
         let slot = left.trailing_zeros() as usize;
         left &= left - 1;
-        if let Some(Child::Node(index)) = node.child(slot) {
-            let near = f64::from(met.near[slot]);
-            let mut place = stack.len();
-            stack.push((near, index));
-            while place > first && stack[place - 1].0 < near {
-                stack.swap(place - 1, place);
-                place -= 1;
-            }
+        let Some(Child::Node(index)) = node.child(slot) else { continue };
+        let (lo, hi) = node.corners(slot);
+        let frustums = fan.meets(simd, lo, hi).frustums & frustums;
+        if frustums == 0 {
+            continue;
+        }
+        let near = f64::from(met.near[slot]);
+        let mut place = stack.len();
+        stack.push(Waits { near, node: index, frustums });
+        while place > first && stack[place - 1].near < near {
+            stack.swap(place - 1, place);
+            place -= 1;
         }
     }
 }

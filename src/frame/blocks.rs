@@ -47,8 +47,7 @@ impl<'b, C: Channel> Tracer<C> for Blocks<'_, 'b, C> {
         self.shader.tile(eye, shading, alone, meter);
         for (block, place) in blocks(tile) {
             place.rows(tile, |row, dots_of_row| {
-                dots.light[dots_of_row.clone()]
-                    .copy_from_slice(&shading.light(block, row)[..dots_of_row.len()]);
+                copy_row(shading.light(block, row), &mut dots.light[dots_of_row.clone()]);
                 if dots.sees() {
                     for (lane, dot) in dots_of_row.enumerate() {
                         dots.see(dot, shading.seen(block, row * LANES + lane), self.assembly);
@@ -76,6 +75,15 @@ impl<'b, C: Channel> Tracer<C> for Blocks<'_, 'b, C> {
         for light in &mut dots.light {
             *light = *light * (step * step);
         }
+    }
+}
+
+/// Copies as many as there is place for: mostly all.
+#[inline]
+fn copy_row<C: Channel>(row: [C; LANES], to: &mut [C]) {
+    match <&mut [C; LANES]>::try_from(&mut *to) {
+        Ok(to) => *to = row,
+        Err(_) => to.copy_from_slice(&row[..to.len()]),
     }
 }
 

@@ -52,6 +52,16 @@ impl Column {
         self.store(row, which.select(x, self.load(simd, row)));
     }
 
+    /// The largest; none of them may be not-a-number.
+    #[inline(always)]
+    pub fn largest<S: Simd>(&self, simd: S) -> f64 {
+        let mut most = self.load(simd, 0);
+        for row in 1..ROWS {
+            most = most.max(self.load(simd, row));
+        }
+        most.reduce_max()
+    }
+
     /// Gives those whose bit is not among `kept` the number of another, `from`.
     #[inline(always)]
     pub fn fill_rest<S: Simd>(&mut self, simd: S, kept: u64, from: usize) {

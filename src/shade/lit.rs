@@ -13,6 +13,15 @@ use super::power::power;
 use super::surface::{Finish, NEAREST};
 use super::surfaces::Surfaces;
 
+/// What is asked about the way to a lamp, beside which surfaces face it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Needs {
+    /// Whether anything stands in it.
+    pub shadows: bool,
+    /// How near the mirrored light comes to the eye.
+    pub highlights: bool,
+}
+
 /// How the surfaces of a bundle lie to a lamp.
 #[derive(Clone, Debug)]
 pub(super) struct Lit {
@@ -34,13 +43,13 @@ impl Lit {
         lamp: DVec3,
         bundle: &Bundle,
         surfaces: &Surfaces,
-        shines: u64,
+        (shines, needs): (u64, Needs),
         shaft: &mut Shaft,
         level: Level,
     ) {
         shaft.clear();
         if shines != 0 {
-            dispatch!(level, simd => self.lit(simd, lamp, bundle, surfaces, shines, shaft));
+            dispatch!(level, simd => self.lit(simd, lamp, bundle, surfaces, (shines, needs), shaft));
         }
     }
 
@@ -51,7 +60,7 @@ impl Lit {
         lamp: DVec3,
         bundle: &Bundle,
         surfaces: &Surfaces,
-        shines: u64,
+        (shines, needs): (u64, Needs),
         shaft: &mut Shaft,
     ) {
         for row in 0..ROWS {
@@ -66,18 +75,24 @@ impl Lit {
             let facing = d.dot(normal);
             let zero = f64x8::splat(simd, 0.0);
             let asks = facing.is_above(zero) & !distance.is_below(zero.same(NEAREST));
-            let mirrored = normal * (facing * 2.0) - d;
-            let cosine = -mirrored.dot(bundle.d.load(simd, row));
-            let one = zero.same(1.0);
             self.facing.store(row, facing);
-            self.cosine.store(row, cosine.is_above(one).select(one, cosine));
-            shaft.rays.o.store(row, p);
-            shaft.rays.d.store(row, d);
-            shaft.distance.store(row, distance);
+            if needs.highlights {
+                let mirrored = normal * (facing * 2.0) - d;
+                let cosine = -mirrored.dot(bundle.d.load(simd, row));
+                let one = zero.same(1.0);
+                self.cosine.store(row, cosine.is_above(one).select(one, cosine));
+            }
+            if needs.shadows {
+                shaft.rays.o.store(row, p);
+                shaft.rays.d.store(row, d);
+                shaft.distance.store(row, distance);
+            }
             shaft.rays.live |= u64::from(asks.bits()) << (row * LANES);
         }
         shaft.rays.live &= shines;
-        shaft.close(simd);
+        if needs.shadows {
+            shaft.close(simd);
+        }
     }
 
     /// Adds what a lamp of this light gives to the rays of `lanes`, which met a surface of one material. `sum` has a column

@@ -14,7 +14,7 @@ use crate::stage::{Meter, Probe, Stage};
 use crate::trace::{Engine, Fast, Hit, Shaft, Shone, TileMemory};
 
 use super::channel::Channel;
-use super::lit::{Gathering, Lit, add_everywhere, before_lamps};
+use super::lit::{Gathering, Lit, Needs, add_everywhere, before_lamps};
 use super::media::{List, Media, OUTSIDE};
 use super::path::{Onward, Sent};
 use super::surface::{Finish, Lamp, Memory, Met, Seen, Shader};
@@ -314,7 +314,9 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         let shafts = &mut shafts[..count];
         for k in 0..count {
             let shines = self.made_so(&wave.surfaces[k], |finish| finish.kd > 0.0 || finish.ks > 0.0);
-            lit[k].light(place, &wave.rays[k], &wave.surfaces[k], shines, &mut shafts[k], level);
+            let highlights = self.made_so(&wave.surfaces[k], |finish| finish.ks > 0.0) != 0;
+            let asked = (shines, Needs { shadows: self.shadows, highlights });
+            lit[k].light(place, &wave.rays[k], &wave.surfaces[k], asked, &mut shafts[k], level);
         }
         if self.shadows {
             meter.at(Stage::Cell);

@@ -31,10 +31,10 @@ pub struct Company {
     starts: Vec<u16>,
     /// The rays by cells: the number of the shaft, and six bits for the lane.
     order: Vec<u16>,
-    /// The new shafts.
-    pub shafts: Vec<Shaft>,
+    /// The new shafts, as many as `order` fills; there may be more.
+    shafts: Vec<Shaft>,
     /// By new shaft: what its rays leave.
-    pub departures: Vec<Departures>,
+    departures: Vec<Departures>,
 }
 
 impl Company {
@@ -110,8 +110,11 @@ impl Company {
                 *start += 1;
             }
         }
-        self.shafts.resize(count.div_ceil(BUNDLE), Shaft::EMPTY);
-        self.departures.resize(self.shafts.len(), Departures::NONE);
+        let needed = count.div_ceil(BUNDLE);
+        if self.shafts.len() < needed {
+            self.shafts.resize(needed, Shaft::EMPTY);
+            self.departures.resize(needed, Departures::NONE);
+        }
         let groups = self.order.chunks(BUNDLE);
         for ((to, left), group) in self.shafts.iter_mut().zip(&mut self.departures).zip(groups) {
             to.clear();
@@ -131,6 +134,12 @@ impl Company {
             }
             to.close(simd);
         }
+    }
+
+    /// The new shafts, and what their rays leave.
+    pub fn shafts(&mut self) -> (&mut [Shaft], &[Departures]) {
+        let count = self.order.len().div_ceil(BUNDLE);
+        (&mut self.shafts[..count], &self.departures[..count])
     }
 
     /// Gives each ray back what was found for it.
@@ -193,8 +202,9 @@ mod tests {
         assert!(dispatch!(Level::new(), simd => company.would_help(simd, &shafts, lamp)));
         dispatch!(Level::new(), simd => company.gather(simd, &shafts, &departures));
         let rays: u32 = shafts.iter().map(|shaft| shaft.rays.live.count_ones()).sum();
-        assert_eq!(company.shafts.len(), (rays as usize).div_ceil(BUNDLE));
-        for (shaft, left) in company.shafts.iter_mut().zip(&company.departures) {
+        let (new, leave) = company.shafts();
+        assert_eq!(new.len(), (rays as usize).div_ceil(BUNDLE));
+        for (shaft, left) in new.iter_mut().zip(leave) {
             for lane in lanes(shaft.rays.live) {
                 let ray = left.primitive.0[lane] as usize;
                 assert_eq!(shaft.rays.o.get(lane), start(ray / BUNDLE, ray % BUNDLE));

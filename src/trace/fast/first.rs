@@ -65,9 +65,8 @@ impl Fast<'_> {
             beams.push(beam_of(simd, bundle, from_eye));
         }
         fan.set(beams);
-        thin.resize(bundles.len(), Thin::EMPTY);
         thin.iter_mut().for_each(Thin::forget);
-        memory.forget_sheared(bundles.len());
+        memory.forget_sheared();
         let TileMemory { far, stack, .. } = memory;
         far.clear();
         far.extend(bundles.iter().map(|b| if b.live == 0 { f64::NEG_INFINITY } else { f64::INFINITY }));
@@ -97,8 +96,11 @@ impl Fast<'_> {
                 let Some(Child::Object(object)) = node.child(slot) else { continue };
                 let (lo, hi) = node.corners(slot);
                 let met = memory.fan.meets(simd, lo, hi);
-                let slabs = Slabs::around(simd, wide(lo), wide(hi), self.slack);
                 let mut left = met.frustums & frustums;
+                if left == 0 {
+                    continue;
+                }
+                let slabs = Slabs::around(simd, wide(lo), wide(hi), self.slack);
                 while left != 0 {
                     let k = left.trailing_zeros() as usize;
                     left &= left - 1;

@@ -1,6 +1,6 @@
 //! Memory of one worker.
 
-use crate::lattice::{Beam, Fan};
+use crate::lattice::{Beam, FAN, Fan};
 use crate::solid::{BundleScratch, Found, Pruning, Remains, Sheared};
 use crate::stage::Counts;
 
@@ -15,6 +15,7 @@ pub struct TileMemory {
     /// By bundle: its own frustum, and how far its rays have still to look.
     pub(super) beams: Vec<Beam>,
     pub(super) far: Vec<f64>,
+    /// Their rays in half the digits, for as many as a fan has.
     pub(super) thin: Vec<Thin>,
     pub(super) fan: Fan,
     pub(super) company: Company,
@@ -38,9 +39,8 @@ impl TileMemory {
         &mut self.counts
     }
 
-    /// Forgets the planes across the rays of the last tile; this one has so many bundles.
-    pub(super) fn forget_sheared(&mut self, bundles: usize) {
-        self.sheared.resize(bundles, Sheared::UNKNOWN);
+    /// Forgets the planes across the rays of the last tile.
+    pub(super) fn forget_sheared(&mut self) {
         self.sheared.iter_mut().for_each(Sheared::forget);
     }
 }
@@ -50,10 +50,10 @@ impl Default for TileMemory {
         Self {
             beams: Vec::new(),
             far: Vec::new(),
-            thin: Vec::new(),
+            thin: vec![Thin::EMPTY; FAN],
             fan: Fan::default(),
             company: Company::default(),
-            sheared: Vec::new(),
+            sheared: vec![Sheared::UNKNOWN; FAN],
             stack: Vec::new(),
             scratch: BundleScratch::default(),
             found: Box::new(Found::NONE),

@@ -101,7 +101,8 @@ impl<'a> Fast<'a> {
         let helps = dispatch!(self.level, simd => company.would_help(simd, shafts, lamp.at));
         let apart = if helps {
             dispatch!(self.level, simd => company.gather(simd, shafts, departures));
-            let apart = self.blocked_in_company(&mut company.shafts, &company.departures, lamp, memory);
+            let (new, leave) = company.shafts();
+            let apart = self.blocked_in_company(new, leave, lamp, memory);
             company.scatter(shafts);
             apart
         } else {

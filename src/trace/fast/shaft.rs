@@ -144,11 +144,8 @@ impl Fast<'_> {
             return 0;
         }
         let mut given_up = 0;
-        memory.thin.resize(shafts.len(), Thin::EMPTY);
         memory.thin.iter_mut().for_each(Thin::forget);
-        memory.forget_sheared(shafts.len());
-        memory.far.clear();
-        memory.far.extend(shafts.iter().map(|shaft| shaft.distance.0.iter().copied().fold(0.0, f64::max)));
+        memory.forget_sheared();
         memory.stack.clear();
         memory.stack.push(Waits::root(open));
         let mut left_to_ask = [0; FAN];
@@ -170,8 +167,11 @@ impl Fast<'_> {
                 objects &= objects - 1;
                 let Some(Child::Object(object)) = node.child(slot) else { continue };
                 let (lo, hi) = node.corners(slot);
-                let slabs = Slabs::around(simd, wide(lo), wide(hi), self.slack);
                 let mut left = memory.fan.meets(simd, lo, hi).frustums & frustums & open;
+                if left == 0 {
+                    continue;
+                }
+                let slabs = Slabs::around(simd, wide(lo), wide(hi), self.slack);
                 while left != 0 {
                     let k = left.trailing_zeros() as usize;
                     left &= left - 1;

@@ -6,6 +6,7 @@
 
 use fearless_simd::Simd;
 
+use crate::lattice::FAN;
 use crate::math::Column;
 use crate::solid::Departures;
 
@@ -85,6 +86,8 @@ impl Fast<'_> {
     ) {
         let mut met = std::mem::take(&mut memory.met);
         met.clear();
+        memory.far.resize(FAN, 0.0);
+        memory.far[k] = shaft.distance.largest(simd);
         let outset = Outset { rays: &shaft.rays, departures: Some(departures) };
         self.object_of_bundle(simd, about, outset, &mut met, memory, k);
         shaft.unsure |= met.unsure & shaft.rays.live;

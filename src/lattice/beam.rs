@@ -85,95 +85,210 @@ pub struct Met<S: Simd> {
 /// the planes are moved outward by.
 const NEAR: f64 = WAY;
 
-impl Beam {
-    /// The beam of rays that start in one point and lie between four of them.
-    pub fn between(o: DVec3, corners: [DVec3; 4]) -> Self {
+/// The axis of beams that run together, and two directions across it.
+#[derive(Clone, Copy, Debug)]
+pub struct Basis {
+    axis: DVec3,
+    across: [DVec3; 2],
+}
+
+/// How rays lie to a basis: the least and the greatest slope along each direction across, and the least cosine with the
+/// axis.
+#[derive(Clone, Copy, Debug)]
+struct Slopes {
+    low: [f64; 2],
+    high: [f64; 2],
+    least: f64,
+}
+
+impl Basis {
+    /// The one whose directions across run along the sides of a frustum with these corners, the first two of which are
+    /// neighbours.
+    pub fn of_corners(corners: [DVec3; 4]) -> Self {
         let axis = (corners[0] + corners[1] + corners[2] + corners[3]).normalize_or(DVec3::X);
         let u = (corners[1] - corners[0]).cross(axis).normalize_or(axis.any_orthonormal_vector());
         let u = u.cross(axis).normalize_or(u);
-        let across = [u, axis.cross(u)];
-        let (mut low, mut high, mut least) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2], f64::INFINITY);
-        for d in corners {
-            let w = d.dot(axis);
-            least = least.min(w);
-            for slot in 0..2 {
-                let slope = d.dot(across[slot]) / w;
-                (low[slot], high[slot]) = (low[slot].min(slope), high[slot].max(slope));
-            }
-        }
-        let mut sides = [Plane::NOWHERE; 4];
-        if least > COHERENT {
-            for slot in 0..2 {
-                let normals = [across[slot] - low[slot] * axis, high[slot] * axis - across[slot]];
-                for (side, normal) in sides[2 * slot..].iter_mut().zip(normals) {
-                    *side = Plane { normal, offset: normal.dot(o) - margin(normal) };
-                }
-            }
-        }
-        let (at, off) = (axis.dot(o), margin(axis));
-        Self { sides, axis, first: at - off, last: at + WAY + off, start: at + off }
+        Self { axis, across: [u, axis.cross(u)] }
     }
 
-    /// The beam around the live rays of some bundles, which all go to one point.
-    #[inline(always)]
-    pub fn towards<'b, S: Simd>(
-        simd: S,
-        bundles: impl Iterator<Item = (&'b Bundle, &'b Column)> + Clone,
-        apex: DVec3,
-    ) -> Self {
-        if apex.abs().max_element() > NEAR {
-            let bundles = bundles.map(|(bundle, distance)| (bundle, Some(distance)));
-            return Self::around(simd, bundles, Spread::Together);
-        }
+    /// One along the rays of some bundles.
+    fn along<'b>(bundles: impl Iterator<Item = &'b Bundle>) -> Self {
         let mut sum = DVec3::ZERO;
-        for (bundle, _) in bundles.clone() {
-            if bundle.live != 0 {
-                // Corners and middle: enough for a direction in between.
-                for lane in [0, 7, 27, 36, 56, 63] {
-                    sum += bundle.d.get(lane);
-                }
+        for bundle in bundles {
+            // Corners and middle: enough for a direction in between.
+            for lane in [0, 7, 27, 36, 56, 63] {
+                sum += bundle.d.get(lane);
             }
         }
         let axis = sum.normalize_or(DVec3::X);
         let u = axis.any_orthonormal_vector();
-        let v = axis.cross(u);
+        Self { axis, across: [u, axis.cross(u)] }
+    }
+}
+
+impl Slopes {
+    const NONE: Self = Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2], least: f64::INFINITY };
+
+    /// Those of a closed bundle.
+    #[inline(always)]
+    fn of<S: Simd>(simd: S, bundle: &Bundle, basis: &Basis) -> Self {
         let infinite = f64x8::splat(simd, f64::INFINITY);
         let (mut low, mut high, mut least) = ([infinite; 2], [-infinite; 2], infinite);
-        let (mut nearest, mut farthest) = (infinite, -infinite);
-        for (bundle, _) in bundles {
-            if bundle.live == 0 {
-                continue;
-            }
-            for row in 0..ROWS {
-                let rays = bundle.load(simd, row);
-                let w = rays.d.dot_one(axis);
-                least = w.smaller(least);
-                let inverse = w.same(1.0) / w;
-                let slopes = [rays.d.dot_one(u) * inverse, rays.d.dot_one(v) * inverse];
-                for slot in 0..2 {
-                    low[slot] = slopes[slot].smaller(low[slot]);
-                    high[slot] = slopes[slot].larger(high[slot]);
-                }
-                let at = rays.o.dot_one(axis);
-                nearest = at.smaller(nearest);
-                farthest = at.larger(farthest);
-            }
-        }
-        let mut sides = [Plane::NOWHERE; 4];
-        if lowest(least) > COHERENT {
+        for row in 0..ROWS {
+            let d = bundle.d.load(simd, row);
+            let w = d.dot_one(basis.axis);
+            least = w.smaller(least);
+            let inverse = w.same(1.0) / w;
             for slot in 0..2 {
-                let across = [u, v][slot];
-                // Seen from the apex, what comes from one side lies on the other.
-                let normals = [across - highest(high[slot]) * axis, lowest(low[slot]) * axis - across];
-                for k in 0..2 {
-                    let normal = normals[k];
-                    sides[2 * slot + k] = Plane { normal, offset: normal.dot(apex) - margin(normal) };
-                }
+                let slope = d.dot_one(basis.across[slot]) * inverse;
+                low[slot] = slope.smaller(low[slot]);
+                high[slot] = slope.larger(high[slot]);
             }
         }
+        Self {
+            low: [lowest(low[0]), lowest(low[1])],
+            high: [highest(high[0]), highest(high[1])],
+            least: lowest(least),
+        }
+    }
+
+    #[inline(always)]
+    fn join(&mut self, other: &Self) {
+        for slot in 0..2 {
+            self.low[slot] = self.low[slot].min(other.low[slot]);
+            self.high[slot] = self.high[slot].max(other.high[slot]);
+        }
+        self.least = self.least.min(other.least);
+    }
+
+    /// The normals of the planes around all, inward; none where the slopes say too little.
+    #[inline(always)]
+    fn normals(&self, basis: &Basis, spread: Spread) -> Option<[DVec3; 4]> {
+        if self.least <= COHERENT {
+            return None;
+        }
+        let Basis { axis, across: [u, v] } = *basis;
+        // Towards one point, and seen from there, what comes from one side lies on the other.
+        let (below, above) =
+            if spread == Spread::Apart { (self.low, self.high) } else { (self.high, self.low) };
+        Some([u - below[0] * axis, above[0] * axis - u, v - below[1] * axis, above[1] * axis - v])
+    }
+}
+
+/// Planes through one point.
+#[inline(always)]
+fn through(point: DVec3, normals: Option<[DVec3; 4]>) -> [Plane; 4] {
+    let Some([a, b, c, d]) = normals else { return [Plane::NOWHERE; 4] };
+    let plane = |normal: DVec3| Plane { normal, offset: normal.dot(point) - margin(normal) };
+    [plane(a), plane(b), plane(c), plane(d)]
+}
+
+/// The ways of rays to one point, as far as they matter to a beam.
+#[derive(Clone, Copy, Debug)]
+struct Ways {
+    slopes: Slopes,
+    /// Where the rays start along the axis.
+    nearest: f64,
+    farthest: f64,
+}
+
+impl Ways {
+    const NONE: Self = Self { slopes: Slopes::NONE, nearest: f64::INFINITY, farthest: f64::NEG_INFINITY };
+
+    #[inline(always)]
+    fn of<S: Simd>(simd: S, bundle: &Bundle, basis: &Basis) -> Self {
+        let infinite = f64x8::splat(simd, f64::INFINITY);
+        let (mut nearest, mut farthest) = (infinite, -infinite);
+        for row in 0..ROWS {
+            let at = bundle.o.load(simd, row).dot_one(basis.axis);
+            nearest = at.smaller(nearest);
+            farthest = at.larger(farthest);
+        }
+        let slopes = Slopes::of(simd, bundle, basis);
+        Self { slopes, nearest: lowest(nearest), farthest: highest(farthest) }
+    }
+
+    #[inline(always)]
+    fn join(&mut self, other: &Self) {
+        self.slopes.join(&other.slopes);
+        self.nearest = self.nearest.min(other.nearest);
+        self.farthest = self.farthest.max(other.farthest);
+    }
+
+    #[inline(always)]
+    fn beam(&self, basis: &Basis, apex: DVec3) -> Beam {
+        let axis = basis.axis;
         let (at, off) = (axis.dot(apex), margin(axis));
-        let (nearest, farthest) = (lowest(nearest), highest(farthest));
-        Self { sides, axis, first: nearest - off, last: at.max(farthest) + off, start: farthest + off }
+        Beam {
+            sides: through(apex, self.slopes.normals(basis, Spread::Together)),
+            axis,
+            first: self.nearest - off,
+            last: at.max(self.farthest) + off,
+            start: self.farthest + off,
+        }
+    }
+}
+
+impl Beam {
+    /// The beam of rays that start in one point and lie between four of them.
+    pub fn between(o: DVec3, corners: [DVec3; 4], basis: &Basis) -> Self {
+        let Basis { axis, across } = *basis;
+        let mut slopes = Slopes::NONE;
+        for d in corners {
+            let w = d.dot(axis);
+            slopes.least = slopes.least.min(w);
+            for slot in 0..2 {
+                let slope = d.dot(across[slot]) / w;
+                slopes.low[slot] = slopes.low[slot].min(slope);
+                slopes.high[slot] = slopes.high[slot].max(slope);
+            }
+        }
+        let sides = through(o, slopes.normals(basis, Spread::Apart));
+        let (at, off) = (axis.dot(o), margin(axis));
+        Self { sides, axis, first: at - off, last: at + WAY + off, start: at + off }
+    }
+
+    /// The beams around bundles that all go to one point, each with how far, and the beam around them all. For what is
+    /// absent, or has no live ray, that of all stands among the `beams`.
+    #[inline(always)]
+    pub fn towards<'b, S: Simd>(
+        simd: S,
+        bundles: &(impl Iterator<Item = Option<(&'b Bundle, &'b Column)>> + Clone),
+        apex: DVec3,
+        beams: &mut Vec<Self>,
+    ) -> Self {
+        beams.clear();
+        let live = || bundles.clone().map(|b| b.filter(|(bundle, _)| bundle.live != 0));
+        if apex.abs().max_element() > NEAR {
+            let far = live().flatten().map(|(bundle, distance)| (bundle, Some(distance)));
+            let all = Self::around(simd, far, Spread::Together);
+            for bundle in live() {
+                beams.push(match bundle {
+                    Some((bundle, distance)) => {
+                        Self::around(simd, std::iter::once((bundle, Some(distance))), Spread::Together)
+                    }
+                    None => all,
+                });
+            }
+            return all;
+        }
+        let basis = Basis::along(live().flatten().map(|(bundle, _)| bundle));
+        let mut all = Ways::NONE;
+        for bundle in live() {
+            let ways = match bundle {
+                Some((bundle, _)) => Ways::of(simd, bundle, &basis),
+                None => Ways::NONE,
+            };
+            all.join(&ways);
+            beams.push(ways.beam(&basis, apex));
+        }
+        let all = all.beam(&basis, apex);
+        for (beam, bundle) in beams.iter_mut().zip(live()) {
+            if bundle.is_none() {
+                *beam = all;
+            }
+        }
+        all
     }
 
     /// The beam around the live rays of some bundles, as far as `reach` of each.
@@ -184,43 +299,15 @@ impl Beam {
         spread: Spread,
     ) -> Self {
         let live = || bundles.clone().filter(|(bundle, _)| bundle.live != 0);
-        let mut sum = DVec3::ZERO;
+        let basis = Basis::along(live().map(|(bundle, _)| bundle));
+        let mut slopes = Slopes::NONE;
         for (bundle, _) in live() {
-            // Corners and middle: enough for a direction in between.
-            for lane in [0, 7, 27, 36, 56, 63] {
-                sum += bundle.d.get(lane);
-            }
+            slopes.join(&Slopes::of(simd, bundle, &basis));
         }
-        let axis = sum.normalize_or(DVec3::X);
-        let u = axis.any_orthonormal_vector();
-        let v = axis.cross(u);
-
+        let axis = basis.axis;
+        let coherent = slopes.normals(&basis, spread);
+        let normals = coherent.unwrap_or_default();
         let infinite = f64x8::splat(simd, f64::INFINITY);
-        let (mut low, mut high, mut least) = ([infinite; 2], [-infinite; 2], infinite);
-        for (bundle, _) in live() {
-            for row in 0..ROWS {
-                let d = bundle.d.load(simd, row);
-                let w = d.dot_one(axis);
-                least = w.smaller(least);
-                let inverse = w.same(1.0) / w;
-                let slopes = [d.dot_one(u) * inverse, d.dot_one(v) * inverse];
-                for slot in 0..2 {
-                    low[slot] = slopes[slot].smaller(low[slot]);
-                    high[slot] = slopes[slot].larger(high[slot]);
-                }
-            }
-        }
-        let coherent = lowest(least) > COHERENT;
-        let mut normals = [DVec3::ZERO; 4];
-        if coherent {
-            for slot in 0..2 {
-                let across = [u, v][slot];
-                let (low, high) = (lowest(low[slot]), highest(high[slot]));
-                let (below, above) = if spread == Spread::Apart { (low, high) } else { (high, low) };
-                normals[2 * slot] = across - below * axis;
-                normals[2 * slot + 1] = above * axis - across;
-            }
-        }
         let mut offsets = [infinite; 4];
         let (mut first, mut last, mut start) = (infinite, -infinite, -infinite);
         for (bundle, reach) in bundles.filter(|(bundle, _)| bundle.live != 0) {
@@ -242,7 +329,7 @@ impl Beam {
             }
         }
         let sides = std::array::from_fn(|k| {
-            if coherent {
+            if coherent.is_some() {
                 Plane { normal: normals[k], offset: lowest(offsets[k]) - margin(normals[k]) }
             } else {
                 Plane::NOWHERE
@@ -278,16 +365,16 @@ impl Beam {
     }
 }
 
-/// The least of eight.
+/// The least of eight, none of which is not-a-number.
 #[inline(always)]
 pub fn lowest<S: Simd>(x: f64x8<S>) -> f64 {
-    x.to_array().into_iter().fold(f64::INFINITY, |least, x| if x < least { x } else { least })
+    x.reduce_min()
 }
 
-/// The greatest of eight.
+/// The greatest of eight, none of which is not-a-number.
 #[inline(always)]
 pub fn highest<S: Simd>(x: f64x8<S>) -> f64 {
-    -lowest(-x)
+    x.reduce_max()
 }
 
 /// How far a plane is moved outward where it is compared with half the digits.

@@ -15,7 +15,7 @@ mod structure;
 mod sub;
 mod tree;
 
-pub use beam::{Beam, Met, Spread, WAY, highest, lowest};
+pub use beam::{Basis, Beam, Met, Spread, WAY, highest, lowest};
 pub use boxes::{Boxes, Child, Node, WIDE};
 pub use clip::{Outcode, entry};
 pub use fan::{FAN, Fan, FanMet};

@@ -137,7 +137,7 @@ impl Lit {
             for part in 0..C::PARTS {
                 let mut share = diffuse * finish.color.part(part) + highlight;
                 if dimmed {
-                    share = share * self.visible.load(simd, row);
+                    share *= self.visible.load(simd, row);
                 }
                 let more = limited(sum[part].load(simd, row) + share * light.part(part));
                 sum[part].put(simd, row, which, more);

@@ -15,7 +15,7 @@ use crate::trace::{Engine, Fast, Hit, Shaft, Shone, TileMemory};
 
 use super::channel::Channel;
 use super::lit::{Gathering, Lit, Needs, add_everywhere, before_lamps};
-use super::media::{List, Media, OUTSIDE};
+use super::media::{Media, OUTSIDE};
 use super::path::{Onward, Sent};
 use super::surface::{Finish, Lamp, Memory, Met, Seen, Shader};
 use super::surfaces::Surfaces;
@@ -49,7 +49,7 @@ impl<C: Channel> TileShading<C> {
     /// Another tile, of so many bundles.
     pub fn start(&mut self, bundles: usize) {
         if self.waves.is_empty() {
-            self.waves.push(Wave::default());
+            self.waves.push(Wave::new(0));
         }
         let first = &mut self.waves[0];
         first.rays.resize(bundles, Bundle::EMPTY);
@@ -101,12 +101,12 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         memory: &mut Memory<Fast<'e>>,
         meter: &mut Meter<impl Probe>,
     ) {
-        let inside = memory.media.start(&self.around_eye);
+        tile.waves[0].inside = memory.media.start(&self.around_eye);
         tile.waves[0].make_room();
-        self.see(eye, &inside, tile, memory, meter);
+        self.see(eye, tile, memory, meter);
         self.shade(0, tile, memory, meter);
         let mut last = 0;
-        while self.send(last, &inside, tile, memory, meter) {
+        while self.send(last, tile, memory, meter) {
             last += 1;
             self.meet(last, tile, memory, meter);
             self.shade(last, tile, memory, meter);
@@ -121,7 +121,6 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
     fn see(
         &self,
         eye: DVec3,
-        inside: &List,
         tile: &mut TileShading<C>,
         memory: &mut Memory<Fast<'e>>,
         meter: &mut Meter<impl Probe>,
@@ -137,8 +136,8 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
             for at in places(k, unsure) {
                 let ray = Ray::new(eye, wave.rays[k].d.get(at.lane));
                 let hit = self.engine.first(&ray, &mut memory.engine, meter);
-                let sent =
-                    || Sent { ray, travelled: 0.0, weight: 1.0, generation: 0, inside: inside.clone() };
+                let inside = wave.inside.clone();
+                let sent = || Sent { ray, travelled: 0.0, weight: 1.0, generation: 0, inside };
                 if let Some(met) = self.take(wave, at, sent, hit, memory, meter) {
                     alone.push((at, met));
                 }
@@ -185,7 +184,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
                     }
                 }
             }
-            for (number, leg) in kind.legs.iter().enumerate() {
+            for (number, leg) in kind.rays.iter().enumerate() {
                 let at = kind.place(number);
                 if wave.nearest[at.bundle].unsure >> at.lane & 1 == 1 {
                     let Leg { sent, departure } = leg;
@@ -380,18 +379,17 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
     fn send(
         &self,
         generation: usize,
-        inside: &List,
         tile: &mut TileShading<C>,
         memory: &mut Memory<Fast<'e>>,
         meter: &mut Meter<impl Probe>,
     ) -> bool {
         if tile.waves.len() == generation + 1 {
-            tile.waves.push(Wave::default());
+            tile.waves.push(Wave::new(generation as u32 + 1));
         }
         let (before, behind) = tile.waves.split_at_mut(generation + 1);
         let (wave, next) = (&mut before[generation], &mut behind[0]);
         next.clear_legs();
-        let followed = (generation as u32) < self.generations;
+        let followed = wave.generation < self.generations;
         for k in 0..wave.rays.len() {
             // Where a mirror ray is not followed, nobody asks for its direction.
             let unfollowed = |finish: &Finish<C>| !followed && finish.kr > 0.0 && finish.kt == 0.0;
@@ -413,21 +411,21 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
             let senders = self.made_so(&wave.surfaces[k], sends);
             for at in places(k, senders) {
                 if next.legs() < MOST_LEGS {
-                    self.send_on(generation, wave, at, inside, next, &mut memory.media, meter);
+                    self.send_on(wave, at, next, &mut memory.media, meter);
                 } else {
-                    self.send_alone(generation, wave, at, inside, memory, meter);
+                    self.send_alone(wave, at, memory, meter);
                 }
             }
         }
         if next.legs() > FEW_LEGS {
             return true;
         }
-        for Legs { legs, arrivals, .. } in &next.kinds {
+        for Legs { rays, arrivals, .. } in &next.kinds {
             for arrival in arrivals {
                 let light = match arrival.leg {
                     None => self.ambient,
                     Some(leg) => {
-                        let Leg { sent, departure } = &legs[leg as usize];
+                        let Leg { sent, departure } = &rays[leg as usize];
                         self.arriving(sent, *departure, memory, meter)
                     }
                 };
@@ -440,24 +438,20 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
     /// The light of one surface, with all that it sends on.
     fn send_alone(
         &self,
-        generation: usize,
         wave: &mut Wave<C>,
         at: Place,
-        inside: &List,
         memory: &mut Memory<Fast<'e>>,
         meter: &mut Meter<impl Probe>,
     ) {
         let met = wave.met(at);
         let Hit { t, error, object, primitive, surface, entering, .. } = met.hit;
-        let (weight, inside) = match wave.leg(at) {
-            None => (1.0, inside.clone()),
-            Some(Leg { sent, .. }) => (sent.weight, sent.inside.clone()),
-        };
+        let (weight, inside) = wave.standing(at);
+        let inside = inside.clone();
         let together = [(object, Crossing { t, error, primitive, surface, entering })];
         let change = self.change_at(&inside, &together, &mut memory.media);
         // The whole way is counted as that of this ray.
         let ray = wave.rays[at.bundle].ray(at.lane);
-        let sent = Sent { ray, travelled: 0.0, weight, generation: generation as u32, inside };
+        let sent = Sent { ray, travelled: 0.0, weight, generation: wave.generation, inside };
         let light = self.sending_surface(&sent, &met, &change, wave.light(at), memory, meter);
         wave.set_light(at, light);
     }
@@ -465,20 +459,15 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
     /// Sends on what one surface does.
     fn send_on(
         &self,
-        generation: usize,
         wave: &Wave<C>,
         at: Place,
-        inside: &List,
         next: &mut Wave<C>,
         media: &mut Media,
         meter: &mut Meter<impl Probe>,
     ) {
         let Met { hit, p, normal } = wave.met(at);
         let finish = self.finish(&hit);
-        let (weight, inside) = match wave.leg(at) {
-            None => (1.0, inside),
-            Some(Leg { sent, .. }) => (sent.weight, &sent.inside),
-        };
+        let (weight, inside) = wave.standing(at);
         let change = (finish.kt > 0.0).then(|| {
             let Hit { t, error, primitive, surface, entering, .. } = hit;
             let together = [(hit.object, Crossing { t, error, primitive, surface, entering })];
@@ -496,16 +485,16 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         let snell = onward.snell.map(|onward| (onward, through(), beyond));
         for (kind, sent) in [mirror, snell].into_iter().enumerate() {
             let Some(((d, share), departure, inside)) = sent else { continue };
-            let generation = generation as u32 + 1;
+            let generation = wave.generation + 1;
             let weight = weight * share;
-            let Legs { legs, arrivals, .. } = &mut next.kinds[kind];
+            let Legs { rays, arrivals, .. } = &mut next.kinds[kind];
             if generation > self.generations || weight < self.least_weight {
                 meter.counts.truncated_rays += 1;
                 arrivals.push(Arrival { at, share, leg: None });
             } else {
-                arrivals.push(Arrival { at, share, leg: Some(legs.len() as u32) });
+                arrivals.push(Arrival { at, share, leg: Some(rays.len() as u32) });
                 let sent = Sent { ray: Ray::new(p, d), travelled: hit.t, weight, generation, inside };
-                legs.push(Leg { sent, departure });
+                rays.push(Leg { sent, departure });
             }
         }
     }

@@ -9,6 +9,7 @@ use crate::solid::{Departure, Departures};
 use crate::trace::{Hit, Nearest};
 
 use super::channel::Channel;
+use super::media::List;
 use super::path::Sent;
 use super::surface::Met;
 use super::surfaces::Surfaces;
@@ -41,7 +42,7 @@ pub(super) struct Arrival {
 /// Mirror rays, or Snell rays.
 #[derive(Debug, Default)]
 pub(super) struct Legs {
-    pub legs: Vec<Leg>,
+    pub rays: Vec<Leg>,
     pub arrivals: Vec<Arrival>,
     /// The number of their first bundle.
     first: usize,
@@ -50,6 +51,10 @@ pub(super) struct Legs {
 /// The rays of one generation, and what they met.
 #[derive(Debug)]
 pub(super) struct Wave<C> {
+    /// 0 for rays from the eye.
+    pub generation: u32,
+    /// The glass that rays from the eye start in.
+    pub inside: List,
     pub rays: Vec<Bundle>,
     /// The way from the eye to where each ray starts, in two parts that are to be added to a distance, the second first.
     pub before: Vec<[Column; 2]>,
@@ -73,7 +78,7 @@ pub(super) struct Wave<C> {
 impl Legs {
     /// Their bundles.
     pub fn bundles(&self) -> Range<usize> {
-        self.first..self.first + self.legs.len().div_ceil(BUNDLE)
+        self.first..self.first + self.rays.len().div_ceil(BUNDLE)
     }
 
     /// The place of a leg.
@@ -82,9 +87,12 @@ impl Legs {
     }
 }
 
-impl<C> Default for Wave<C> {
-    fn default() -> Self {
+impl<C> Wave<C> {
+    /// No rays yet.
+    pub fn new(generation: u32) -> Self {
         Self {
+            generation,
+            inside: 0..0,
             rays: Vec::new(),
             before: Vec::new(),
             from: Vec::new(),
@@ -118,14 +126,14 @@ impl<C: Channel> Wave<C> {
     /// Forgets the rays that were sent on to it.
     pub fn clear_legs(&mut self) {
         for kind in &mut self.kinds {
-            kind.legs.clear();
+            kind.rays.clear();
             kind.arrivals.clear();
         }
     }
 
     /// How many rays were sent on to it.
     pub fn legs(&self) -> usize {
-        self.kinds.iter().map(|kind| kind.legs.len()).sum()
+        self.kinds.iter().map(|kind| kind.rays.len()).sum()
     }
 
     /// Puts the rays that were sent on into bundles, each kind into its own.
@@ -141,7 +149,7 @@ impl<C: Channel> Wave<C> {
             self.from.resize(k, Departures::NONE);
         }
         for kind in &self.kinds {
-            for (k, legs) in kind.bundles().zip(kind.legs.chunks(BUNDLE)) {
+            for (k, legs) in kind.bundles().zip(kind.rays.chunks(BUNDLE)) {
                 let (bundle, [before, _], from) = (&mut self.rays[k], &mut self.before[k], &mut self.from[k]);
                 bundle.live = 0;
                 for (lane, leg) in legs.iter().enumerate() {
@@ -189,11 +197,16 @@ impl<C: Channel> Wave<C> {
         self.set_light(arrival.at, sum);
     }
 
+    /// The share of one ray's light that reaches the eye, and the glass that it starts in.
+    pub fn standing(&self, at: Place) -> (f64, &List) {
+        self.leg(at).map_or((1.0, &self.inside), |Leg { sent, .. }| (sent.weight, &sent.inside))
+    }
+
     /// The ray as it was sent on; none from the eye.
-    pub fn leg(&self, at: Place) -> Option<&Leg> {
+    fn leg(&self, at: Place) -> Option<&Leg> {
         let [mirror, snell] = &self.kinds;
         let kind = if at.bundle < snell.first { mirror } else { snell };
-        kind.legs.get((at.bundle - kind.first) * BUNDLE + at.lane)
+        kind.rays.get((at.bundle - kind.first) * BUNDLE + at.lane)
     }
 
     /// The surface that one ray met, for a ray that leaves it to the side that the other came from.

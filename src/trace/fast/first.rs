@@ -6,7 +6,7 @@
 
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 
-use crate::lattice::{Beam, Child, FAN, SLACK, Spread};
+use crate::lattice::{Basis, Beam, Child, FAN, SLACK, Spread};
 use crate::math::{Bounds, Bundle, Columns, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
 use crate::solid::{
     Asked, Ball, Body, Departures, Ends, Firsts, Flat, Form, Found, Reach, Spans, Starts,
@@ -58,12 +58,8 @@ impl Fast<'_> {
         memory: &mut TileMemory,
     ) -> usize {
         let from_eye = departures.is_none();
-        let whole = beam_of_tile(simd, bundles, from_eye);
         let TileMemory { beams, thin, fan, .. } = memory;
-        beams.clear();
-        for bundle in bundles {
-            beams.push(beam_of(simd, bundle, from_eye));
-        }
+        let whole = beams_of(simd, bundles, from_eye, beams);
         fan.set(beams);
         thin.iter_mut().for_each(Thin::forget);
         memory.forget_sheared();
@@ -253,29 +249,51 @@ fn ball_of_bundle<S: Simd>(
     }
 }
 
-/// The frustum of a bundle: of a block of rays from the eye that of its corners, where all start in the eye itself.
+/// The frustum of a whole tile, and those of its bundles. Of blocks of rays that start in the eye itself they are those of
+/// their corners.
 #[inline(always)]
-fn beam_of<S: Simd>(simd: S, bundle: &Bundle, from_eye: bool) -> Beam {
-    match corners(bundle, [0, 7, 56, 63]) {
-        Some((o, d)) if from_eye => Beam::between(o, d),
-        _ => Beam::around(simd, std::iter::once((bundle, None)), Spread::Apart),
+fn beams_of<S: Simd>(simd: S, bundles: &[Bundle], from_eye: bool, beams: &mut Vec<Beam>) -> Beam {
+    beams.clear();
+    let ends = if from_eye { ends(bundles) } else { None };
+    if let Some((o, ends)) = ends {
+        // The sides of all blocks run along those of the tile.
+        let basis = Basis::of_corners(ends);
+        for bundle in bundles {
+            beams.push(match corners(bundle, [0, 7, 56, 63]) {
+                Some((_, d)) => Beam::between(o, d, &basis),
+                None => around(simd, std::slice::from_ref(bundle)),
+            });
+        }
+        return Beam::between(o, ends, &basis);
     }
+    for bundle in bundles {
+        beams.push(match corners(bundle, [0, 7, 56, 63]) {
+            Some((o, d)) if from_eye => Beam::between(o, d, &Basis::of_corners(d)),
+            _ => around(simd, std::slice::from_ref(bundle)),
+        });
+    }
+    around(simd, bundles)
 }
 
-/// The frustum of a tile of four by four blocks, or of what there is at the rim of the picture.
+/// The frustum around rays of any kind.
 #[inline(always)]
-fn beam_of_tile<S: Simd>(simd: S, bundles: &[Bundle], from_eye: bool) -> Beam {
-    if from_eye && bundles.len() == 16 {
-        let ends = [(0, 0), (3, 7), (12, 56), (15, 63)].map(|(k, lane)| corners(&bundles[k], [lane; 4]));
-        if let [Some((o, a)), Some((p, b)), Some((q, c)), Some((r, d))] = ends
-            && o == p
-            && o == q
-            && o == r
-        {
-            return Beam::between(o, [a[0], b[0], c[0], d[0]]);
-        }
-    }
+fn around<S: Simd>(simd: S, bundles: &[Bundle]) -> Beam {
     Beam::around(simd, bundles.iter().map(|bundle| (bundle, None)), Spread::Apart)
+}
+
+/// Where the rays of a whole tile of four by four blocks start, and where those in its corners go; `None` at the rim of the
+/// picture, and where rays have been moved nearer to the world, each along its own way.
+fn ends(bundles: &[Bundle]) -> Option<(DVec3, [DVec3; 4])> {
+    let [a, .., b] = bundles else { return None };
+    if bundles.len() != FAN {
+        return None;
+    }
+    let (o, first) = corners(a, [0, 0, 0, 0])?;
+    let (p, last) = corners(b, [63, 63, 63, 63])?;
+    let (q, right) = corners(&bundles[3], [7, 7, 7, 7])?;
+    let (r, left) = corners(&bundles[12], [56, 56, 56, 56])?;
+    let one = bundles.iter().all(|bundle| corners(bundle, [0; 4]).is_some_and(|(own, _)| own == o));
+    (one && o == p && o == q && o == r).then_some((o, [first[0], right[0], left[0], last[0]]))
 }
 
 /// Where a whole block of rays starts, and where four of them go; `None` where rays are missing, or have been moved

@@ -123,18 +123,8 @@ impl Fast<'_> {
                 shaft.unsure = shaft.rays.live;
             }
         }
-        let open = shafts.iter().filter(|shaft| shaft.open() != 0);
-        let whole = Beam::towards(simd, open.map(|shaft| (&shaft.rays, &shaft.distance)), lamp.at);
-        memory.beams.clear();
-        for shaft in &*shafts {
-            // Of those that ask nothing any will do.
-            let beam = if shaft.open() == 0 {
-                whole
-            } else {
-                Beam::towards(simd, std::iter::once((&shaft.rays, &shaft.distance)), lamp.at)
-            };
-            memory.beams.push(beam);
-        }
+        let asking = shafts.iter().map(|shaft| (shaft.open() != 0).then_some((&shaft.rays, &shaft.distance)));
+        let whole = Beam::towards(simd, &asking, lamp.at, &mut memory.beams);
         memory.fan.set(&memory.beams);
         let mut open = 0_u16;
         for (k, shaft) in shafts.iter().enumerate() {
@@ -184,23 +174,21 @@ impl Fast<'_> {
                         );
                     }
                     let passing = memory.thin[k].passing(simd, &slabs, shaft.open());
-                    match left_to_ask[k].checked_sub(1) {
-                        Some(left) => left_to_ask[k] = left,
-                        None => {
-                            given_up += 1;
-                            shafts[k].unsure |= shafts[k].open();
-                            open &= !(1 << k);
-                            continue;
-                        }
-                    }
+                    let Some(left_now) = left_to_ask[k].checked_sub(1) else {
+                        given_up += 1;
+                        shafts[k].unsure |= shafts[k].open();
+                        open &= !(1 << k);
+                        continue;
+                    };
+                    left_to_ask[k] = left_now;
                     if passing == 0 {
                         continue;
                     }
                     let shaft = &mut shafts[k];
-                    let clarity = lamp.clarity.get(object as usize).copied();
-                    if let Some(clarity @ (Clarity::Clear | Clarity::Mixed)) = clarity {
+                    let clarity = lamp.clarity.get(object as usize);
+                    if let Some(Clarity::Clear | Clarity::Mixed) = clarity {
                         let about = (&departures[k], lamp);
-                        self.glass_in_shaft(simd, (object, passing), clarity, shaft, about, memory, k);
+                        self.glass_in_shaft(simd, (object, passing), shaft, about, memory, k);
                     } else {
                         let before = shaft.blocked;
                         self.object_in_shaft(simd, (object, passing), shaft, &departures[k], memory, k);

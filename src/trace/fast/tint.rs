@@ -78,7 +78,6 @@ impl Fast<'_> {
         &self,
         simd: S,
         about: (u32, u64),
-        clarity: Clarity,
         shaft: &mut Shaft,
         (departures, lamp): (&Departures, &Shone),
         memory: &mut TileMemory,
@@ -91,6 +90,7 @@ impl Fast<'_> {
         let outset = Outset { rays: &shaft.rays, departures: Some(departures) };
         self.object_of_bundle(simd, about, outset, &mut met, memory, k);
         shaft.unsure |= met.unsure & shaft.rays.live;
+        let clear = lamp.clarity.get(about.0 as usize) == Some(&Clarity::Clear);
         let mut rest = shaft.open();
         while rest != 0 {
             let lane = rest.trailing_zeros() as usize;
@@ -102,7 +102,7 @@ impl Fast<'_> {
                 continue;
             }
             let left = lamp.lets_through[met.primitive.0[lane] as usize];
-            let certain = clarity == Clarity::Clear && t + off < distance;
+            let certain = clear && t + off < distance;
             if !(certain && shaft.tint.add(lane, (t, error), left, self.slack)) {
                 shaft.unsure |= 1 << lane;
             }

@@ -2,6 +2,7 @@
 //! pruned to a box.
 
 mod across;
+mod alone;
 mod assembly;
 mod ball;
 mod crossing;

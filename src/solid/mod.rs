@@ -10,6 +10,7 @@ mod crossings;
 mod expression;
 mod face;
 mod facets;
+mod hull;
 mod inside;
 mod known;
 mod mesh;

@@ -9,6 +9,8 @@
 //! A ray that skims a face crosses it somewhere within an interval as long as the world, and has only faces of the
 //! same slope for company: what it crosses steeply on the way keeps its own place ([`SAME_SLOPE`]).
 
+use std::ops::{Div, Mul};
+
 use crate::math::{Number, Ray, Rays};
 use crate::stage::{Meter, Probe, Stage};
 
@@ -66,15 +68,19 @@ impl Reach {
 /// The eye is where it is: for a ray from there only rounding counts, not how far the map of the primitive may be off.
 #[inline]
 pub fn at_start(end: &End, form: &Form, departure: Option<Departure>) -> bool {
-    end.t <= start_of(end.error, form, departure.map(|d| d.off))
+    end.t <= start_of(end.error, (form.off(), form.seeming()), departure.map(|d| d.off))
 }
 
-/// Up to which distance a crossing with this error lies at the start of its ray.
+/// Up to which distance a crossing with this error lies at the start of its ray, given how far its primitive is off, and
+/// which share of that is seeming.
 #[inline(always)]
-pub(super) fn start_of<N: Number>(error: N, form: &Form, departure_off: Option<N>) -> N {
+pub(super) fn start_of<N, M>(error: N, (own_off, seeming): (M, M), departure_off: Option<N>) -> N
+where
+    N: Number + Div<M, Output = N> + Mul<M, Output = N>,
+{
     match departure_off {
-        Some(off) => error * (off / form.off() + 1.0),
-        None => error * 2.0 * form.seeming(),
+        Some(off) => error * (off / own_off + 1.0),
+        None => error * 2.0 * seeming,
     }
 }
 
@@ -93,7 +99,7 @@ impl<N: Number> Starts<N> {
     /// Whether crossings lie at the starts of their rays, or before.
     #[inline(always)]
     pub(super) fn before(&self, end: &Ends<N>, form: &Form) -> N::Mask {
-        end.t.is_at_most(start_of(end.error, form, self.off))
+        end.t.is_at_most(start_of(end.error, (form.off(), form.seeming()), self.off))
     }
 }
 

@@ -9,6 +9,7 @@ use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x8, mask64x8};
 
 use crate::math::{Bundle, Column, LANES, Mask, Number, ROWS, row_of};
 
+use super::alone::decide_alone;
 use super::crossing::{Crossing, Reach, SAME_SLOPE, start_of};
 use super::expression::Link;
 use super::known::{Known, KnownSpans, Side};
@@ -175,12 +176,22 @@ pub fn first_of_expressions<S: Simd>(
         scratch.places.push(place);
         some |= ahead;
     }
-    if some != 0 {
+    if some == 0 {
+        return;
+    }
+    if let ([leaf], [place]) = (expression.leaves, &scratch.places[..]) {
+        let known = &scratch.known.spans()[*place as usize];
+        let negated = expression.is_negated();
         simd.vectorize(
             #[inline(always)]
-            || decide(simd, asked, some, (expression, primitives), scratch, found),
+            || decide_alone(simd, asked, known, (leaf.primitive, negated), found),
         );
+        return;
     }
+    simd.vectorize(
+        #[inline(always)]
+        || decide(simd, asked, some, expression, scratch, found),
+    );
 }
 
 /// The spans of an expression's leaves.
@@ -206,7 +217,7 @@ fn decide<S: Simd>(
     simd: S,
     asked: &Asked,
     mut open: u64,
-    (expression, primitives): (Flat, &[Primitive]),
+    expression: Flat,
     scratch: &mut BundleScratch,
     found: &mut Found,
 ) {
@@ -223,8 +234,7 @@ fn decide<S: Simd>(
         let mut early = 0;
         for row in 0..ROWS {
             if (open >> (row * LANES)) as u8 != 0 {
-                let at = (simd, row, open);
-                let [ended, earlier] = next_place(at, &mut sides, expression, primitives, departures, reach);
+                let [ended, earlier] = next_place((simd, row, open), &mut sides, departures, reach);
                 done |= ended;
                 early |= earlier;
             }
@@ -270,41 +280,69 @@ fn decide<S: Simd>(
 fn next_place<S: Simd>(
     (simd, row, open): (S, usize, u64),
     sides: &mut Leaves,
-    expression: Flat,
-    primitives: &[Primitive],
     departures: Option<&Departures>,
     reach: Reach,
 ) -> [u64; 2] {
     let shift = row * LANES;
-    let departure_off = departures.map(|d| d.off.load(simd, row));
-    let infinite = f64x8::splat(simd, f64::INFINITY);
-    let (mut t, mut error, mut off, mut start) =
-        (infinite, f64x8::splat(simd, 0.0), f64x8::splat(simd, 0.0), f64x8::splat(simd, 0.0));
-    let leaves = expression.leaves.len();
-    for leaf in 0..leaves {
-        let pair = sides.of(leaf).sides();
-        if ((pair[0].ahead | pair[1].ahead) >> shift) as u8 == 0 {
-            continue;
-        }
-        let form = &primitives[expression.leaves[leaf].primitive as usize].form;
-        for side in pair {
+    let (infinite, zero) = (f64x8::splat(simd, f64::INFINITY), f64x8::splat(simd, 0.0));
+    let (mut t, mut error, mut off, mut seeming) = (infinite, zero, zero, zero);
+    for leaf in 0..sides.places.len() {
+        let known = sides.of(leaf);
+        for side in known.sides() {
+            if (side.ahead >> shift) as u8 == 0 {
+                continue;
+            }
             let their_t = side.t.load(simd, row);
             let sooner = row_of(simd, side.ahead, row) & their_t.is_below(t);
-            if sooner.any() {
-                let their_error = side.error.load(simd, row);
-                t = sooner.select(their_t, t);
-                error = sooner.select(their_error, error);
-                off = sooner.select(f64x8::splat(simd, form.off()), off);
-                start = sooner.select(start_of(their_error, form, departure_off), start);
-            }
+            t = sooner.select(their_t, t);
+            error = sooner.select(side.error.load(simd, row), error);
+            off = sooner.select(f64x8::splat(simd, known.off), off);
+            seeming = sooner.select(f64x8::splat(simd, known.seeming), seeming);
         }
     }
+    let start = start_of(error, (off, seeming), departures.map(|d| d.off.load(simd, row)));
     let open = row_of(simd, open, row);
     let ended = open & (t.is_equal(infinite) | t.is_above(f64x8::splat(simd, reach.to)));
+    let (asking, limit) = (open & !ended, t + error);
+    // The first itself reaches back to its place; mostly no other does.
+    let (mut some, mut more) = (mask64x8::splat(simd, false), mask64x8::splat(simd, false));
+    for leaf in 0..sides.places.len() {
+        for side in sides.of_mut(leaf).sides_mut() {
+            if (side.ahead >> shift) as u8 == 0 {
+                side.now &= !(0xFF << shift);
+                continue;
+            }
+            let earliest = side.t.load(simd, row) - side.error.load(simd, row);
+            let reaches = row_of(simd, side.ahead, row) & asking & earliest.is_at_most(limit);
+            more |= some & reaches;
+            some |= reaches;
+            side.now = side.now & !(0xFF << shift) | u64::from(reaches.bits()) << shift;
+        }
+    }
+    let all_before = if more.any() {
+        one_place((simd, row, asking), sides, [t, error, off], reach)
+    } else {
+        t.is_below(f64x8::splat(simd, reach.from))
+    };
+    let early = asking & (t.is_at_most(start) | all_before);
+    [ended, early].map(|mask| u64::from(mask.bits()) << shift)
+}
+
+/// Which crossings of those that reach back to the first of a row, where several do, are one place with it. Answers
+/// where all of these are before the reach.
+#[inline(always)]
+fn one_place<S: Simd>(
+    (simd, row, asking): (S, usize, mask64x8<S>),
+    sides: &mut Leaves,
+    [t, error, off]: [f64x8<S>; 3],
+    reach: Reach,
+) -> mask64x8<S> {
+    let shift = row * LANES;
+    let (infinite, zero) = (f64x8::splat(simd, f64::INFINITY), f64x8::splat(simd, 0.0));
     let limit = t + error;
     // In the order of their distances the place ends before the first that does not reach back to it.
     let mut end = infinite;
-    for leaf in 0..leaves {
+    for leaf in 0..sides.places.len() {
         for side in sides.of(leaf).sides() {
             let their_t = side.t.load(simd, row);
             let apart =
@@ -312,33 +350,30 @@ fn next_place<S: Simd>(
             end = (apart & their_t.is_below(end)).select(their_t, end);
         }
     }
-    let mut all_before = open;
-    for leaf in 0..leaves {
-        let own = primitives[expression.leaves[leaf].primitive as usize].form.off();
-        let KnownSpans { enter, leave, .. } = sides.of_mut(leaf);
-        for side in [enter, leave] {
-            let now = if (side.ahead >> shift) as u8 == 0 {
-                0
-            } else {
-                let (their_t, their_error) = (side.t.load(simd, row), side.error.load(simd, row));
-                let within = row_of(simd, side.ahead, row)
-                    & open
-                    & !ended
-                    & (their_t - their_error).is_at_most(limit)
-                    & their_t.is_below(end);
-                let (a, b) = (off / error, f64x8::splat(simd, own) / their_error);
-                let same_slope = a.larger(b).is_at_most(a.smaller(b) * SAME_SLOPE);
-                let exact =
-                    error.is_equal(f64x8::splat(simd, 0.0)) | their_error.is_equal(f64x8::splat(simd, 0.0));
-                let now = within & (same_slope | exact);
-                all_before &= !now | their_t.is_below(f64x8::splat(simd, reach.from));
-                u64::from(now.bits())
-            };
-            side.now = side.now & !(0xFF << shift) | now << shift;
+    let mut all_before = asking;
+    for leaf in 0..sides.places.len() {
+        let known = sides.of_mut(leaf);
+        let own = f64x8::splat(simd, known.off);
+        for side in known.sides_mut() {
+            if (side.now >> shift) as u8 == 0 {
+                continue;
+            }
+            let (their_t, their_error) = (side.t.load(simd, row), side.error.load(simd, row));
+            let exact = error.is_equal(zero) | their_error.is_equal(zero);
+            let now = row_of(simd, side.now, row)
+                & their_t.is_below(end)
+                & (have_one_slope(off / error, own / their_error) | exact);
+            all_before &= !now | their_t.is_below(f64x8::splat(simd, reach.from));
+            side.now = side.now & !(0xFF << shift) | u64::from(now.bits()) << shift;
         }
     }
-    let early = open & (t.is_at_most(start) | all_before);
-    [ended, early].map(|mask| u64::from(mask.bits()) << shift)
+    all_before
+}
+
+/// Whether the sines of the angles at which rays meet two surfaces are as near as those of one place are.
+#[inline(always)]
+pub(super) fn have_one_slope<S: Simd>(a: f64x8<S>, b: f64x8<S>) -> mask64x8<S> {
+    a.larger(b).is_at_most(a.smaller(b) * SAME_SLOPE)
 }
 
 /// The value of each operator, a bit for each ray.

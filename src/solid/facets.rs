@@ -12,6 +12,8 @@ pub struct Facets {
     faces: Box<[scene::HalfSpace]>,
     center: DVec3,
     bounds: Bounds,
+    /// Where they are known: else those of the box stand for them.
+    corners: Box<[DVec3]>,
     /// By face: how far it may be off its place, by the map and by our own rounding.
     off: Box<[f64]>,
     /// The largest of them.
@@ -45,7 +47,13 @@ impl Facets {
         let off: Box<[f64]> = faces.iter().map(|face| seen + face.normal.abs().dot(map_error)).collect();
         let seeming = off.iter().map(|off| seen / off).fold(1.0, f64::min);
         let displacement = off.iter().fold(0.0, |most: f64, &off| most.max(off));
-        Self { faces, center: place.center, bounds, off, displacement, seeming }
+        Self { faces, center: place.center, bounds, corners: Box::default(), off, displacement, seeming }
+    }
+
+    /// The same solid, with its corners.
+    #[must_use]
+    pub fn with_corners(self, corners: Box<[DVec3]>) -> Self {
+        Self { bounds: Bounds::around(corners.iter().copied()), corners, ..self }
     }
 
     /// Where each ray is inside. A ray in the plane of a face is decided half open, as for slabs: inside where
@@ -90,6 +98,18 @@ impl Facets {
     /// The outward normal of a face, of length 1.
     pub fn normal(&self, surface: u32) -> DVec3 {
         self.faces[surface as usize].normal
+    }
+
+    /// How far it reaches along `v` at most: the greatest `p · v` of its corners, or of its box.
+    pub fn support(&self, v: DVec3) -> f64 {
+        let farthest = |points: &[DVec3]| points.iter().map(|p| p.dot(v)).fold(f64::NEG_INFINITY, f64::max);
+        if self.corners.is_empty() { farthest(&self.bounds.corners()) } else { farthest(&self.corners) }
+    }
+
+    /// How many faces it has.
+    #[cfg(test)]
+    pub fn count(&self) -> usize {
+        self.faces.len()
     }
 
     /// A box around it.

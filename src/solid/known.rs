@@ -47,6 +47,9 @@ pub(super) struct Side {
 #[derive(Clone, Debug)]
 pub(super) struct KnownSpans {
     primitive: u32,
+    /// How far its crossings may be off: [`Form::off`]; and the share of that which is our own rounding.
+    pub off: f64,
+    pub seeming: f64,
     /// Which rays have one.
     any: u64,
     pub enter: Side,
@@ -61,15 +64,32 @@ impl Side {
         ahead: 0,
         now: 0,
     };
+
+    /// Those of a row.
+    #[inline(always)]
+    pub fn row<S: Simd>(&self, simd: S, row: usize) -> Ends<f64x8<S>> {
+        Ends {
+            t: self.t.load(simd, row),
+            error: self.error.load(simd, row),
+            surface: self.surface.load(simd, row),
+        }
+    }
 }
 
 impl KnownSpans {
-    const NONE: Self = Self { primitive: 0, any: 0, enter: Side::NONE, leave: Side::NONE };
+    const NONE: Self =
+        Self { primitive: 0, off: 0.0, seeming: 0.0, any: 0, enter: Side::NONE, leave: Side::NONE };
 
     /// The two ends.
     #[inline(always)]
     pub fn sides(&self) -> [&Side; 2] {
         [&self.enter, &self.leave]
+    }
+
+    /// The two ends.
+    #[inline(always)]
+    pub fn sides_mut(&mut self) -> [&mut Side; 2] {
+        [&mut self.enter, &mut self.leave]
     }
 
     /// Looks ahead at the spans of some rays that can matter within `reach`. Far outside it only the state inside it
@@ -114,7 +134,8 @@ impl Known {
         &mut self.spans[..self.count]
     }
 
-    /// Looks ahead at the spans in a primitive, and gives their place and which rays have one that can matter.
+    /// Looks ahead at the spans in a primitive, and gives their place and which rays have one that can matter. Until it is
+    /// cleared no ray is wanted that was not wanted before.
     pub fn look<S: Simd>(
         &mut self,
         simd: S,
@@ -131,8 +152,9 @@ impl Known {
             self.count += 1;
             let known = &mut self.spans[self.count - 1];
             (known.primitive, known.any) = (primitive, 0);
+            (known.off, known.seeming) = (form.off(), form.seeming());
             let here = departures.map_or((0, 0), |d| d.here(simd, primitive));
-            with_spans!(simd, form, learn, (bundle, here), known);
+            with_spans!(simd, form, learn, (bundle, wanted, here), known);
             self.count - 1
         });
         let spans = &mut self.spans[place];
@@ -147,12 +169,12 @@ impl Known {
 #[inline(always)]
 fn learn<S: Simd>(
     simd: S,
-    (bundle, (here, inward)): (&Bundle, (u64, u64)),
+    (bundle, wanted, (here, inward)): (&Bundle, u64, (u64, u64)),
     known: &mut KnownSpans,
     spans: impl Fn(&Rays<f64x8<S>>) -> Spans<f64x8<S>>,
 ) {
     for row in 0..ROWS {
-        if bundle.live_in(row) == 0 {
+        if (wanted >> (row * LANES)) as u8 == 0 {
             continue;
         }
         let mut spans = spans(&bundle.load(simd, row));

@@ -2,6 +2,7 @@
 //! pruned to a box.
 
 mod across;
+mod alone;
 mod assembly;
 mod ball;
 mod crossing;
@@ -9,6 +10,7 @@ mod crossings;
 mod expression;
 mod face;
 mod facets;
+mod hull;
 mod inside;
 mod known;
 mod mesh;

@@ -8,6 +8,7 @@ use crate::scene::{MaterialId, Shape};
 use super::ball::Ball;
 use super::face::Face;
 use super::facets::Facets;
+use super::hull::convex;
 use super::mesh::Mesh;
 use super::patch::Patch;
 use super::round::Round;
@@ -88,7 +89,10 @@ impl Form {
                 None => Self::SkewBox(Box::new(SkewBox::new(place, error))),
             },
             Shape::Facets(unit) => Self::Facets(Box::new(Facets::new(unit, &place, error))),
-            Shape::Mesh(unit) => Self::Mesh(Box::new(Mesh::new(unit, &place, error))),
+            Shape::Mesh(unit) => match convex(unit, &place, error) {
+                Some(facets) => Self::Facets(Box::new(facets)),
+                None => Self::Mesh(Box::new(Mesh::new(unit, &place, error))),
+            },
             Shape::Face(corners) => Self::Face(Box::new(Face::new(corners.iter().copied(), &place, error))),
             Shape::Patch(corners) => Self::Patch(Box::new(Patch::new(corners, &place, error))),
             Shape::Tube { bottom, top } => Self::Tube(Box::new(Tube::new(&place, *bottom, *top, error))),
@@ -228,7 +232,8 @@ impl Form {
             Self::Face(face) => face.support(v),
             Self::Patch(patch) => patch.face.support(v),
             Self::Tube(tube) => tube.support(v),
-            Self::AxisBox(_) | Self::Facets(_) => {
+            Self::Facets(facets) => facets.support(v),
+            Self::AxisBox(_) => {
                 self.bounds().corners().into_iter().map(|p| p.dot(v)).fold(f64::NEG_INFINITY, f64::max)
             }
         }

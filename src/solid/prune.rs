@@ -60,6 +60,15 @@ impl<'e> From<&'e Remains> for Flat<'e> {
 }
 
 impl Flat<'_> {
+    /// Of an expression of one primitive: whether it is true outside.
+    pub(super) fn is_negated(self) -> bool {
+        // Every operator has one child, the one behind it or the primitive.
+        let operators = self.nodes.iter().map(|node| node.parent);
+        operators
+            .chain(self.leaves.iter().map(|leaf| leaf.parent))
+            .fold(false, |odd, link| odd ^ link.negated)
+    }
+
     /// Prunes to a box; `remains` means something only where the answer is [`Left::Some`].
     pub fn pruned(
         self,

@@ -3,7 +3,7 @@
 use crate::math::{Number, Ray, Rays};
 use crate::stage::{Meter, Probe};
 
-use super::crossing::{Crossing, Firsts, Starts, at_start, start_of};
+use super::crossing::{Crossing, Firsts, Starts, at_start};
 use super::primitive::{Form, Primitive};
 use super::span::{Departure, End, Ends};
 use super::tube::Tube;
@@ -60,8 +60,8 @@ pub(super) fn firsts_of_tube<N: Number>(
 ) -> Firsts<N> {
     let found = tube.crossings(rays);
     let (enter, leave) = (&found.enter, &found.leave);
-    let enter_ahead = !enter.t.is_at_most(start_of(enter.error, form, starts.off));
-    let leave_ahead = !leave.t.is_at_most(start_of(leave.error, form, starts.off));
+    let enter_ahead = !starts.before(enter, form);
+    let leave_ahead = !starts.before(leave, form);
     let entering = !starts.here & found.enters & enter_ahead;
     // A ray that starts on the tube went in there: what is left is where it comes out, if that is another place. A ray to
     // the outside of a convex solid does not meet its side again.

@@ -112,7 +112,11 @@ impl Asking<'_> {
                 let SteepCrossings { end, against, steep } =
                     face.steep_crossings(&self.bundle.load(simd, row));
                 unsure |= odd & !steep;
-                let before = end.t.is_at_most(start_of(end.error, self.form, self.off(simd, row)));
+                let before = end.t.is_at_most(start_of(
+                    end.error,
+                    (self.form.off(), self.form.seeming()),
+                    self.off(simd, row),
+                ));
                 let any = odd & steep & !before;
                 self.put(simd, row, &Firsts { end, entering: against, any }, found);
             }

@@ -154,7 +154,9 @@ impl<N: Number> SideForm<N> {
     #[inline(always)]
     fn root_error(&self, t: N, off: DVec3, discriminant: N, root: N, a: N) -> N {
         let (form_off, a) = (self.off(t, off), a.magnitude());
-        discriminant.is_below(form_off * a).choose((form_off / a).root(), form_off * 0.5 / root)
+        let error = form_off * 0.5 / root;
+        let all_there_is = discriminant.is_below(form_off * a);
+        if all_there_is.any() { all_there_is.choose((form_off / a).root(), error) } else { error }
     }
 }
 

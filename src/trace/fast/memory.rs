@@ -6,6 +6,7 @@ use crate::stage::Counts;
 
 use super::company::Company;
 use super::nearest::Nearest;
+use super::stream::Apart;
 use super::thin::Thin;
 
 /// What tracing a tile needs, used again for every tile.
@@ -17,6 +18,7 @@ pub struct TileMemory {
     pub(super) thin: Vec<Thin>,
     pub(super) fan: Fan,
     pub(super) company: Company,
+    pub(super) apart: Apart,
     /// By bundle: the planes across its rays, where they were asked for.
     pub(super) sheared: Vec<Sheared>,
     /// Nodes to be walked, and how near they are at least.
@@ -52,6 +54,7 @@ impl Default for TileMemory {
             thin: Vec::new(),
             fan: Fan::default(),
             company: Company::default(),
+            apart: Apart::default(),
             sheared: Vec::new(),
             stack: Vec::new(),
             scratch: BundleScratch::default(),

@@ -91,8 +91,8 @@ impl Stream {
 }
 
 impl Boxes {
-    /// Calls `visit` again and again with some rays and the objects whose boxes they meet, each pair once; of one ray the
-    /// nearer nodes first. `visit` says by [`Ways::look`] how far a ray still matters.
+    /// Calls `visit` again and again with some rays and the objects whose boxes they meet, each pair once, of one ray the
+    /// nearer nodes first; at last with none. `visit` says by [`Ways::look`] how far a ray still matters.
     pub fn walk_stream(
         &self,
         stream: &mut Stream,
@@ -174,4 +174,5 @@ fn walked<S: Simd>(
             visit(&met[..count], ways);
         }
     }
+    visit(&[], ways);
 }

@@ -3,8 +3,8 @@
 //! Each finds what it finds alone. Where that is more than one thing in one place, it is asked of the exact engine.
 
 use crate::lattice::{Meeting, Stream, Ways};
-use crate::math::{BUNDLE, Bundle, Ray};
-use crate::solid::{Crossing, Departure, Departures, Form, Scratch};
+use crate::math::{Bundle, LANES, Ray};
+use crate::solid::{Crossing, Departure, Departures, Eight, Form, Scratch};
 use crate::stage::{Counts, Meter, Silent};
 
 use super::Fast;
@@ -24,21 +24,42 @@ struct Place {
 #[derive(Debug, Default)]
 pub struct Apart {
     stream: Stream,
-    /// By ray, [`BUNDLE`] times its bundle's number and its lane.
-    places: Vec<u32>,
+    rays: Vec<Alone>,
+    balls: Queue,
+    tubes: Queue,
+    eight: Eight,
     scratch: Scratch,
+}
+
+/// A ray of a stream.
+#[derive(Clone, Copy, Debug)]
+struct Alone {
+    at: Place,
+    ray: Ray,
+    departure: Option<Departure>,
+}
+
+/// Rays that wait to be asked about a primitive of one form.
+#[derive(Debug, Default)]
+struct Queue(Vec<Question>);
+
+#[derive(Clone, Copy, Debug)]
+struct Question {
+    meeting: Meeting,
+    /// The primitive.
+    index: u32,
 }
 
 impl Apart {
     fn clear(&mut self) {
         self.stream.clear();
-        self.places.clear();
+        self.rays.clear();
     }
 
     /// One more ray, that looks as far as `to`.
-    fn push(&mut self, Place { bundle, lane }: Place, ray: &Ray, to: f64) {
-        self.stream.push(ray, to);
-        self.places.push((bundle * BUNDLE + lane) as u32);
+    fn push(&mut self, at: Place, ray: Ray, departure: Option<Departure>, to: f64) {
+        self.stream.push(&ray, to);
+        self.rays.push(Alone { at, ray, departure });
     }
 }
 
@@ -55,8 +76,6 @@ fn places(bundle: usize, mut rays: u64) -> impl Iterator<Item = Place> {
 
 /// What rays without company are asked about.
 trait Asking {
-    /// The ray, and the surface that it leaves.
-    fn ray(&self, at: Place) -> (Ray, Option<Departure>);
     /// How far a crossing with an object may be to matter.
     fn to(&self, at: Place, object: u32) -> f64;
     /// A crossing with an object. Answers how far the ray still looks: below 0 where no farther at all.
@@ -65,18 +84,11 @@ trait Asking {
 
 /// What rays meet first.
 struct First<'a> {
-    bundles: &'a [Bundle],
-    departures: Option<&'a [Departures]>,
     nearest: &'a mut [Nearest],
     slack: f64,
 }
 
 impl Asking for First<'_> {
-    #[inline]
-    fn ray(&self, Place { bundle, lane }: Place) -> (Ray, Option<Departure>) {
-        (self.bundles[bundle].ray(lane), self.departures.map(|all| all[bundle].get(lane)))
-    }
-
     #[inline]
     fn to(&self, Place { bundle, lane }: Place, _: u32) -> f64 {
         self.nearest[bundle].t.0[lane] + self.slack
@@ -92,17 +104,11 @@ impl Asking for First<'_> {
 /// What stands between surfaces and a light.
 struct Blocked<'a> {
     shafts: &'a mut [Shaft],
-    departures: &'a [Departures],
     lamp: &'a Shone<'a>,
     slack: f64,
 }
 
 impl Asking for Blocked<'_> {
-    #[inline]
-    fn ray(&self, Place { bundle, lane }: Place) -> (Ray, Option<Departure>) {
-        (self.shafts[bundle].rays.ray(lane), Some(self.departures[bundle].get(lane)))
-    }
-
     #[inline]
     fn to(&self, Place { bundle, lane }: Place, object: u32) -> f64 {
         match self.lamp.clarity.get(object as usize) {
@@ -148,11 +154,12 @@ impl Fast<'_> {
                 if departures.is_some_and(|all| self.from_mesh(&all[k], at.lane)) {
                     found.unsure |= 1 << at.lane;
                 } else {
-                    apart.push(at, &bundle.ray(at.lane), f64::INFINITY);
+                    let departure = departures.map(|all| all[k].get(at.lane));
+                    apart.push(at, bundle.ray(at.lane), departure, f64::INFINITY);
                 }
             }
         }
-        let mut asking = First { bundles, departures, nearest, slack: self.slack };
+        let mut asking = First { nearest, slack: self.slack };
         self.ask_stream(apart, &mut asking, counts);
         for found in nearest {
             for Place { lane, .. } in places(0, std::mem::take(&mut found.apart)) {
@@ -180,11 +187,12 @@ impl Fast<'_> {
                 if self.from_mesh(&departures[k], at.lane) {
                     shaft.unsure |= 1 << at.lane;
                 } else {
-                    apart.push(at, &shaft.rays.ray(at.lane), shaft.distance.0[at.lane] + self.slack);
+                    let (departure, to) = (departures[k].get(at.lane), shaft.distance.0[at.lane] + self.slack);
+                    apart.push(at, shaft.rays.ray(at.lane), Some(departure), to);
                 }
             }
         }
-        let mut asking = Blocked { shafts, departures, lamp, slack: self.slack };
+        let mut asking = Blocked { shafts, lamp, slack: self.slack };
         self.ask_stream(apart, &mut asking, counts);
     }
 
@@ -196,7 +204,7 @@ impl Fast<'_> {
 
     /// Asks all rays of a stream.
     fn ask_stream(&self, apart: &mut Apart, asking: &mut impl Asking, counts: &mut Counts) {
-        let Apart { stream, places, scratch } = apart;
+        let Apart { stream, rays, balls, tubes, eight, scratch } = apart;
         let mut visited = 0;
         let mut meter = Meter::new(Silent);
         self.boxes.walk_stream(stream, &mut visited, &mut |met: &[Meeting], ways: &mut Ways| {
@@ -205,16 +213,64 @@ impl Fast<'_> {
                     continue;
                 }
                 let Meeting { ray: number, object, .. } = *meeting;
-                let place = places[number as usize] as usize;
-                let at = Place { bundle: place / BUNDLE, lane: place % BUNDLE };
-                let (ray, departure) = asking.ray(at);
-                let to = asking.to(at, object);
-                if let Some(crossing) = self.exact.object(object, &ray, departure, to, scratch, &mut meter) {
-                    ways.look(number, asking.meet(at, object, &crossing));
+                let Alone { at, ray, departure } = &rays[number as usize];
+                if let Some(index) = self.assembly.alone(object) {
+                    let form = &self.assembly.primitives[index as usize].form;
+                    if let Form::Ball(_) | Form::Tube(_) = form {
+                        // What is convex is not met again by a ray that leaves it.
+                        if !departure.is_some_and(|d| d.primitive == index && !d.inward) {
+                            let queue = if let Form::Ball(_) = form { &mut *balls } else { &mut *tubes };
+                            queue.0.push(Question { meeting: *meeting, index });
+                        }
+                        continue;
+                    }
+                }
+                let to = asking.to(*at, object);
+                if let Some(crossing) = self.exact.object(object, ray, *departure, to, scratch, &mut meter) {
+                    ways.look(number, asking.meet(*at, object, &crossing));
+                }
+            }
+            // Where few rays are left none waits for company.
+            let least = if met.len() < LANES { 1 } else { LANES };
+            for (queue, is_tubes) in [(&mut *balls, false), (&mut *tubes, true)] {
+                while queue.0.len() >= least {
+                    let some = queue.0.len().saturating_sub(LANES);
+                    meter.counts.primitive_tests += (queue.0.len() - some) as u64;
+                    self.ask_eight((&queue.0[some..], is_tubes), rays, eight, asking, ways);
+                    queue.0.truncate(some);
                 }
             }
         });
         *counts += meter.counts;
         counts.cells_visited += visited;
+    }
+
+    /// Asks up to eight rays about a primitive each, all of one form.
+    fn ask_eight(
+        &self,
+        (questions, tubes): (&[Question], bool),
+        rays: &[Alone],
+        eight: &mut Eight,
+        asking: &mut impl Asking,
+        ways: &mut Ways,
+    ) {
+        let primitives = &self.assembly.primitives;
+        for (lane, Question { meeting, index }) in questions.iter().enumerate() {
+            eight.set(lane, &rays[meeting.ray as usize].ray, &primitives[*index as usize]);
+        }
+        if tubes {
+            eight.meet_tubes(self.level);
+        } else {
+            eight.meet_balls(self.level);
+        }
+        let met = eight.met(tubes);
+        for (lane, Question { meeting, index }) in questions.iter().enumerate() {
+            if met >> lane & 1 == 1 && ways.matters(meeting) {
+                let Alone { at, departure, .. } = &rays[meeting.ray as usize];
+                if let Some(crossing) = eight.first(lane, &primitives[*index as usize], *index, *departure) {
+                    ways.look(meeting.ray, asking.meet(*at, meeting.object, &crossing));
+                }
+            }
+        }
     }
 }

@@ -130,6 +130,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         let wave = &mut waves[0];
         let count = wave.rays.len();
         self.engine.first_of(&wave.rays, None, &mut wave.nearest[..count], trace);
+        self.engine.first_apart(&wave.rays, None, &mut wave.nearest[..count], trace);
         for k in 0..wave.rays.len() {
             let unsure = std::mem::take(&mut wave.nearest[k].unsure);
             let mut alone = Vec::new();
@@ -180,10 +181,14 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
                 } else {
                     for k in some {
                         wave.nearest[k].clear();
-                        wave.nearest[k].unsure = wave.rays[k].live;
+                        wave.nearest[k].apart = wave.rays[k].live;
                     }
                 }
             }
+        }
+        let count = wave.rays.len();
+        self.engine.first_apart(&wave.rays, Some(&wave.from[..count]), &mut wave.nearest[..count], trace);
+        for kind in &kinds {
             for (number, leg) in kind.rays.iter().enumerate() {
                 let at = kind.place(number);
                 if wave.nearest[at.bundle].unsure >> at.lane & 1 == 1 {
@@ -323,6 +328,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
             let shone = Shone { at: place, clarity, lets_through };
             if wave.apart {
                 shafts.iter_mut().for_each(Shaft::give_up);
+                self.engine.blocked_apart(shafts, &wave.departures, &shone, trace);
             } else {
                 // What curved surfaces send on mostly runs apart, towards one lamp as towards another.
                 wave.apart =

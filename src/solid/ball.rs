@@ -19,41 +19,55 @@ pub struct Ball {
 /// is known of its chords is in their errors.
 const SEEN: f64 = ROUNDING * (WORLD + LIMIT);
 
-impl Ball {
-    /// A ball whose map may be off by `map_error`.
-    pub fn new(center: DVec3, radius: f64, map_error: DVec3) -> Self {
-        Self { center, radius, off: rounding_at(center.length()) + map_error.length() }
+/// A ball, or one for each of as many rays as a [`Number`] has.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Balls<N> {
+    center: Vector<N>,
+    radius: N,
+    off: N,
+    /// The square of half a chord that the map's own error could have made, and its root.
+    grazing: [N; 2],
+}
+
+/// Numbers that say what a ball is.
+pub(super) const NUMBERS_OF_BALL: usize = 5;
+
+impl<N: Number> Balls<N> {
+    /// Balls of numbers that [`Ball::numbers`] gives.
+    #[inline(always)]
+    pub fn new([x, y, z, radius, off]: [N; NUMBERS_OF_BALL]) -> Self {
+        let grazing = radius * 2.0 * off;
+        Self { center: Vector { x, y, z }, radius, off, grazing: [grazing, grazing.root()] }
     }
 
-    /// Where each ray is inside. A chord that rounding could have made counts as none.
+    /// Where each ray is inside its ball.
     ///
     /// The origin is moved to the point of the ray closest to the centre, twice: the first move leaves an error
     /// in proportion to the way, the second removes it along the ray. The half-chord then comes from
     /// `(r − l)(r + l)`, which does not cancel as `b² − 4ac` does (Haines, Günther, Akenine-Möller: Precision
     /// improvements for ray/sphere intersection, Ray Tracing Gems, 2019).
     #[inline(always)]
-    pub fn spans<N: Number>(&self, rays: &Rays<N>) -> Spans<N> {
+    pub fn spans(&self, rays: &Rays<N>) -> Spans<N> {
+        let Self { center, radius, off, grazing: [grazing, grazing_root] } = *self;
         let like = rays.o.x;
-        let from_center = rays.o - self.center;
+        let from_center = rays.o - center;
         let first = -from_center.dot(rays.d);
         let near = from_center + rays.d * first;
         let second = -near.dot(rays.d);
         let near = near + rays.d * second;
         let l_squared = near.length_squared();
-        let near_enough = l_squared.is_at_most(like.same(self.radius * self.radius));
+        let near_enough = l_squared.is_at_most(radius * radius);
         if !near_enough.any() {
             return Spans::none(like);
         }
         let l = l_squared.root();
-        let half_squared = (-l + self.radius) * (l + self.radius);
+        let half_squared = (-l + radius) * (l + radius);
         // Moving the ray sideways changes the square of the half-chord by 2·l times as much.
-        let any = near_enough & half_squared.is_above(like.same(2.0 * self.radius * SEEN));
+        let any = near_enough & half_squared.is_above(radius * 2.0 * SEEN);
         let half = half_squared.root();
         // Half a chord that the map's own error could have made is off by no more than all of that.
-        let grazing = 2.0 * self.radius * self.off;
-        let sideways =
-            half_squared.is_below(like.same(grazing)).choose(like.same(grazing.sqrt()), l * self.off / half);
-        let error = sideways + self.off;
+        let sideways = half_squared.is_below(grazing).choose(grazing_root, l * off / half);
+        let error = sideways + off;
         let middle = first + second;
         let surface = like.same(0.0);
         Spans {
@@ -61,6 +75,40 @@ impl Ball {
             leave: Ends { t: middle + half, error, surface },
             any,
         }
+    }
+}
+
+impl Ball {
+    /// What [`Balls::new`] asks for.
+    #[inline(always)]
+    pub(super) fn numbers(&self) -> [f64; NUMBERS_OF_BALL] {
+        let [x, y, z] = self.center.to_array();
+        [x, y, z, self.radius, self.off]
+    }
+
+    /// A ball whose map may be off by `map_error`.
+    pub fn new(center: DVec3, radius: f64, map_error: DVec3) -> Self {
+        Self { center, radius, off: rounding_at(center.length()) + map_error.length() }
+    }
+
+    /// The same ball for each of as many rays as there are numbers in `like`.
+    #[inline(always)]
+    fn for_all<N: Number>(&self, like: N) -> Balls<N> {
+        let Self { center, radius, off } = *self;
+        let grazing = 2.0 * radius * off;
+        let Vector { x, y, z } = Vector::from(center);
+        Balls {
+            center: Vector { x: like.same(x), y: like.same(y), z: like.same(z) },
+            radius: like.same(radius),
+            off: like.same(off),
+            grazing: [like.same(grazing), like.same(grazing.sqrt())],
+        }
+    }
+
+    /// Where each ray is inside. A chord that rounding could have made counts as none.
+    #[inline(always)]
+    pub fn spans<N: Number>(&self, rays: &Rays<N>) -> Spans<N> {
+        self.for_all(rays.o.x).spans(rays)
     }
 
     /// How far a point of it may be off its place, by its map and by our own rounding.

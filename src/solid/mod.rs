@@ -7,6 +7,7 @@ mod assembly;
 mod ball;
 mod crossing;
 mod crossings;
+mod eight;
 mod expression;
 mod face;
 mod facets;
@@ -36,6 +37,7 @@ pub use crossing::{
     Crossing, Firsts, Reach, Scratch, Starts, first_of_expression, first_of_span, firsts_of_spans,
 };
 pub use crossings::{Asked, BundleScratch, Departures, Found, first_of_expressions};
+pub use eight::Eight;
 pub use expression::{Child, Expression, Leaf, Pruned, Tree};
 pub(crate) use known::with_spans;
 pub use primitive::{Cover, Form, Primitive};

@@ -6,7 +6,7 @@ use crate::stage::{Meter, Probe};
 use super::crossing::{Crossing, Firsts, Starts, at_start};
 use super::primitive::{Form, Primitive};
 use super::span::{Departure, End, Ends};
-use super::tube::Tube;
+use super::tube::{SideCrossings, Tube};
 
 /// The first crossing of a surface. It enters where the ray comes against the surface's own normal.
 #[inline]
@@ -58,7 +58,16 @@ pub(super) fn firsts_of_tube<N: Number>(
     form: &Form,
     starts: &Starts<N>,
 ) -> Firsts<N> {
-    let found = tube.crossings(rays);
+    firsts_of_sides(tube.crossings(rays), form, starts)
+}
+
+/// The same, given where the lines cross the tube.
+#[inline(always)]
+pub(super) fn firsts_of_sides<N: Number>(
+    found: SideCrossings<N>,
+    form: &Form,
+    starts: &Starts<N>,
+) -> Firsts<N> {
     let (enter, leave) = (&found.enter, &found.leave);
     let enter_ahead = !starts.before(enter, form);
     let leave_ahead = !starts.before(leave, form);

@@ -1,6 +1,6 @@
 //! The outline of a frustum: a radius that is linear in z, turned about the z axis.
 
-use crate::math::{Bounds, DMat3, DVec3, Mask, Number, Vector};
+use crate::math::{Bounds, DMat3, DVec3, Mask, Number, Rays, Vector};
 
 use super::span::{Ends, Spans};
 use super::unit_space::Centred;
@@ -19,11 +19,6 @@ impl Taper {
     /// Of radius `bottom` at z = −1 and `top` at z = 1.
     pub fn new(bottom: f64, top: f64) -> Self {
         Self { middle: 0.5 * bottom + 0.5 * top, slope: 0.5 * top - 0.5 * bottom }
-    }
-
-    /// The greatest radius.
-    pub fn widest(&self) -> f64 {
-        self.middle + self.slope.abs()
     }
 
     /// Outward from the side at points of it; along the axis at the apex of a cone.
@@ -73,12 +68,36 @@ impl Taper {
         farthest.z < 1.0 && farthest.truncate().length() < narrowest
     }
 
-    /// The lines against `x² + y² ≤ ρ²`, `ρ = middle + slope · z ≥ 0`: where each is inside, counted from its point closest
-    /// to the unit origin. An end that there is not is infinite.
+    /// The radius in the middle, and by how much it grows from there to the top.
+    #[inline(always)]
+    pub fn numbers(&self) -> [f64; 2] {
+        [self.middle, self.slope]
+    }
+
+    /// The lines against `x² + y² ≤ ρ²`: as [`Tapers::sides`].
     #[inline(always)]
     pub fn sides<N: Number>(&self, rays: &Centred<N>) -> Spans<N> {
+        let tapers = Tapers { middle: rays.t.same(self.middle), slope: rays.t.same(self.slope) };
+        let off = rays.o.same(rays.off);
+        tapers.sides(&Rays { o: rays.o, d: rays.d }, (off, rays.t.same(rays.seeming)))
+    }
+}
+
+/// A taper for each of as many rays as a [`Number`] has.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Tapers<N> {
+    pub middle: N,
+    pub slope: N,
+}
+
+impl<N: Number> Tapers<N> {
+    /// The lines against `x² + y² ≤ ρ²`, `ρ = middle + slope · z ≥ 0`: where each is inside, counted from its start, the
+    /// point closest to the unit origin, which may be `off` its place; `seeming` is the share of that that is our own
+    /// rounding. An end that there is not is infinite.
+    #[inline(always)]
+    pub fn sides(&self, rays: &Rays<N>, (off, seeming): (Vector<N>, N)) -> Spans<N> {
         let Self { middle, slope } = *self;
-        let (o, d) = (rays.o, rays.d);
+        let Rays { o, d } = *rays;
         let (rho, d_rho) = (o.z * slope + middle, d.z * slope);
         let a = d.x * d.x + d.y * d.y - d_rho * d_rho;
         let b = o.x * d.x + o.y * d.y - rho * d_rho;
@@ -88,17 +107,17 @@ impl Taper {
         let across = d.x * o.y - d.y * o.x;
         let along = (squared(d.x * rho - d_rho * o.x) + squared(d.y * rho - d_rho * o.y)).root();
         let discriminant = (along - across.magnitude()) * (along + across.magnitude());
-        let off = DVec3::new(rays.off.x, rays.off.y, slope.abs() * rays.off.z);
+        let off = Vector { z: slope.magnitude() * off.z, ..off };
         let form = SideForm { o: Vector { z: rho, ..o }, d: Vector { z: d_rho, ..d } };
-        let zero = rays.t.same(0.0);
+        let zero = middle.same(0.0);
         let (crosses, steeper) = (a.is_above(zero), a.is_below(zero));
         // A chord is none where the form at its middle, −discriminant / a at t = −b / a, may be 0.
         let is_chord =
-            discriminant.is_above(zero) & discriminant.is_above(a * form.off(-b / a, rays.seeming * off));
+            discriminant.is_above(zero) & discriminant.is_above(a * form.off(-b / a, off * seeming));
         let is_number = discriminant.is_equal(discriminant);
         let met = is_number & (!crosses | is_chord);
         if !met.any() {
-            return Spans::none(rays.t);
+            return Spans::none(middle);
         }
         // A line along or inside the cone always crosses it: below 0 there is rounding only.
         let root = discriminant.larger(zero).root();
@@ -108,7 +127,7 @@ impl Taper {
         let (t1, t2) = (none.choose(zero, q / a), none.choose(zero, c / q));
         let ordered = t1.is_below(t2);
         let (low, high) = (ordered.choose(t1, t2), ordered.choose(t2, t1));
-        let surface = rays.t.same(f64::from(SIDE));
+        let surface = middle.same(f64::from(SIDE));
         let low = Ends { t: low, error: form.root_error(low, off, discriminant, root, a), surface };
         let high = Ends { t: high, error: form.root_error(high, off, discriminant, root, a), surface };
         if !(met & !crosses).any() {
@@ -117,7 +136,7 @@ impl Taper {
         // Parallel to the side, or to the axis of a cylinder: 2bt + c ≤ 0.
         let t = c * -0.5 / b;
         let once = Ends { t, error: form.off(t, off) * 0.5 / b.magnitude(), surface };
-        let line = Spans::line(rays.t);
+        let line = Spans::line(middle);
         // Steeper than the side: one crossing per nappe; only the one with ρ ≥ 0 is the solid's.
         let widens = d_rho.is_above(zero);
         let slanted = !b.is_equal(zero);
@@ -144,19 +163,18 @@ impl<N: Number> SideForm<N> {
     /// How much a point at `t` that is moved by `off` changes the form: by (2|x| + off.x)·off.x, and so for y and ρ. Near
     /// an apex hardly at all, and at the long end of an ellipse by the long axis' off only.
     #[inline(always)]
-    fn off(&self, t: N, off: DVec3) -> N {
+    fn off(&self, t: N, off: Vector<N>) -> N {
         let p = (self.o + self.d * t).magnitude();
-        Vector { x: p.x * 2.0 + off.x, y: p.y * 2.0 + off.y, z: p.z * 2.0 + off.z }.dot_one(off)
+        Vector { x: p.x * 2.0 + off.x, y: p.y * 2.0 + off.y, z: p.z * 2.0 + off.z }.dot(off)
     }
 
     /// How far a root at `t` may be off. The root of a number that is off by `form_off · |a|` is off by that over twice
     /// the root, and never by more than the root of that: all there is to say at the apex, where the root is 0.
     #[inline(always)]
-    fn root_error(&self, t: N, off: DVec3, discriminant: N, root: N, a: N) -> N {
+    fn root_error(&self, t: N, off: Vector<N>, discriminant: N, root: N, a: N) -> N {
         let (form_off, a) = (self.off(t, off), a.magnitude());
-        let error = form_off * 0.5 / root;
-        let all_there_is = discriminant.is_below(form_off * a);
-        if all_there_is.any() { all_there_is.choose((form_off / a).root(), error) } else { error }
+        let (grazing, error) = (discriminant.is_below(form_off * a), form_off * 0.5 / root);
+        if grazing.any() { grazing.choose((form_off / a).root(), error) } else { error }
     }
 }
 

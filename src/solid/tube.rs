@@ -3,8 +3,8 @@
 use crate::math::{Bounds, DAffine3, DMat3, DVec3, Mask, Number, Placement, Rays, Vector};
 
 use super::span::{Ends, ROUNDING, Spans};
-use super::taper::Taper;
-use super::unit_space::{UnitSpace, is_finite};
+use super::taper::{Taper, Tapers};
+use super::unit_space::{UnitSpace, at_closest, is_finite, pass_by};
 
 /// The side of a unit frustum under an affine map. Scenes of a million are made of them: the map out of the unit space,
 /// which no ray asks for, is not kept.
@@ -58,6 +58,89 @@ const BEYOND: f64 = 1.0 + 1e-6;
 /// Products that are smaller may have lost digits.
 const FULL_DIGITS: f64 = 1e-290;
 
+/// A tube for each of as many rays as a [`Number`] has.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Tubes<N> {
+    center: Vector<N>,
+    /// The rows of the map to the unit space.
+    rows: [Vector<N>; 3],
+    off: Vector<N>,
+    off_sum: N,
+    seeming: N,
+    taper: Tapers<N>,
+}
+
+/// Numbers that say what a tube is.
+pub(super) const NUMBERS_OF_TUBE: usize = 18;
+
+impl<N: Number> Tubes<N> {
+    /// Tubes of numbers that [`Tube::numbers`] gives.
+    #[inline(always)]
+    pub fn new(numbers: [N; NUMBERS_OF_TUBE]) -> Self {
+        let [x, y, z, ax, ay, az, bx, by, bz, cx, cy, cz, off_x, off_y, off_z, seeming, middle, slope] =
+            numbers;
+        let rows =
+            [Vector { x: ax, y: ay, z: az }, Vector { x: bx, y: by, z: bz }, Vector { x: cx, y: cy, z: cz }];
+        Self {
+            center: Vector { x, y, z },
+            rows,
+            off: Vector { x: off_x, y: off_y, z: off_z },
+            off_sum: off_x + off_y + off_z,
+            seeming,
+            taper: Tapers { middle, slope },
+        }
+    }
+
+    /// Where the line of each ray goes in through its tube's wall, and where it comes out.
+    #[inline(always)]
+    pub fn crossings(&self, rays: &Rays<N>) -> SideCrossings<N> {
+        let from_center = rays.o - self.center;
+        let [first, second, third] = self.rows;
+        let o = Vector { x: from_center.dot(first), y: from_center.dot(second), z: from_center.dot(third) };
+        let d = Vector { x: rays.d.dot(first), y: rays.d.dot(second), z: rays.d.dot(third) };
+        let rays = Rays { o, d };
+        if !self.near(&rays).any() {
+            return SideCrossings::none(rays.o.x);
+        }
+        let (rays, _, t) = at_closest(&rays);
+        let near = !pass_by(rays.o, self.off_sum);
+        if !near.any() {
+            return SideCrossings::none(t);
+        }
+        let side = self.taper.sides(&rays, (self.off, self.seeming));
+        let met = side.any & near;
+        SideCrossings {
+            enter: Ends { t: t + side.enter.t, ..side.enter },
+            enters: met & between_caps(&rays, side.enter.t),
+            leave: Ends { t: t + side.leave.t, ..side.leave },
+            leaves: met & between_caps(&rays, side.leave.t),
+            one_way: met & !(is_finite(side.enter.t) & is_finite(side.leave.t)),
+        }
+    }
+
+    /// Which lines, brought to the unit space, come so near the axis that they may meet the tube: known without a division.
+    ///
+    /// Every crossing that is found lies between the caps, where the tube is no wider than its widest, and satisfies the
+    /// tube's equation as near as [`UnitSpace::off`] says: the line comes so near the axis, but for the rounding of that
+    /// distance, which is within the same.
+    #[inline(always)]
+    fn near(&self, rays: &Rays<N>) -> N::Mask {
+        let Rays { o, d } = *rays;
+        let across = d.x * o.y - d.y * o.x;
+        let Tapers { middle, slope } = self.taper;
+        let reach = (middle + slope.magnitude()) * BEYOND + self.off_sum * 4.0;
+        let most = (d.x * d.x + d.y * d.y) * (reach * reach) + FULL_DIGITS;
+        !(across * across).is_above(most)
+    }
+}
+
+/// Whether the places at `t` are between the caps.
+#[inline(always)]
+fn between_caps<N: Number>(rays: &Rays<N>, t: N) -> N::Mask {
+    let z = rays.o.z + t * rays.d.z;
+    is_finite(t) & z.magnitude().is_at_most(z.same(1.0))
+}
+
 impl Tube {
     /// The tube at `place`, which may be off by `map_error`, of radius `bottom` at z = −1 and `top` at z = 1.
     pub fn new(place: &Placement, bottom: f64, top: f64, map_error: DVec3) -> Self {
@@ -75,38 +158,30 @@ impl Tube {
     /// which is steeper than the wall or parallel to it, has only one of them.
     #[inline(always)]
     pub fn crossings<N: Number>(&self, rays: &Rays<N>) -> SideCrossings<N> {
-        let rays = self.space.brought(rays);
-        if !self.near(&rays).any() {
-            return SideCrossings::none(rays.o.x);
-        }
-        let rays = self.space.recentred(&rays);
-        let near = !rays.pass_by();
-        if !near.any() {
-            return SideCrossings::none(rays.t);
-        }
-        let side = self.taper.sides(&rays);
-        let met = side.any & near;
-        SideCrossings {
-            enter: Ends { t: rays.t + side.enter.t, ..side.enter },
-            enters: met & rays.between_caps(side.enter.t),
-            leave: Ends { t: rays.t + side.leave.t, ..side.leave },
-            leaves: met & rays.between_caps(side.leave.t),
-            one_way: met & !(is_finite(side.enter.t) & is_finite(side.leave.t)),
-        }
+        let like = rays.o;
+        let UnitSpace { center, inverse, off, seeming, .. } = &self.space;
+        let [middle, slope] = self.taper.numbers();
+        let tubes = Tubes {
+            center: like.same(*center),
+            rows: [like.same(inverse.row(0)), like.same(inverse.row(1)), like.same(inverse.row(2))],
+            off: like.same(*off),
+            off_sum: like.x.same(off.element_sum()),
+            seeming: like.x.same(*seeming),
+            taper: Tapers { middle: like.x.same(middle), slope: like.x.same(slope) },
+        };
+        tubes.crossings(rays)
     }
 
-    /// Which lines, brought to the unit space, come so near the axis that they may meet the tube: known without a division.
-    ///
-    /// Every crossing that is found lies between the caps, where the tube is no wider than its widest, and satisfies the
-    /// tube's equation as near as [`UnitSpace::off`] says: the line comes so near the axis, but for the rounding of that
-    /// distance, which is within the same.
+    /// What [`Tubes::new`] asks for.
     #[inline(always)]
-    fn near<N: Number>(&self, rays: &Rays<N>) -> N::Mask {
-        let Rays { o, d } = *rays;
-        let across = d.x * o.y - d.y * o.x;
-        let reach = self.taper.widest() * BEYOND + 4.0 * self.space.off.element_sum();
-        let most = (d.x * d.x + d.y * d.y) * (reach * reach) + FULL_DIGITS;
-        !(across * across).is_above(most)
+    pub(super) fn numbers(&self) -> [f64; NUMBERS_OF_TUBE] {
+        let UnitSpace { center, inverse, off, seeming, .. } = &self.space;
+        let DMat3 { x_axis: x, y_axis: y, z_axis: z } = inverse;
+        let [middle, slope] = self.taper.numbers();
+        [
+            center.x, center.y, center.z, x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z, off.x, off.y, off.z,
+            *seeming, middle, slope,
+        ]
     }
 
     /// The normals at points of the tube, away from its axis, of length 1.

@@ -62,13 +62,8 @@ impl UnitSpace {
     /// Rays that were brought there, re-centred.
     #[inline(always)]
     pub fn recentred<N: Number>(&self, rays: &Rays<N>) -> Centred<N> {
-        let Rays { o, d } = *rays;
-        let d_squared = d.length_squared();
-        let first = -o.dot(d) / d_squared;
-        let o = o + d * first;
-        let second = -o.dot(d) / d_squared;
-        let o = o + d * second;
-        Centred { o, d, d_squared, t: first + second, off: self.off, seeming: self.seeming }
+        let (Rays { o, d }, d_squared, t) = at_closest(rays);
+        Centred { o, d, d_squared, t, off: self.off, seeming: self.seeming }
     }
 
     /// Points of the world there.
@@ -98,20 +93,32 @@ impl UnitSpace {
 }
 
 impl<N: Number> Centred<N> {
-    /// Whether the places at `t` from the closest point are between the caps of a frustum.
-    #[inline(always)]
-    pub fn between_caps(&self, t: N) -> N::Mask {
-        let z = self.o.z + t * self.d.z;
-        is_finite(t) & z.magnitude().is_at_most(z.same(1.0))
-    }
-
-    /// Whether the line is certainly beside a frustum, which lies within √2 of the unit origin.
+    /// Whether the line is certainly beside a frustum.
     #[inline(always)]
     pub fn pass_by(&self) -> N::Mask {
-        let off = self.off.element_sum();
-        // (√2 + off)² with 4 for 2√2.
-        self.o.length_squared().is_above(self.t.same(2.0 + off * (4.0 + off)))
+        pass_by(self.o, self.t.same(self.off.element_sum()))
     }
+}
+
+/// Rays from the point of each that is closest to the origin, the square of the length of their directions, and how far
+/// that point is from their starts.
+#[inline(always)]
+pub(super) fn at_closest<N: Number>(rays: &Rays<N>) -> (Rays<N>, N, N) {
+    let Rays { o, d } = *rays;
+    let d_squared = d.length_squared();
+    let first = -o.dot(d) / d_squared;
+    let o = o + d * first;
+    let second = -o.dot(d) / d_squared;
+    let o = o + d * second;
+    (Rays { o, d }, d_squared, first + second)
+}
+
+/// Whether lines whose points closest to the unit origin are `o` are certainly beside a frustum, which lies within √2 of
+/// that origin; `off` is the sum of how far a point may be off along each axis.
+#[inline(always)]
+pub(super) fn pass_by<N: Number>(o: Vector<N>, off: N) -> N::Mask {
+    // (√2 + off)² with 4 for 2√2.
+    o.length_squared().is_above(off * (off + 4.0) + 2.0)
 }
 
 /// Whether there is such a place: those that there are not are infinitely far away.

@@ -100,13 +100,13 @@ impl<'a> Exact<'a> {
 
     /// The first crossing of one object, if it lies before `to`.
     #[inline]
-    fn object(
+    pub(super) fn object(
         &self,
         object: u32,
         ray: &Ray,
         departure: Option<Departure>,
         to: f64,
-        memory: &mut Memory,
+        scratch: &mut solid::Scratch,
         meter: &mut Meter<impl Probe>,
     ) -> Option<Crossing> {
         meter.at(Stage::Solid);
@@ -120,7 +120,6 @@ impl<'a> Exact<'a> {
         }
         let Body::Composite { whole, .. } = &self.assembly.objects[object as usize].body else { return None };
         let primitives = &self.assembly.primitives;
-        let scratch = &mut memory.scratch;
         match self.structure.sub(object) {
             None => {
                 let reach = Reach { from: 0.0, to };
@@ -156,7 +155,7 @@ impl<'a> Exact<'a> {
         memory.start_ray();
         let test = |object: u32, memory: &mut Memory, meter: &mut Meter<_>| {
             let to = memory.best + self.slack;
-            if let Some(crossing) = self.object(object, ray, departure, to, memory, meter) {
+            if let Some(crossing) = self.object(object, ray, departure, to, &mut memory.scratch, meter) {
                 memory.keep(object, crossing);
             }
         };
@@ -238,14 +237,16 @@ impl Engine for Exact<'_> {
         let blocks = |c: Crossing| c.t + c.error < distance;
         if let Structure::None = self.structure {
             return (0..self.assembly.objects.len() as u32).any(|object| {
-                self.object(object, ray, Some(departure), distance, memory, meter).is_some_and(blocks)
+                self.object(object, ray, Some(departure), distance, &mut memory.scratch, meter)
+                    .is_some_and(blocks)
             });
         }
         meter.at(Stage::Cell);
         let mut visited = 0;
         if let Structure::Boxes(boxes, _) = self.structure {
             let found = boxes.any(ray, distance, &mut visited, |object| {
-                let crossing = self.object(object, ray, Some(departure), distance, memory, meter);
+                let crossing =
+                    self.object(object, ray, Some(departure), distance, &mut memory.scratch, meter);
                 meter.at(Stage::Cell);
                 crossing.is_some_and(blocks)
             });
@@ -256,7 +257,8 @@ impl Engine for Exact<'_> {
         let found = self.structure.walk(ray, 0.0, distance, &mut visited, |objects, _| {
             for &object in objects {
                 if memory.first_time(object) {
-                    let crossing = self.object(object, ray, Some(departure), distance, memory, meter);
+                    let crossing =
+                        self.object(object, ray, Some(departure), distance, &mut memory.scratch, meter);
                     meter.at(Stage::Cell);
                     if crossing.is_some_and(blocks) {
                         return ControlFlow::Break(());

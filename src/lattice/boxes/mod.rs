@@ -7,6 +7,7 @@
 mod build;
 mod reach;
 mod split;
+mod stream;
 mod walk;
 
 use fearless_simd::{Level, Simd, SimdBase, f32x8};
@@ -15,6 +16,8 @@ use crate::math::{Bounds, DVec3};
 use crate::solid::Assembly;
 
 use super::planes::slack;
+
+pub use stream::{Meeting, Stream, Ways};
 
 /// Children of a node: as many as the registers of most processors have numbers, of 32 bits each.
 pub const WIDE: usize = 8;

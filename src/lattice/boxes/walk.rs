@@ -12,7 +12,8 @@ use super::{Boxes, INNER, Node, WIDE, lower, upper};
 const WAITING: usize = 64;
 
 /// Nodes that wait, the next one last. Those that came long before have memory of their own.
-struct Waiting<T> {
+#[derive(Debug)]
+pub(super) struct Waiting<T> {
     near: [T; WAITING],
     /// At most [`WAITING`].
     len: usize,
@@ -21,7 +22,7 @@ struct Waiting<T> {
 
 impl<T: Copy> Waiting<T> {
     #[inline(always)]
-    fn new(none: T) -> Self {
+    pub fn new(none: T) -> Self {
         Self { near: [none; WAITING], len: 0, before: Vec::new() }
     }
 
@@ -43,7 +44,7 @@ impl<T: Copy> Waiting<T> {
     }
 
     #[inline(always)]
-    fn pop(&mut self) -> Option<T> {
+    pub fn pop(&mut self) -> Option<T> {
         match self.len.checked_sub(1) {
             Some(last) => {
                 self.len = last;
@@ -55,49 +56,66 @@ impl<T: Copy> Waiting<T> {
 }
 
 /// A node that waits.
-#[derive(Clone, Copy)]
-struct Ahead {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ahead {
     /// Where the ray enters its box, or before.
-    from: f32,
-    node: u32,
+    pub from: f32,
+    pub node: u32,
 }
 
-/// A ray as the boxes are asked about it.
-struct Asked<S: Simd> {
-    o: [f32x8<S>; 3],
+/// A ray in half the digits.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Way {
+    o: [f32; 3],
     /// 1 / d, and the largest number where that is larger.
     ///
     /// A difference of 0 times that is 0, so no product is not a number. Where it is too small, the padding is far enough:
     /// a box whose planes the ray lies between is entered before its start and left far behind its end, and one beside it
     /// is not.
-    inverse: [f32x8<S>; 3],
+    inverse: [f32; 3],
     /// Which of the two sides along each axis the ray comes to first.
-    first: [usize; 3],
+    first: [u32; 3],
+    from: f32,
+}
+
+impl Way {
+    #[inline(always)]
+    pub fn new(ray: &Ray, from: f64) -> Self {
+        let Ray { o, d } = *ray;
+        Self {
+            o: [o.x as f32, o.y as f32, o.z as f32],
+            inverse: [inverse(d.x), inverse(d.y), inverse(d.z)],
+            first: [u32::from(d.x < 0.0), u32::from(d.y < 0.0), u32::from(d.z < 0.0)],
+            from: lower(from),
+        }
+    }
+}
+
+/// A ray as the boxes are asked about it.
+pub(super) struct Asked<S: Simd> {
+    o: [f32x8<S>; 3],
+    inverse: [f32x8<S>; 3],
+    first: [u32; 3],
     from: f32x8<S>,
 }
 
 impl<S: Simd> Asked<S> {
     #[inline(always)]
-    fn new(simd: S, ray: &Ray, from: f64) -> Self {
-        let Ray { o, d } = *ray;
+    pub fn new(simd: S, way: &Way) -> Self {
         // Not by `map`, nor by a closure, which are compiled by themselves, for any processor.
-        let [x, y, z] = [inverse(d.x), inverse(d.y), inverse(d.z)];
+        let ([ox, oy, oz], [x, y, z]) = (way.o, way.inverse);
         Self {
-            o: [
-                f32x8::splat(simd, o.x as f32),
-                f32x8::splat(simd, o.y as f32),
-                f32x8::splat(simd, o.z as f32),
-            ],
+            o: [f32x8::splat(simd, ox), f32x8::splat(simd, oy), f32x8::splat(simd, oz)],
             inverse: [f32x8::splat(simd, x), f32x8::splat(simd, y), f32x8::splat(simd, z)],
-            first: [usize::from(d.x < 0.0), usize::from(d.y < 0.0), usize::from(d.z < 0.0)],
-            from: f32x8::splat(simd, lower(from)),
+            first: way.first,
+            from: f32x8::splat(simd, way.from),
         }
     }
 
     /// Where the ray enters the boxes of a node before `to`, or before, and a bit for each that it meets. What rounding may
     /// do is in the boxes ([`MARGIN`](super::MARGIN)). Nothing here is not a number.
     #[inline(always)]
-    fn meets(&self, simd: S, node: &Node, to: f32x8<S>) -> (f32x8<S>, u32) {
+    pub fn meets(&self, simd: S, node: &Node, to: f32x8<S>) -> (f32x8<S>, u32) {
         let [near_x, far_x] = self.stretch(simd, node, 0);
         let [near_y, far_y] = self.stretch(simd, node, 1);
         let [near_z, far_z] = self.stretch(simd, node, 2);
@@ -109,7 +127,7 @@ impl<S: Simd> Asked<S> {
     /// Between which distances the ray is between the two sides along an axis.
     #[inline(always)]
     fn stretch(&self, simd: S, node: &Node, axis: usize) -> [f32x8<S>; 2] {
-        let (sides, first) = (&node.sides[axis], self.first[axis]);
+        let (sides, first) = (&node.sides[axis], self.first[axis] as usize);
         let (near, far) = (&sides[first & 1], &sides[(first & 1) ^ 1]);
         let (o, inverse) = (self.o[axis], self.inverse[axis]);
         [(f32x8::from_slice(simd, near) - o) * inverse, (f32x8::from_slice(simd, far) - o) * inverse]
@@ -124,7 +142,7 @@ fn inverse(d: f64) -> f32 {
 
 /// The first two slots among the bits, any where there are fewer, and the bits of the others.
 #[inline(always)]
-fn first_two(bits: u32) -> ([usize; 2], u32) {
+pub(super) fn first_two(bits: u32) -> ([usize; 2], u32) {
     let others = bits & bits.wrapping_sub(1);
     let slots = [bits.trailing_zeros() as usize % WIDE, others.trailing_zeros() as usize % WIDE];
     (slots, others & others.wrapping_sub(1))
@@ -172,7 +190,7 @@ fn walked<S: Simd, B>(
     cells_visited: &mut u64,
     visit: &mut Visit<B>,
 ) -> Option<B> {
-    let asked = Asked::new(simd, ray, from);
+    let asked = Asked::new(simd, &Way::new(ray, from));
     let mut end = upper(to);
     let mut waiting = Waiting::new(Ahead { from: 0.0, node: 0 });
     let mut next = Ahead { from: lower(from), node: 0 };
@@ -201,7 +219,7 @@ fn walked<S: Simd, B>(
 
 /// Puts the nodes among a node's children that were met with those that wait.
 #[inline(always)]
-fn push_nearest_last(waiting: &mut Waiting<Ahead>, node: &Node, enter: &[f32; WIDE], met: u32) {
+pub(super) fn push_nearest_last(waiting: &mut Waiting<Ahead>, node: &Node, enter: &[f32; WIDE], met: u32) {
     waiting.make_room();
     let first = waiting.len;
     let (slots, mut rest) = first_two(met);
@@ -233,7 +251,7 @@ fn any_walked<S: Simd>(
     cells_visited: &mut u64,
     visit: &mut dyn FnMut(u32) -> bool,
 ) -> bool {
-    let asked = Asked::new(simd, ray, 0.0);
+    let asked = Asked::new(simd, &Way::new(ray, 0.0));
     let end = f32x8::splat(simd, upper(to));
     let mut waiting = Waiting::new(0);
     let mut next = Some(0);

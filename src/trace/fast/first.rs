@@ -106,7 +106,7 @@ impl Fast<'_> {
                         let (bundle, nearest) = (&bundles[k], &mut nearest[k]);
                         let Some(left_to_ask_now) = left_to_ask[k].checked_sub(1) else {
                             given_up += 1;
-                            nearest.unsure = bundle.live;
+                            nearest.apart = bundle.live;
                             memory.far[k] = f64::NEG_INFINITY;
                             continue;
                         };

@@ -6,6 +6,7 @@ use crate::stage::Counts;
 
 use super::company::Company;
 use super::nearest::Nearest;
+use super::stream::Apart;
 use super::thin::Thin;
 use super::walk::Waits;
 
@@ -19,6 +20,7 @@ pub struct TileMemory {
     pub(super) thin: Vec<Thin>,
     pub(super) fan: Fan,
     pub(super) company: Company,
+    pub(super) apart: Apart,
     /// By bundle: the planes across its rays, where they were asked for.
     pub(super) sheared: Vec<Sheared>,
     /// Nodes to be walked.
@@ -53,6 +55,7 @@ impl Default for TileMemory {
             thin: vec![Thin::EMPTY; FAN],
             fan: Fan::default(),
             company: Company::default(),
+            apart: Apart::default(),
             sheared: vec![Sheared::UNKNOWN; FAN],
             stack: Vec::new(),
             scratch: BundleScratch::default(),

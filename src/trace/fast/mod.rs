@@ -11,6 +11,7 @@ mod memory;
 mod nearest;
 mod shaft;
 mod slices;
+mod stream;
 mod thin;
 mod tint;
 mod walk;
@@ -81,7 +82,7 @@ impl<'a> Fast<'a> {
             let given_up = self.first_of_tile(simd, bundles, departures, nearest, memory);
             for (bundle, found) in bundles.iter().zip(&mut *nearest) {
                 found.doubt(simd, self.slack);
-                found.unsure &= bundle.live;
+                found.unsure &= bundle.live & !found.apart;
             }
             given_up
         })
@@ -130,6 +131,7 @@ impl<'a> Fast<'a> {
                 dispatch!(self.level, simd => self.blocked_of_tile(simd, shafts, departures, lamp, memory));
             apart = 2 * given_up > asking;
         }
+        self.blocked_apart(shafts, departures, lamp, memory);
         apart
     }
 }

@@ -3,6 +3,7 @@
 use fearless_simd::{Select, Simd, SimdBase, f64x8, mask64x8};
 
 use crate::math::{Bundle, Column, LANES, Mask, Number, ROWS};
+use crate::solid::Crossing;
 
 use super::super::Hit;
 
@@ -25,6 +26,8 @@ pub struct Nearest {
     pub entering: u64,
     /// Which rays are to be asked one by one.
     pub unsure: u64,
+    /// Which rays have no company, and are to be asked in a stream.
+    pub apart: u64,
 }
 
 impl Default for Nearest {
@@ -44,6 +47,7 @@ impl Nearest {
         surface: Column::filled(0.0),
         entering: 0,
         unsure: 0,
+        apart: 0,
     };
 
     /// Forgets all.
@@ -51,7 +55,29 @@ impl Nearest {
     pub fn clear(&mut self) {
         self.t = Column::filled(f64::INFINITY);
         self.second = Column::filled(f64::INFINITY);
-        (self.entering, self.unsure) = (0, 0);
+        (self.entering, self.unsure, self.apart) = (0, 0, 0);
+    }
+
+    /// Forgets what one ray met.
+    #[inline]
+    pub(super) fn forget(&mut self, lane: usize) {
+        (self.t.0[lane], self.second.0[lane]) = (f64::INFINITY, f64::INFINITY);
+        self.unsure &= !(1 << lane);
+    }
+
+    /// A crossing of one ray with an object.
+    #[inline]
+    pub(super) fn offer_one(&mut self, lane: usize, object: u32, crossing: &Crossing) {
+        let best = self.t.0[lane];
+        self.second.0[lane] = self.second.0[lane].min(best.max(crossing.t));
+        if crossing.t < best {
+            self.t.0[lane] = crossing.t;
+            self.error.0[lane] = crossing.error;
+            self.object.0[lane] = f64::from(object);
+            self.primitive.0[lane] = f64::from(crossing.primitive);
+            self.surface.0[lane] = f64::from(crossing.surface);
+            self.entering = self.entering & !(1 << lane) | u64::from(crossing.entering) << lane;
+        }
     }
 
     /// Sets what one ray met.

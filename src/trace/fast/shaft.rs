@@ -9,8 +9,8 @@ use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 use crate::lattice::{Beam, Child, FAN, SLACK};
 use crate::math::{Bounds, Bundle, Column, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
 use crate::solid::{
-    Asked, Ball, Body, Departures, Firsts, Flat, Form, Found, Reach, Spans, Starts, first_of_expressions,
-    firsts_of_spans, firsts_of_surface, with_spans,
+    Asked, Ball, Body, Crossing, Departures, Firsts, Flat, Form, Found, Reach, Spans, Starts,
+    first_of_expressions, firsts_of_spans, firsts_of_surface, with_spans,
 };
 
 use super::Fast;
@@ -42,6 +42,8 @@ pub struct Shaft {
     pub leaving: u64,
     /// Which are to be asked one by one.
     pub unsure: u64,
+    /// Which have no company, and are to be asked in a stream.
+    pub apart: u64,
 }
 
 /// A light, and what it shines through.
@@ -64,18 +66,19 @@ impl Shaft {
         tint: Tint::NONE,
         leaving: 0,
         unsure: 0,
+        apart: 0,
     };
 
     /// No ray asks, and nothing is known.
     pub fn clear(&mut self) {
         self.rays.live = 0;
-        (self.blocked, self.leaving, self.unsure) = (0, 0, 0);
+        (self.blocked, self.leaving, self.unsure, self.apart) = (0, 0, 0, 0);
         self.tint.clear();
     }
 
-    /// All rays that ask are to be asked one by one.
+    /// All rays that ask have no company.
     pub fn give_up(&mut self) {
-        self.unsure = self.rays.live;
+        self.apart = self.rays.live;
     }
 
     /// Gives those that do not ask the numbers of the first that does ([`Bundle::close`]).
@@ -87,10 +90,16 @@ impl Shaft {
         }
     }
 
-    /// The rays that are neither blocked nor unsure.
+    /// The rays that are neither blocked nor unsure, nor without company.
     #[inline(always)]
     pub(super) fn open(&self) -> u64 {
-        self.rays.live & !(self.blocked | self.unsure)
+        self.rays.live & !(self.blocked | self.unsure | self.apart)
+    }
+
+    /// Whether a crossing lies before the light.
+    #[inline]
+    pub(super) fn blocks(&self, lane: usize, crossing: &Crossing) -> bool {
+        crossing.t + crossing.error < self.distance.0[lane]
     }
 
     /// Notes the rays that meet something before they reach the light.
@@ -120,7 +129,7 @@ impl Fast<'_> {
     ) -> usize {
         for shaft in &mut *shafts {
             if shaft.rays.live.count_ones() < FEW_RAYS {
-                shaft.unsure = shaft.rays.live;
+                shaft.apart = shaft.rays.live;
             }
         }
         let asking = shafts.iter().map(|shaft| (shaft.open() != 0).then_some((&shaft.rays, &shaft.distance)));
@@ -176,7 +185,7 @@ impl Fast<'_> {
                     let passing = memory.thin[k].passing(simd, &slabs, shaft.open());
                     let Some(left_now) = left_to_ask[k].checked_sub(1) else {
                         given_up += 1;
-                        shafts[k].unsure |= shafts[k].open();
+                        shafts[k].apart |= shafts[k].open();
                         open &= !(1 << k);
                         continue;
                     };

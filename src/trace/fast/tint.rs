@@ -55,6 +55,12 @@ impl Tint {
         (self.rays, self.again) = (0, 0);
     }
 
+    /// Forgets what some rays met.
+    pub(super) fn forget(&mut self, rays: u64) {
+        self.rays &= !rays;
+        self.again &= !rays;
+    }
+
     /// A ray meets glass that leaves so much of its light. Answers whether that is certain.
     fn add(&mut self, lane: usize, (t, error): (f64, f64), left: f64, slack: f64) -> bool {
         let bit = 1 << lane;
@@ -69,6 +75,29 @@ impl Tint {
         // Of two factors the order does not matter.
         self.share.0[lane] *= left;
         apart && second
+    }
+}
+
+impl Shaft {
+    /// A ray first meets a glass object at a distance that may be off by `error`, and this is left of its light there.
+    pub(super) fn glass(
+        &mut self,
+        lane: usize,
+        (t, error): (f64, f64),
+        clarity: Clarity,
+        left: f64,
+        slack: f64,
+    ) {
+        let distance = self.distance.0[lane];
+        // Seen from the glass before it, both may be off by as much again.
+        let off = 2.0 * error + slack;
+        if t - off > distance {
+            return;
+        }
+        let certain = clarity == Clarity::Clear && t + off < distance;
+        if !(certain && self.tint.add(lane, (t, error), left, slack)) {
+            self.unsure |= 1 << lane;
+        }
     }
 }
 
@@ -90,21 +119,15 @@ impl Fast<'_> {
         let outset = Outset { rays: &shaft.rays, departures: Some(departures) };
         self.object_of_bundle(simd, about, outset, &mut met, memory, k);
         shaft.unsure |= met.unsure & shaft.rays.live;
-        let clear = lamp.clarity.get(about.0 as usize) == Some(&Clarity::Clear);
+        let clarity = lamp.clarity.get(about.0 as usize).copied().unwrap_or(Clarity::Opaque);
         let mut rest = shaft.open();
         while rest != 0 {
             let lane = rest.trailing_zeros() as usize;
             rest &= rest - 1;
-            let (t, error, distance) = (met.t.0[lane], met.error.0[lane], shaft.distance.0[lane]);
-            // Seen from the glass before it, both may be off by as much again.
-            let off = 2.0 * error + self.slack;
-            if t - off > distance {
-                continue;
-            }
-            let left = lamp.lets_through[met.primitive.0[lane] as usize];
-            let certain = clear && t + off < distance;
-            if !(certain && shaft.tint.add(lane, (t, error), left, self.slack)) {
-                shaft.unsure |= 1 << lane;
+            let at = (met.t.0[lane], met.error.0[lane]);
+            if at.0 < f64::INFINITY {
+                let left = lamp.lets_through[met.primitive.0[lane] as usize];
+                shaft.glass(lane, at, clarity, left, self.slack);
             }
         }
         memory.met = met;

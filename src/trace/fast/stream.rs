@@ -1,0 +1,277 @@
+//! Rays that have no company: those of bundles that were given up, many on their way at once.
+//!
+//! Each finds what it finds alone. Where that is more than one thing in one place, it is asked of the exact engine.
+
+use crate::lattice::{Meeting, Stream, Ways};
+use crate::math::{Bundle, LANES, Ray};
+use crate::solid::{Crossing, Departure, Departures, Eight, Form, Scratch};
+use crate::stage::{Counts, Meter, Silent};
+
+use super::Fast;
+use super::memory::TileMemory;
+use super::nearest::Nearest;
+use super::shaft::{Shaft, Shone};
+use super::tint::Clarity;
+
+/// A ray's place: its bundle, and its lane there.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    bundle: usize,
+    lane: usize,
+}
+
+/// Memory for rays without company.
+#[derive(Debug, Default)]
+pub struct Apart {
+    stream: Stream,
+    rays: Vec<Alone>,
+    balls: Queue,
+    tubes: Queue,
+    eight: Eight,
+    scratch: Scratch,
+}
+
+/// A ray of a stream.
+#[derive(Clone, Copy, Debug)]
+struct Alone {
+    at: Place,
+    ray: Ray,
+    departure: Option<Departure>,
+}
+
+/// Rays that wait to be asked about a primitive of one form.
+#[derive(Debug, Default)]
+struct Queue(Vec<Question>);
+
+#[derive(Clone, Copy, Debug)]
+struct Question {
+    meeting: Meeting,
+    /// The primitive.
+    index: u32,
+}
+
+impl Apart {
+    fn clear(&mut self) {
+        self.stream.clear();
+        self.rays.clear();
+    }
+
+    /// One more ray, that looks as far as `to`.
+    fn push(&mut self, at: Place, ray: Ray, departure: Option<Departure>, to: f64) {
+        self.stream.push(&ray, to);
+        self.rays.push(Alone { at, ray, departure });
+    }
+}
+
+/// The places of some rays of a bundle.
+fn places(bundle: usize, mut rays: u64) -> impl Iterator<Item = Place> {
+    std::iter::from_fn(move || {
+        let lane = rays.trailing_zeros() as usize;
+        (rays != 0).then(|| {
+            rays &= rays - 1;
+            Place { bundle, lane }
+        })
+    })
+}
+
+/// What rays without company are asked about.
+trait Asking {
+    /// How far a crossing with an object may be to matter.
+    fn to(&self, at: Place, object: u32) -> f64;
+    /// A crossing with an object. Answers how far the ray still looks: below 0 where no farther at all.
+    fn meet(&mut self, at: Place, object: u32, crossing: &Crossing) -> f64;
+}
+
+/// What rays meet first.
+struct First<'a> {
+    nearest: &'a mut [Nearest],
+    slack: f64,
+}
+
+impl Asking for First<'_> {
+    #[inline]
+    fn to(&self, Place { bundle, lane }: Place, _: u32) -> f64 {
+        self.nearest[bundle].t.0[lane] + self.slack
+    }
+
+    #[inline]
+    fn meet(&mut self, Place { bundle, lane }: Place, object: u32, crossing: &Crossing) -> f64 {
+        self.nearest[bundle].offer_one(lane, object, crossing);
+        self.nearest[bundle].t.0[lane] + self.slack
+    }
+}
+
+/// What stands between surfaces and a light.
+struct Blocked<'a> {
+    shafts: &'a mut [Shaft],
+    lamp: &'a Shone<'a>,
+    slack: f64,
+}
+
+impl Asking for Blocked<'_> {
+    #[inline]
+    fn to(&self, Place { bundle, lane }: Place, object: u32) -> f64 {
+        match self.lamp.clarity.get(object as usize) {
+            Some(Clarity::Clear | Clarity::Mixed) => f64::INFINITY,
+            _ => self.shafts[bundle].distance.0[lane],
+        }
+    }
+
+    #[inline]
+    fn meet(&mut self, Place { bundle, lane }: Place, object: u32, crossing: &Crossing) -> f64 {
+        let (shaft, bit) = (&mut self.shafts[bundle], 1 << lane);
+        let distance = shaft.distance.0[lane];
+        match self.lamp.clarity.get(object as usize).copied() {
+            Some(clarity @ (Clarity::Clear | Clarity::Mixed)) => {
+                let left = self.lamp.lets_through[crossing.primitive as usize];
+                shaft.glass(lane, (crossing.t, crossing.error), clarity, left, self.slack);
+            }
+            // Where a ray leaves glass and an opaque solid together, the glass has the say.
+            Some(Clarity::Opaque) if !crossing.entering && shaft.blocks(lane, crossing) => {
+                shaft.unsure |= bit;
+            }
+            _ if shaft.blocks(lane, crossing) => shaft.blocked |= bit,
+            _ => {}
+        }
+        if (shaft.blocked | shaft.unsure) & bit != 0 { -1.0 } else { distance + self.slack }
+    }
+}
+
+impl Fast<'_> {
+    /// The first hits of the rays of some bundles that have no company: those in [`Nearest::apart`].
+    pub fn first_apart(
+        &self,
+        bundles: &[Bundle],
+        departures: Option<&[Departures]>,
+        nearest: &mut [Nearest],
+        memory: &mut TileMemory,
+    ) {
+        let TileMemory { apart, counts, .. } = memory;
+        apart.clear();
+        for (k, (bundle, found)) in bundles.iter().zip(&mut *nearest).enumerate() {
+            for at in places(k, found.apart) {
+                found.forget(at.lane);
+                if departures.is_some_and(|all| self.from_mesh(&all[k], at.lane)) {
+                    found.unsure |= 1 << at.lane;
+                } else {
+                    let departure = departures.map(|all| all[k].get(at.lane));
+                    apart.push(at, bundle.ray(at.lane), departure, f64::INFINITY);
+                }
+            }
+        }
+        let mut asking = First { nearest, slack: self.slack };
+        self.ask_stream(apart, &mut asking, counts);
+        for found in nearest {
+            for Place { lane, .. } in places(0, std::mem::take(&mut found.apart)) {
+                let t = found.t.0[lane];
+                let close = found.second.0[lane] <= t + self.slack && t < f64::INFINITY;
+                found.unsure |= u64::from(close) << lane;
+            }
+        }
+    }
+
+    /// Which of the rays towards a light that have no company, those in [`Shaft::apart`], are blocked, and what glass leaves
+    /// of the light of the others.
+    pub fn blocked_apart(
+        &self,
+        shafts: &mut [Shaft],
+        departures: &[Departures],
+        lamp: &Shone,
+        memory: &mut TileMemory,
+    ) {
+        let TileMemory { apart, counts, .. } = memory;
+        apart.clear();
+        for (k, shaft) in shafts.iter_mut().enumerate() {
+            shaft.tint.forget(shaft.apart);
+            for at in places(k, std::mem::take(&mut shaft.apart)) {
+                if self.from_mesh(&departures[k], at.lane) {
+                    shaft.unsure |= 1 << at.lane;
+                } else {
+                    let (departure, to) =
+                        (departures[k].get(at.lane), shaft.distance.0[at.lane] + self.slack);
+                    apart.push(at, shaft.rays.ray(at.lane), Some(departure), to);
+                }
+            }
+        }
+        let mut asking = Blocked { shafts, lamp, slack: self.slack };
+        self.ask_stream(apart, &mut asking, counts);
+    }
+
+    /// Whether a ray leaves a mesh, which has many faces: of those nothing is noted for a bundle.
+    fn from_mesh(&self, departures: &Departures, lane: usize) -> bool {
+        let primitive = departures.primitive.0[lane];
+        primitive >= 0.0 && matches!(self.assembly.primitives[primitive as usize].form, Form::Mesh(_))
+    }
+
+    /// Asks all rays of a stream.
+    fn ask_stream(&self, apart: &mut Apart, asking: &mut impl Asking, counts: &mut Counts) {
+        let Apart { stream, rays, balls, tubes, eight, scratch } = apart;
+        let mut visited = 0;
+        let mut meter = Meter::new(Silent);
+        self.boxes.walk_stream(stream, &mut visited, &mut |met: &[Meeting], ways: &mut Ways| {
+            for meeting in met {
+                if !ways.matters(meeting) {
+                    continue;
+                }
+                let Meeting { ray: number, object, .. } = *meeting;
+                let Alone { at, ray, departure } = &rays[number as usize];
+                if let Some(index) = self.assembly.alone(object) {
+                    let form = &self.assembly.primitives[index as usize].form;
+                    if let Form::Ball(_) | Form::Tube(_) = form {
+                        // What is convex is not met again by a ray that leaves it.
+                        if !departure.is_some_and(|d| d.primitive == index && !d.inward) {
+                            let queue = if let Form::Ball(_) = form { &mut *balls } else { &mut *tubes };
+                            queue.0.push(Question { meeting: *meeting, index });
+                        }
+                        continue;
+                    }
+                }
+                let to = asking.to(*at, object);
+                if let Some(crossing) = self.exact.object(object, ray, *departure, to, scratch, &mut meter) {
+                    ways.look(number, asking.meet(*at, object, &crossing));
+                }
+            }
+            // Where few rays are left none waits for company.
+            let least = if met.len() < LANES { 1 } else { LANES };
+            for (queue, is_tubes) in [(&mut *balls, false), (&mut *tubes, true)] {
+                while queue.0.len() >= least {
+                    let some = queue.0.len().saturating_sub(LANES);
+                    meter.counts.primitive_tests += (queue.0.len() - some) as u64;
+                    self.ask_eight((&queue.0[some..], is_tubes), rays, eight, asking, ways);
+                    queue.0.truncate(some);
+                }
+            }
+        });
+        *counts += meter.counts;
+        counts.cells_visited += visited;
+    }
+
+    /// Asks up to eight rays about a primitive each, all of one form.
+    fn ask_eight(
+        &self,
+        (questions, tubes): (&[Question], bool),
+        rays: &[Alone],
+        eight: &mut Eight,
+        asking: &mut impl Asking,
+        ways: &mut Ways,
+    ) {
+        let primitives = &self.assembly.primitives;
+        for (lane, Question { meeting, index }) in questions.iter().enumerate() {
+            eight.set(lane, &rays[meeting.ray as usize].ray, &primitives[*index as usize]);
+        }
+        if tubes {
+            eight.meet_tubes(self.level);
+        } else {
+            eight.meet_balls(self.level);
+        }
+        let met = eight.met(tubes);
+        for (lane, Question { meeting, index }) in questions.iter().enumerate() {
+            if met >> lane & 1 == 1 && ways.matters(meeting) {
+                let Alone { at, departure, .. } = &rays[meeting.ray as usize];
+                if let Some(crossing) = eight.first(lane, &primitives[*index as usize], *index, *departure) {
+                    ways.look(meeting.ray, asking.meet(*at, meeting.object, &crossing));
+                }
+            }
+        }
+    }
+}

@@ -171,9 +171,13 @@ fn of_two_boxes_that_share_a_face_exactly_one_claims_a_ray_in_it() {
     assert_eq!(claims, [false, true]);
 }
 
+/// With a hollow, so that it is a mesh to us, too.
 fn tetrahedron() -> scene::Solid {
-    let points = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
-    let triangles = vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+    let outer = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+    let points = outer.into_iter().chain(outer.map(|p| 0.25 * p + 0.0625)).collect();
+    let triangles: Vec<[u32; 3]> = vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+    let inner = triangles.iter().map(|t| t.map(|i| i + 4));
+    let triangles = triangles.iter().copied().chain(inner).collect();
     primitive(scene::Shape::Mesh(std::sync::Arc::new(scene::Mesh { points, triangles })), DAffine3::IDENTITY)
 }
 

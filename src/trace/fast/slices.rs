@@ -9,7 +9,11 @@ use super::memory::TileMemory;
 
 /// The most leaves of an expression that are asked at once, rather than the way being cut into shorter slices: more
 /// cost more than a slice does.
-const FEW: usize = 4;
+const FEW: usize = 3;
+
+/// So many are asked at once where the way has been cut [`CUTS`] times: what is nearest mostly hides half of them.
+const SOME: usize = 4;
+const CUTS: u32 = 2;
 
 /// How often the way through an object is halved at most: into 64 slices, about as many as a sub-lattice has cells.
 const HALVINGS: u32 = 6;
@@ -65,7 +69,8 @@ fn slice(
     let mut remains = memory.remains.pop().unwrap_or_default();
     if expression.pruned(primitives, &b, &mut memory.pruning, &mut remains) == Left::Some {
         let left = Flat::from(&remains);
-        if left.leaves.len() <= FEW || halvings == 0 {
+        let few = if halvings + CUTS > HALVINGS { FEW } else { SOME };
+        if left.leaves.len() <= few || halvings == 0 {
             rays.ask(left, (from, to), memory);
         } else {
             for half in halves {

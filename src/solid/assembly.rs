@@ -45,8 +45,8 @@ pub struct Assembly {
     pub primitives: Vec<Primitive>,
     /// All objects, in file order, without those that hold nothing.
     pub objects: Vec<Object>,
-    /// By object: [`Assembly::alone`], or [`MANY`].
-    alone: Vec<u32>,
+    /// By object: [`Assembly::alone`], or [`MANY`]; and its kind.
+    alone: Vec<(u32, Kind)>,
     /// The world limit: the box of all objects. Within −2..=2 on every axis.
     pub limit: Bounds,
     /// How far any primitive may be off its place: the greatest [`Form::off`].
@@ -80,6 +80,17 @@ pub enum Body {
         /// The same laid out for rays.
         whole: Box<Expression>,
     },
+}
+
+/// What kind of object is asked about for eight rays at a time, each with an object of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// One ball.
+    Ball,
+    /// One tube.
+    Tube,
+    /// Anything else: one ray at a time.
+    Other,
 }
 
 /// Where the assembly's coordinates have their origin, and their unit.
@@ -270,8 +281,12 @@ impl Assembly {
             primitives.par_iter().map(|p| p.form.off()).reduce(|| 0.0, f64::max)
         };
         let alone = |object: &Object| match object.body {
-            Body::Single(index) | Body::Surface(index) => index,
-            Body::Composite { .. } => MANY,
+            Body::Single(index) | Body::Surface(index) => match primitives[index as usize].form {
+                Form::Ball(_) => (index, Kind::Ball),
+                Form::Tube(_) => (index, Kind::Tube),
+                _ => (index, Kind::Other),
+            },
+            Body::Composite { .. } => (MANY, Kind::Other),
         };
         let alone = objects.iter().map(alone).collect();
         Ok(Self { primitives, objects, alone, limit, off, datum })
@@ -281,7 +296,14 @@ impl Assembly {
     /// objects are in no cache, their numbers may be.
     #[inline]
     pub fn alone(&self, object: u32) -> Option<u32> {
-        Some(self.alone[object as usize]).filter(|&index| index != MANY)
+        Some(self.alone[object as usize].0).filter(|&index| index != MANY)
+    }
+
+    /// What kind of object it is; and the primitive that it is, where it is one alone.
+    #[inline]
+    pub fn kind(&self, object: u32) -> (Kind, u32) {
+        let (index, kind) = self.alone[object as usize];
+        (kind, index)
     }
 
     /// How far the scene reaches along `v` at most, in its own coordinates: the greatest `p · v` of its points.

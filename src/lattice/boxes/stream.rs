@@ -44,7 +44,15 @@ struct Walker {
 pub struct Stream {
     ways: Ways,
     walkers: Vec<Walker>,
+    steps: Steps,
     met: Vec<Meeting>,
+}
+
+/// What each of those that are on their way meets in the next step: where it enters each box, and a bit for each.
+#[derive(Debug, Default)]
+struct Steps {
+    enter: [[f32; WIDE]; ABREAST],
+    met: [u32; ABREAST],
 }
 
 impl Ways {
@@ -107,7 +115,7 @@ impl Boxes {
 fn walked<S: Simd>(
     simd: S,
     nodes: &[Node],
-    Stream { ways, walkers, met }: &mut Stream,
+    Stream { ways, walkers, steps, met }: &mut Stream,
     cells_visited: &mut u64,
     visit: &mut dyn FnMut(&[Meeting], &mut Ways),
 ) {
@@ -123,15 +131,22 @@ fn walked<S: Simd>(
     }
     met.resize(ABREAST * WIDE, Meeting { ray: 0, object: 0, near: 0.0 });
     while active != 0 {
-        let mut count = 0;
-        let mut k = 0;
         *cells_visited += active as u64;
-        while k < active {
-            let Walker { ray, node, waiting } = &mut walkers[k];
+        // All nodes are asked before anything depends on an answer, so that none waits for the memory of another.
+        for (k, Walker { ray, node, .. }) in walkers[..active].iter().enumerate() {
             let (way, end) = (&ways.ways[*ray as usize], ways.ends[*ray as usize]);
             let here = &nodes[*node as usize];
-            let (enter, bits) = Asked::new(simd, way).meets(simd, here, f32x8::splat(simd, end));
-            let enter: [f32; WIDE] = enter.into();
+            let (enter, met) = Asked::new(simd, way).meets(simd, here, f32x8::splat(simd, end));
+            enter.store_slice(&mut steps.enter[k]);
+            steps.met[k] = met;
+        }
+        let mut count = 0;
+        let mut k = 0;
+        while k < active {
+            let Walker { ray, node, waiting } = &mut walkers[k];
+            let end = ways.ends[*ray as usize];
+            let here = &nodes[*node as usize];
+            let (enter, bits) = (&steps.enter[k], steps.met[k]);
             // The first two are written whether they are there or not: that is known by chance only.
             let objects = bits & !u32::from(here.inner);
             let (slots, mut rest) = first_two(objects);
@@ -147,7 +162,7 @@ fn walked<S: Simd>(
                 next += 1;
             }
             count += objects.count_ones() as usize;
-            push_nearest_last(waiting, here, &enter, bits & u32::from(here.inner));
+            push_nearest_last(waiting, here, enter, bits & u32::from(here.inner));
             loop {
                 match waiting.pop() {
                     Some(ahead) if ahead.from <= end => {
@@ -165,6 +180,9 @@ fn walked<S: Simd>(
                     None => {
                         active -= 1;
                         walkers.swap(k, active);
+                        // The last has taken this one's place.
+                        steps.enter[k] = steps.enter[active];
+                        steps.met[k] = steps.met[active];
                         break;
                     }
                 }

@@ -4,7 +4,7 @@
 
 use crate::lattice::{Meeting, Stream, Ways};
 use crate::math::{Bundle, LANES, Ray};
-use crate::solid::{Crossing, Departure, Departures, Eight, Form, Scratch};
+use crate::solid::{Crossing, Departure, Departures, Eight, Form, Kind, Scratch};
 use crate::stage::{Counts, Meter, Silent};
 
 use super::Fast;
@@ -20,11 +20,16 @@ struct Place {
     lane: usize,
 }
 
+/// No index of a primitive: there are fewer.
+const NONE: u32 = u32::MAX;
+
 /// Memory for rays without company.
 #[derive(Debug, Default)]
 pub struct Apart {
     stream: Stream,
     rays: Vec<Alone>,
+    /// By ray, the primitive that it leaves to the outside, and [`NONE`] where it leaves none.
+    leaves: Vec<u32>,
     balls: Queue,
     tubes: Queue,
     eight: Eight,
@@ -54,11 +59,13 @@ impl Apart {
     fn clear(&mut self) {
         self.stream.clear();
         self.rays.clear();
+        self.leaves.clear();
     }
 
     /// One more ray, that looks as far as `to`.
     fn push(&mut self, at: Place, ray: Ray, departure: Option<Departure>, to: f64) {
         self.stream.push(&ray, to);
+        self.leaves.push(departure.filter(|d| !d.inward).map_or(NONE, |d| d.primitive));
         self.rays.push(Alone { at, ray, departure });
     }
 }
@@ -205,7 +212,7 @@ impl Fast<'_> {
 
     /// Asks all rays of a stream.
     fn ask_stream(&self, apart: &mut Apart, asking: &mut impl Asking, counts: &mut Counts) {
-        let Apart { stream, rays, balls, tubes, eight, scratch } = apart;
+        let Apart { stream, rays, leaves, balls, tubes, eight, scratch } = apart;
         let mut visited = 0;
         let mut meter = Meter::new(Silent);
         self.boxes.walk_stream(stream, &mut visited, &mut |met: &[Meeting], ways: &mut Ways| {
@@ -214,18 +221,16 @@ impl Fast<'_> {
                     continue;
                 }
                 let Meeting { ray: number, object, .. } = *meeting;
-                let Alone { at, ray, departure } = &rays[number as usize];
-                if let Some(index) = self.assembly.alone(object) {
-                    let form = &self.assembly.primitives[index as usize].form;
-                    if let Form::Ball(_) | Form::Tube(_) = form {
-                        // What is convex is not met again by a ray that leaves it.
-                        if !departure.is_some_and(|d| d.primitive == index && !d.inward) {
-                            let queue = if let Form::Ball(_) = form { &mut *balls } else { &mut *tubes };
-                            queue.0.push(Question { meeting: *meeting, index });
-                        }
-                        continue;
+                let (kind, index) = self.assembly.kind(object);
+                if kind != Kind::Other {
+                    // What is convex is not met again by a ray that leaves it.
+                    if leaves[number as usize] != index {
+                        let queue = if kind == Kind::Ball { &mut *balls } else { &mut *tubes };
+                        queue.0.push(Question { meeting: *meeting, index });
                     }
+                    continue;
                 }
+                let Alone { at, ray, departure } = &rays[number as usize];
                 let to = asking.to(*at, object);
                 if let Some(crossing) = self.exact.object(object, ray, *departure, to, scratch, &mut meter) {
                     ways.look(number, asking.meet(*at, object, &crossing));

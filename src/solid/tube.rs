@@ -77,7 +77,8 @@ impl<N: Number> Tubes<N> {
     /// Tubes of numbers that [`Tube::numbers`] gives.
     #[inline(always)]
     pub fn new(numbers: [N; NUMBERS_OF_TUBE]) -> Self {
-        let [x, y, z, ax, ay, az, bx, by, bz, cx, cy, cz, off_x, off_y, off_z, seeming, middle, slope] = numbers;
+        let [x, y, z, ax, ay, az, bx, by, bz, cx, cy, cz, off_x, off_y, off_z, seeming, middle, slope] =
+            numbers;
         let rows =
             [Vector { x: ax, y: ay, z: az }, Vector { x: bx, y: by, z: bz }, Vector { x: cx, y: cy, z: cz }];
         Self {

@@ -237,14 +237,16 @@ impl Engine for Exact<'_> {
         let blocks = |c: Crossing| c.t + c.error < distance;
         if let Structure::None = self.structure {
             return (0..self.assembly.objects.len() as u32).any(|object| {
-                self.object(object, ray, Some(departure), distance, &mut memory.scratch, meter).is_some_and(blocks)
+                self.object(object, ray, Some(departure), distance, &mut memory.scratch, meter)
+                    .is_some_and(blocks)
             });
         }
         meter.at(Stage::Cell);
         let mut visited = 0;
         if let Structure::Boxes(boxes, _) = self.structure {
             let found = boxes.any(ray, distance, &mut visited, |object| {
-                let crossing = self.object(object, ray, Some(departure), distance, &mut memory.scratch, meter);
+                let crossing =
+                    self.object(object, ray, Some(departure), distance, &mut memory.scratch, meter);
                 meter.at(Stage::Cell);
                 crossing.is_some_and(blocks)
             });
@@ -255,7 +257,8 @@ impl Engine for Exact<'_> {
         let found = self.structure.walk(ray, 0.0, distance, &mut visited, |objects, _| {
             for &object in objects {
                 if memory.first_time(object) {
-                    let crossing = self.object(object, ray, Some(departure), distance, &mut memory.scratch, meter);
+                    let crossing =
+                        self.object(object, ray, Some(departure), distance, &mut memory.scratch, meter);
                     meter.at(Stage::Cell);
                     if crossing.is_some_and(blocks) {
                         return ControlFlow::Break(());

@@ -9,8 +9,8 @@ use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 use crate::lattice::{Beam, Child, FAN, SLACK};
 use crate::math::{Bounds, Bundle, Column, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
 use crate::solid::{
-    Asked, Ball, Body, Crossing, Departures, Firsts, Flat, Form, Found, Reach, Spans, Starts, first_of_expressions,
-    firsts_of_spans, firsts_of_surface, with_spans,
+    Asked, Ball, Body, Crossing, Departures, Firsts, Flat, Form, Found, Reach, Spans, Starts,
+    first_of_expressions, firsts_of_spans, firsts_of_surface, with_spans,
 };
 
 use super::Fast;

@@ -194,7 +194,8 @@ impl Fast<'_> {
                 if self.from_mesh(&departures[k], at.lane) {
                     shaft.unsure |= 1 << at.lane;
                 } else {
-                    let (departure, to) = (departures[k].get(at.lane), shaft.distance.0[at.lane] + self.slack);
+                    let (departure, to) =
+                        (departures[k].get(at.lane), shaft.distance.0[at.lane] + self.slack);
                     apart.push(at, shaft.rays.ray(at.lane), Some(departure), to);
                 }
             }

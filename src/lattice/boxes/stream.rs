@@ -7,8 +7,8 @@ use fearless_simd::{Simd, SimdBase, dispatch, f32x8};
 
 use crate::math::Ray;
 
-use super::walk::{Ahead, Asked, Waiting, Way, first_two, push_nearest_last};
-use super::{Boxes, Node, WIDE, upper};
+use super::walk::{Asked, WAITING, Way, first_two};
+use super::{Boxes, INNER, Node, WIDE, upper};
 
 /// Rays that are on their way at once: what waits for them has room in the nearest memory.
 const ABREAST: usize = 24;
@@ -31,14 +31,6 @@ pub struct Ways {
     ends: Vec<f32>,
 }
 
-/// One of those that are on their way.
-#[derive(Debug)]
-struct Walker {
-    ray: u32,
-    node: u32,
-    waiting: Waiting<Ahead>,
-}
-
 /// Rays, and the memory of their walk, used again for the next.
 #[derive(Debug, Default)]
 pub struct Stream {
@@ -48,11 +40,99 @@ pub struct Stream {
     met: Vec<Meeting>,
 }
 
+/// One of those that are on their way.
+#[derive(Debug)]
+struct Walker {
+    ray: u32,
+    node: u32,
+    waiting: Waiting,
+}
+
 /// What each of those that are on their way meets in the next step: where it enters each box, and a bit for each.
 #[derive(Debug, Default)]
 struct Steps {
     enter: [[f32; WIDE]; ABREAST],
     met: [u32; ABREAST],
+}
+
+/// A node that waits for a ray, which enters its box at a distance of 0 or more, or before: the bits of that distance
+/// above those of the index, so that of two the smaller is the nearer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Ahead(u64);
+
+impl Ahead {
+    /// Farther than all nodes, and beyond the end of any ray: its distance is not a number.
+    const NONE: Self = Self(u64::MAX);
+
+    #[inline(always)]
+    fn new(from: f32, child: u32) -> Self {
+        Self(u64::from(from.to_bits()) << 32 | u64::from(child & !INNER))
+    }
+
+    #[inline(always)]
+    fn from(self) -> f32 {
+        f32::from_bits((self.0 >> 32) as u32)
+    }
+
+    #[inline(always)]
+    fn node(self) -> u32 {
+        self.0 as u32
+    }
+}
+
+/// The nodes that wait for one ray, the next one last; below them there is none.
+#[derive(Debug)]
+struct Waiting {
+    near: [Ahead; WAITING],
+    /// At least 1, at most [`WAITING`].
+    len: usize,
+    /// Those that came long before.
+    before: Vec<Ahead>,
+}
+
+impl Waiting {
+    const NOTHING: Self = Self { near: [Ahead::NONE; WAITING], len: 1, before: Vec::new() };
+
+    /// Of the nodes among a node's children that a ray meets the nearest, or what waited for it; the others wait. What it
+    /// meets is known by chance only, so that nothing is asked here but whether there are more than two.
+    #[inline(always)]
+    fn step(&mut self, node: &Node, enter: &[f32; WIDE], met: u32) -> Ahead {
+        if self.len > WAITING - WIDE {
+            self.before.extend_from_slice(&self.near[1..self.len]);
+            self.len = 1;
+        }
+        let (slots, mut rest) = first_two(met);
+        let count = met.count_ones();
+        let a = Ahead::new(enter[slots[0]], node.children[slots[0]]);
+        let b = Ahead::new(enter[slots[1]], node.children[slots[1]]);
+        let b = if count > 1 { b } else { Ahead::NONE };
+        let mut nearest = a.min(b);
+        self.near[self.len % WAITING] = a.max(b);
+        self.len += usize::from(count > 1);
+        while rest != 0 {
+            let slot = rest.trailing_zeros() as usize % WIDE;
+            rest &= rest - 1;
+            let c = Ahead::new(enter[slot], node.children[slot]);
+            self.near[self.len % WAITING] = nearest.max(c);
+            self.len += 1;
+            nearest = nearest.min(c);
+        }
+        let last = self.near[(self.len - 1) % WAITING];
+        self.len -= usize::from(count == 0);
+        if count == 0 { last } else { nearest }
+    }
+
+    /// The last that waits, none where nothing does.
+    #[inline]
+    fn pop(&mut self) -> Ahead {
+        if self.len > 1 {
+            self.len -= 1;
+            self.near[self.len % WAITING]
+        } else {
+            self.len = 1;
+            self.before.pop().unwrap_or(Ahead::NONE)
+        }
+    }
 }
 
 impl Ways {
@@ -123,8 +203,7 @@ fn walked<S: Simd>(
     let mut started = rays.min(ABREAST as u32);
     let mut active = started as usize;
     while walkers.len() < active {
-        let waiting = Waiting::new(Ahead { from: 0.0, node: 0 });
-        walkers.push(Walker { ray: 0, node: 0, waiting });
+        walkers.push(Walker { ray: 0, node: 0, waiting: Waiting::NOTHING });
     }
     for (ray, walker) in walkers.iter_mut().enumerate().take(active) {
         (walker.ray, walker.node) = (ray as u32, 0);
@@ -147,8 +226,8 @@ fn walked<S: Simd>(
             let end = ways.ends[*ray as usize];
             let here = &nodes[*node as usize];
             let (enter, bits) = (&steps.enter[k], steps.met[k]);
-            // The first two are written whether they are there or not: that is known by chance only.
             let objects = bits & !u32::from(here.inner);
+            // The first two are written whether they are there or not.
             let (slots, mut rest) = first_two(objects);
             let place = &mut met[count..count + WIDE];
             for (to, slot) in place.iter_mut().zip(slots) {
@@ -162,30 +241,34 @@ fn walked<S: Simd>(
                 next += 1;
             }
             count += objects.count_ones() as usize;
-            push_nearest_last(waiting, here, enter, bits & u32::from(here.inner));
-            loop {
-                match waiting.pop() {
-                    Some(ahead) if ahead.from <= end => {
-                        *node = ahead.node;
-                        k += 1;
-                        break;
-                    }
-                    Some(_) => {}
-                    None if started < rays => {
-                        (*ray, *node) = (started, 0);
-                        started += 1;
-                        k += 1;
-                        break;
-                    }
-                    None => {
-                        active -= 1;
-                        walkers.swap(k, active);
-                        // The last has taken this one's place.
-                        steps.enter[k] = steps.enter[active];
-                        steps.met[k] = steps.met[active];
-                        break;
-                    }
+            let mut ahead = waiting.step(here, enter, bits & u32::from(here.inner));
+            k += 1;
+            if ahead.from() <= end {
+                *node = ahead.node();
+                continue;
+            }
+            // Seldom: what waits lies behind what the ray met, or nothing does.
+            if ahead == Ahead::NONE {
+                waiting.len = 1;
+            }
+            while !(ahead.from() <= end) {
+                ahead = waiting.pop();
+                if ahead == Ahead::NONE {
+                    break;
                 }
+            }
+            if ahead != Ahead::NONE {
+                *node = ahead.node();
+            } else if started < rays {
+                (*ray, *node) = (started, 0);
+                started += 1;
+            } else {
+                k -= 1;
+                active -= 1;
+                walkers.swap(k, active);
+                // The last has taken this one's place.
+                steps.enter[k] = steps.enter[active];
+                steps.met[k] = steps.met[active];
             }
         }
         if count != 0 {

@@ -9,11 +9,10 @@ use crate::math::Ray;
 use super::{Boxes, INNER, Node, WIDE, lower, upper};
 
 /// Nodes that may wait in place: at most seven more wait for each node on the way down, and one or two mostly.
-const WAITING: usize = 64;
+pub(super) const WAITING: usize = 64;
 
 /// Nodes that wait, the next one last. Those that came long before have memory of their own.
-#[derive(Debug)]
-pub(super) struct Waiting<T> {
+struct Waiting<T> {
     near: [T; WAITING],
     /// At most [`WAITING`].
     len: usize,
@@ -22,7 +21,7 @@ pub(super) struct Waiting<T> {
 
 impl<T: Copy> Waiting<T> {
     #[inline(always)]
-    pub fn new(none: T) -> Self {
+    fn new(none: T) -> Self {
         Self { near: [none; WAITING], len: 0, before: Vec::new() }
     }
 
@@ -44,7 +43,7 @@ impl<T: Copy> Waiting<T> {
     }
 
     #[inline(always)]
-    pub fn pop(&mut self) -> Option<T> {
+    fn pop(&mut self) -> Option<T> {
         match self.len.checked_sub(1) {
             Some(last) => {
                 self.len = last;
@@ -56,11 +55,11 @@ impl<T: Copy> Waiting<T> {
 }
 
 /// A node that waits.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Ahead {
+#[derive(Clone, Copy)]
+struct Ahead {
     /// Where the ray enters its box, or before.
-    pub from: f32,
-    pub node: u32,
+    from: f32,
+    node: u32,
 }
 
 /// A ray in half the digits.
@@ -219,7 +218,7 @@ fn walked<S: Simd, B>(
 
 /// Puts the nodes among a node's children that were met with those that wait.
 #[inline(always)]
-pub(super) fn push_nearest_last(waiting: &mut Waiting<Ahead>, node: &Node, enter: &[f32; WIDE], met: u32) {
+fn push_nearest_last(waiting: &mut Waiting<Ahead>, node: &Node, enter: &[f32; WIDE], met: u32) {
     waiting.make_room();
     let first = waiting.len;
     let (slots, mut rest) = first_two(met);

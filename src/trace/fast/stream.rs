@@ -158,7 +158,7 @@ impl Fast<'_> {
         for (k, (bundle, found)) in bundles.iter().zip(&mut *nearest).enumerate() {
             for at in places(k, found.apart) {
                 found.forget(at.lane);
-                if departures.is_some_and(|all| self.from_mesh(&all[k], at.lane)) {
+                if departures.is_some_and(|all| self.leaves_mesh(&all[k], at.lane)) {
                     found.unsure |= 1 << at.lane;
                 } else {
                     let departure = departures.map(|all| all[k].get(at.lane));
@@ -191,7 +191,7 @@ impl Fast<'_> {
         for (k, shaft) in shafts.iter_mut().enumerate() {
             shaft.tint.forget(shaft.apart);
             for at in places(k, std::mem::take(&mut shaft.apart)) {
-                if self.from_mesh(&departures[k], at.lane) {
+                if self.leaves_mesh(&departures[k], at.lane) {
                     shaft.unsure |= 1 << at.lane;
                 } else {
                     let (departure, to) =
@@ -205,7 +205,7 @@ impl Fast<'_> {
     }
 
     /// Whether a ray leaves a mesh, which has many faces: of those nothing is noted for a bundle.
-    fn from_mesh(&self, departures: &Departures, lane: usize) -> bool {
+    fn leaves_mesh(&self, departures: &Departures, lane: usize) -> bool {
         let primitive = departures.primitive.0[lane];
         primitive >= 0.0 && matches!(self.assembly.primitives[primitive as usize].form, Form::Mesh(_))
     }

@@ -248,12 +248,10 @@ fn walked<S: Simd>(
                 continue;
             }
             // Seldom: what waits lies behind what the ray met, or nothing does.
-            if ahead == Ahead::NONE {
-                waiting.len = 1;
-            }
-            while !(ahead.from() <= end) {
+            waiting.len = waiting.len.max(1);
+            loop {
                 ahead = waiting.pop();
-                if ahead == Ahead::NONE {
+                if ahead.from() <= end || ahead == Ahead::NONE {
                     break;
                 }
             }

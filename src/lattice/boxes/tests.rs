@@ -321,3 +321,50 @@ fn a_deep_hierarchy_is_walked_to_its_end() {
     });
     assert_eq!(count, boxes.len());
 }
+
+#[test]
+fn a_stream_meets_what_each_of_its_rays_visits_alone() {
+    let boxes = cloud(500, 0.2);
+    let of = over(&boxes);
+    let rays = rays(&boxes);
+    let mut stream = Stream::default();
+    // One stream after the other in the same memory, some of whose rays look no farther, or for nothing.
+    for (count, to) in [(rays.len(), f64::INFINITY), (5, f64::INFINITY), (rays.len(), 0.5), (7, -1.0)] {
+        stream.clear();
+        rays[..count].iter().for_each(|ray| stream.push(ray, to));
+        let mut met = vec![Vec::new(); count];
+        of.walk_stream(&mut stream, &mut 0, &mut |some, ways| {
+            for meeting in some {
+                assert!(ways.matters(meeting));
+                met[meeting.ray as usize].push((meeting.object, f64::from(meeting.near)));
+            }
+        });
+        for (ray, mut met) in rays.iter().zip(met) {
+            let mut alone = visited(&of, ray, to);
+            met.sort_by(|a, b| a.partial_cmp(b).unwrap());
+            alone.sort_by(|a, b| a.partial_cmp(b).unwrap());
+            assert_eq!(met, alone, "{ray:?}");
+        }
+    }
+}
+
+#[test]
+fn a_ray_of_a_stream_that_looks_no_farther_meets_no_more() {
+    let boxes = cloud(500, 0.2);
+    let of = over(&boxes);
+    let rays = rays(&boxes);
+    let mut stream = Stream::default();
+    rays.iter().for_each(|ray| stream.push(ray, f64::INFINITY));
+    let mut asked = vec![0; rays.len()];
+    of.walk_stream(&mut stream, &mut 0, &mut |some, ways| {
+        for meeting in some.iter().filter(|meeting| ways.matters(meeting)).copied().collect::<Vec<_>>() {
+            if ways.matters(&meeting) {
+                asked[meeting.ray as usize] += 1;
+                ways.look(meeting.ray, -1.0);
+            }
+        }
+    });
+    for (ray, asked) in rays.iter().zip(asked) {
+        assert_eq!(asked, usize::from(!visited(&of, ray, f64::INFINITY).is_empty()), "{ray:?}");
+    }
+}

@@ -1,7 +1,7 @@
 //! Rays towards the lights.
 
 use crate::math::Ray;
-use crate::solid::{Crossing, Departure};
+use crate::solid::Departure;
 use crate::stage::{Meter, Probe, Stage};
 use crate::trace::Engine;
 
@@ -49,20 +49,13 @@ impl<E: Engine, C: Channel> Shader<'_, E, C> {
                 break;
             }
             let hit = self.shown(hit, |finish| finish.lets_through, memory);
-            if self.finish(&hit).lets_through == 0.0 {
+            let kt = self.finish(&hit).lets_through;
+            if kt == 0.0 {
                 return Some(0.0);
             }
-            // All that have a surface there are gone through, and none of them is met again: in the order of the file.
-            let Memory { engine, crossed, .. } = &mut *memory;
-            let together = self.engine.together(engine);
-            let kt = |c: &Crossing| self.finish_of(c.primitive).lets_through;
-            let new = |crossed: &[u32]| {
-                let glass = together.iter().filter(|(object, c)| kt(c) > 0.0 && !crossed.contains(object));
-                glass.min_by_key(|(object, _)| *object).copied()
-            };
-            while let Some((object, crossing)) = new(crossed) {
-                crossed.push(object);
-                share = Some(share.unwrap_or(1.0) * kt(&crossing));
+            if !memory.crossed.contains(&hit.object) {
+                memory.crossed.push(hit.object);
+                share = Some(share.unwrap_or(1.0) * kt);
             }
             // A step so short that rounding takes it away would be made for ever.
             if t <= way {

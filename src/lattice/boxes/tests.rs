@@ -354,7 +354,9 @@ fn a_ray_of_a_stream_that_looks_no_farther_meets_no_more() {
     let of = over(&boxes);
     let rays = rays(&boxes);
     let mut stream = Stream::default();
-    rays.iter().for_each(|ray| stream.push(ray, f64::INFINITY));
+    for ray in &rays {
+        stream.push(ray, f64::INFINITY);
+    }
     let mut asked = vec![0; rays.len()];
     of.walk_stream(&mut stream, &mut 0, &mut |some, ways| {
         for meeting in some.iter().filter(|meeting| ways.matters(meeting)).copied().collect::<Vec<_>>() {

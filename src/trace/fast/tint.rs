@@ -1,8 +1,7 @@
 //! Glass between the lit points of a tile and one light.
 //!
 //! A glass object takes its share of the light once, however often a ray crosses its surface, and whatever else is on the
-//! way: so what a ray meets of it first is all there is to know. Where two of them lie in one place, or more than two on one
-//! way, the ray is asked alone.
+//! way: so what a ray meets of it first is all there is to know. Where there are two on one way, the ray is asked alone.
 
 use fearless_simd::Simd;
 
@@ -22,11 +21,6 @@ pub struct Tint {
     pub rays: u64,
     /// What is left of their light.
     pub share: Column,
-    /// Where they meet the first of it that was found, and how far that may be off.
-    at: Column,
-    error: Column,
-    /// Which meet a second one.
-    again: u64,
 }
 
 /// How an object treats light.
@@ -42,39 +36,28 @@ pub enum Clarity {
 
 impl Tint {
     /// None.
-    pub const NONE: Self = Self {
-        rays: 0,
-        share: Column::filled(1.0),
-        at: Column::filled(0.0),
-        error: Column::filled(0.0),
-        again: 0,
-    };
+    pub const NONE: Self = Self { rays: 0, share: Column::filled(1.0) };
 
     /// Forgets all.
     pub fn clear(&mut self) {
-        (self.rays, self.again) = (0, 0);
+        self.rays = 0;
     }
 
     /// Forgets what some rays met.
     pub(super) fn forget(&mut self, rays: u64) {
         self.rays &= !rays;
-        self.again &= !rays;
     }
 
     /// A ray meets glass that leaves so much of its light. Answers whether that is certain.
-    fn add(&mut self, lane: usize, (t, error): (f64, f64), left: f64, slack: f64) -> bool {
+    fn add(&mut self, lane: usize, left: f64) -> bool {
         let bit = 1 << lane;
         if self.rays & bit == 0 {
             self.rays |= bit;
-            (self.share.0[lane], self.at.0[lane], self.error.0[lane]) = (left, t, error);
+            self.share.0[lane] = left;
             return true;
         }
-        let apart = (t - self.at.0[lane]).abs() > error + self.error.0[lane] + slack;
-        let second = self.again & bit == 0;
-        self.again |= bit;
-        // Of two factors the order does not matter.
-        self.share.0[lane] *= left;
-        apart && second
+        // Where one of two has a surface at which the other's is crossed again, the order tells what light is left.
+        false
     }
 }
 
@@ -95,7 +78,7 @@ impl Shaft {
             return;
         }
         let certain = clarity == Clarity::Clear && t + off < distance;
-        if !(certain && self.tint.add(lane, (t, error), left, slack)) {
+        if !(certain && self.tint.add(lane, left)) {
             self.unsure |= 1 << lane;
         }
     }

@@ -2,6 +2,7 @@
 
 #[path = "../anything/mod.rs"]
 mod anything;
+mod glass;
 mod random;
 mod range;
 #[path = "../request/mod.rs"]

@@ -80,6 +80,32 @@ impl Column {
     }
 }
 
+/// A ray among bundles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// The number of its bundle.
+    pub bundle: usize,
+    /// Its place there, below [`BUNDLE`].
+    pub lane: usize,
+}
+
+/// The rays of a bundle whose bits are set, the lowest first.
+#[inline(always)]
+pub fn lanes(mut bits: u64) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let lane = bits.trailing_zeros() as usize;
+        let some = bits != 0;
+        bits &= bits.wrapping_sub(1);
+        some.then_some(lane)
+    })
+}
+
+/// The places of the rays of a bundle whose bits are set.
+#[inline(always)]
+pub fn places(bundle: usize, bits: u64) -> impl Iterator<Item = Place> {
+    lanes(bits).map(move |lane| Place { bundle, lane })
+}
+
 /// The answers of a row, below [`ROWS`], out of a bit for each ray of a bundle.
 #[inline(always)]
 pub fn row_of<S: Simd>(simd: S, bits: u64, row: usize) -> mask64x8<S> {

@@ -11,7 +11,7 @@ mod ray;
 mod vector;
 
 pub use bounds::Bounds;
-pub use bundle::{BUNDLE, Bundle, Column, Columns, ROWS, row_of};
+pub use bundle::{BUNDLE, Bundle, Column, Columns, Place, ROWS, lanes, places, row_of};
 pub use exact::{product_rest, two_sum};
 pub use glam::{DAffine3, DMat3, DVec2, DVec3};
 pub use grid::{Grid, Size};

@@ -2,10 +2,12 @@
 
 mod channel;
 mod direction;
+mod lamps;
 mod lit;
 mod media;
 mod path;
 mod power;
+mod sends;
 mod shadow;
 mod surface;
 mod surfaces;

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use fearless_simd::{Level, dispatch};
 
-use crate::math::{BUNDLE, Bundle, Column, Columns, LANES};
+use crate::math::{BUNDLE, Bundle, Column, Columns, LANES, Place};
 use crate::solid::{Departure, Departures};
 use crate::trace::{Hit, Nearest};
 
@@ -13,13 +13,6 @@ use super::media::List;
 use super::path::Sent;
 use super::surface::Met;
 use super::surfaces::Surfaces;
-
-/// A place among the rays of a wave: its bundle, and its lane there.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
-    pub bundle: usize,
-    pub lane: usize,
-}
 
 /// A ray that is sent on.
 #[derive(Clone, Debug)]
@@ -213,6 +206,11 @@ impl<C: Channel> Wave<C> {
     pub fn departure(&self, at: Place) -> Departure {
         let surface = self.nearest[at.bundle].surface.0[at.lane] as u32;
         Departure { surface, ..self.departures[at.bundle].get(at.lane) }
+    }
+
+    /// Which rays of a bundle met something, a bit for each.
+    pub fn found(&self, bundle: usize) -> u64 {
+        self.surfaces[bundle].hits | self.known[bundle]
     }
 
     /// What one ray met; the distance is that from the eye.

@@ -7,7 +7,7 @@ use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
 
 use crate::math::{LANES, Mask, Ray, Rays, Vector};
 
-use super::ball::{Balls, NUMBERS_OF_BALL};
+use super::ball::Balls;
 use super::crossing::{Crossing, Firsts, Starts, firsts_of_spans};
 use super::primitive::{Form, Primitive};
 use super::span::{Departure, Ends, Spans};
@@ -71,11 +71,7 @@ impl Eight {
 
     #[inline(always)]
     fn balls<S: Simd>(&mut self, simd: S) {
-        let mut numbers = [f64x8::splat(simd, 0.0); NUMBERS_OF_BALL];
-        for (to, from) in numbers.iter_mut().zip(&self.forms) {
-            *to = f64x8::from_slice(simd, from);
-        }
-        let Spans { enter, leave, any } = Balls::new(numbers).spans(&self.rays(simd));
+        let Spans { enter, leave, any } = Balls::new(self.numbers(simd)).spans(&self.rays(simd));
         self.store(enter, leave);
         self.any[0] = any.bits();
     }
@@ -87,14 +83,20 @@ impl Eight {
 
     #[inline(always)]
     fn tubes<S: Simd>(&mut self, simd: S) {
-        let mut numbers = [f64x8::splat(simd, 0.0); NUMBERS_OF_TUBE];
-        for (to, from) in numbers.iter_mut().zip(&self.forms) {
-            *to = f64x8::from_slice(simd, from);
-        }
-        let found = Tubes::new(numbers).crossings(&self.rays(simd));
+        let found = Tubes::new(self.numbers(simd)).crossings(&self.rays(simd));
         let SideCrossings { enter, enters, leave, leaves, one_way } = found;
         self.store(enter, leave);
         self.any = [enters.bits(), leaves.bits(), one_way.bits()];
+    }
+
+    /// The numbers of a form that has so many.
+    #[inline(always)]
+    fn numbers<S: Simd, const COUNT: usize>(&self, simd: S) -> [f64x8<S>; COUNT] {
+        let mut numbers = [f64x8::splat(simd, 0.0); COUNT];
+        for (to, from) in numbers.iter_mut().zip(&self.forms) {
+            *to = f64x8::from_slice(simd, from);
+        }
+        numbers
     }
 
     #[inline(always)]

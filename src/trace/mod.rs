@@ -31,6 +31,14 @@ pub struct Hit {
     pub entering: bool,
 }
 
+impl Hit {
+    /// The same as a crossing of its object.
+    pub fn crossing(&self) -> Crossing {
+        let Self { t, error, primitive, surface, entering, .. } = *self;
+        Crossing { t, error, primitive, surface, entering }
+    }
+}
+
 /// Finds hits. Every engine gives the same ones, whatever structure it uses.
 pub trait Engine {
     /// Memory of one worker, used again for every ray.

@@ -7,7 +7,7 @@
 use fearless_simd::{Simd, SimdBase, f64x8};
 
 use crate::lattice::WAY;
-use crate::math::{BUNDLE, Column, Columns, DVec3, Number, ROWS};
+use crate::math::{BUNDLE, Column, Columns, DVec3, Number, ROWS, lanes};
 use crate::solid::Departures;
 
 use super::shaft::Shaft;
@@ -160,16 +160,6 @@ impl Company {
 /// The shaft of a ray, and its lane there.
 fn place(ray: u16) -> (usize, usize) {
     (ray as usize / BUNDLE, ray as usize % BUNDLE)
-}
-
-/// The rays of a bundle whose bits are set.
-fn lanes(mut bits: u64) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        let lane = bits.trailing_zeros() as usize;
-        let some = bits != 0;
-        bits &= bits.wrapping_sub(1);
-        some.then_some(lane)
-    })
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 
 use crate::lattice::{Beam, Child, FAN, SLACK};
-use crate::math::{Bounds, Bundle, Column, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
+use crate::math::{Bounds, Bundle, Column, DVec3, LANES, Mask, Number, ROWS, Rays, lanes, row_of};
 use crate::solid::{
     Asked, Ball, Body, Crossing, Departures, Firsts, Flat, Form, Found, Reach, Spans, Starts,
     first_of_expressions, firsts_of_spans, firsts_of_surface, with_spans,
@@ -104,10 +104,7 @@ impl Shaft {
 
     /// Notes the rays that meet something before they reach the light.
     fn block(&mut self, found: &Found) {
-        let mut met = found.any;
-        while met != 0 {
-            let lane = met.trailing_zeros() as usize;
-            met &= met - 1;
+        for lane in lanes(found.any) {
             let blocks = found.t.0[lane] + found.error.0[lane] < self.distance.0[lane];
             self.blocked |= u64::from(blocks) << lane;
             self.leaving |= u64::from(blocks) << lane & !found.entering;

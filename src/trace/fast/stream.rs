@@ -3,7 +3,7 @@
 //! Each finds what it finds alone. Where that is more than one thing in one place, it is asked of the exact engine.
 
 use crate::lattice::{Meeting, Stream, Ways};
-use crate::math::{Bundle, LANES, Ray};
+use crate::math::{Bundle, LANES, Place, Ray, lanes, places};
 use crate::solid::{Crossing, Departure, Departures, Eight, Form, Kind, Scratch};
 use crate::stage::{Counts, Meter, Silent};
 
@@ -12,13 +12,6 @@ use super::memory::TileMemory;
 use super::nearest::Nearest;
 use super::shaft::{Shaft, Shone};
 use super::tint::Clarity;
-
-/// A ray's place: its bundle, and its lane there.
-#[derive(Clone, Copy, Debug)]
-struct Place {
-    bundle: usize,
-    lane: usize,
-}
 
 /// No index of a primitive: there are fewer.
 const NONE: u32 = u32::MAX;
@@ -68,17 +61,6 @@ impl Apart {
         self.leaves.push(departure.filter(|d| !d.inward).map_or(NONE, |d| d.primitive));
         self.rays.push(Alone { at, ray, departure });
     }
-}
-
-/// The places of some rays of a bundle.
-fn places(bundle: usize, mut rays: u64) -> impl Iterator<Item = Place> {
-    std::iter::from_fn(move || {
-        let lane = rays.trailing_zeros() as usize;
-        (rays != 0).then(|| {
-            rays &= rays - 1;
-            Place { bundle, lane }
-        })
-    })
 }
 
 /// What rays without company are asked about.
@@ -169,7 +151,7 @@ impl Fast<'_> {
         let mut asking = First { nearest, slack: self.slack };
         self.ask_stream(apart, &mut asking, counts);
         for found in nearest {
-            for Place { lane, .. } in places(0, std::mem::take(&mut found.apart)) {
+            for lane in lanes(std::mem::take(&mut found.apart)) {
                 let t = found.t.0[lane];
                 let close = found.second.0[lane] <= t + self.slack && t < f64::INFINITY;
                 found.unsure |= u64::from(close) << lane;

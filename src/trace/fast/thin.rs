@@ -25,9 +25,9 @@ const HALF_ULP: f64 = 1.0 / 16_777_216.0;
 const LOST: f64 = 32.0 * HALF_ULP;
 
 /// What may be lost of a ray's way to a side of a box, where it is taken for the place of that side: of as much as a box
-/// and a start can be apart, and the box's size, on one axis (2 + 2 and [`WITHIN`]), the start, the middle of the box and half its size are rounded (3), the difference of the first two (1), the direction,
-/// its inverse and the products with it (2 · 3), and the sum of the products (1): 11, rounded up to
-/// 16.
+/// and a start can be apart, and the box's size, on one axis (2 + 2 and [`WITHIN`]), the start, the middle of the box and
+/// half its size are rounded (3), the difference of the first two (1), the direction, its inverse and the products with it
+/// (2 · 3), and the sum of the products (1): 11, rounded up to 16.
 const LOST_OF_SIDE: f64 = 16.0 * HALF_ULP * (4.0 + WITHIN as f64);
 
 /// What may be lost of the product of two lines, in the same share: of the ray's moment, whose start and direction are

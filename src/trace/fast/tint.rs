@@ -6,7 +6,7 @@
 use fearless_simd::Simd;
 
 use crate::lattice::FAN;
-use crate::math::Column;
+use crate::math::{Column, lanes};
 use crate::solid::Departures;
 
 use super::Fast;
@@ -103,10 +103,7 @@ impl Fast<'_> {
         self.object_of_bundle(simd, about, outset, &mut met, memory, k);
         shaft.unsure |= met.unsure & shaft.rays.live;
         let clarity = lamp.clarity.get(about.0 as usize).copied().unwrap_or(Clarity::Opaque);
-        let mut rest = shaft.open();
-        while rest != 0 {
-            let lane = rest.trailing_zeros() as usize;
-            rest &= rest - 1;
+        for lane in lanes(shaft.open()) {
             let at = (met.t.0[lane], met.error.0[lane]);
             if at.0 < f64::INFINITY {
                 let left = lamp.lets_through[met.primitive.0[lane] as usize];

@@ -130,7 +130,7 @@ impl Viewed<'_> {
         if let (EngineChoice::Fast, Structure::Boxes(boxes, subs)) = (plan.engine, structure) {
             let engine = Fast::new(assembly, boxes, subs).at_level(studio.level());
             let shader = &Shader::<_, C>::new(scene, assembly, plan, &engine);
-            let sampler = Blocks { assembly, engine: &engine, shader, lens, way, samples: plan.samples };
+            let sampler = Blocks { assembly, shader, lens, way, samples: plan.samples };
             self.trace_by(&sampler, dots)
         } else {
             let engine = Exact::new(assembly, structure);

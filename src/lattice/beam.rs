@@ -230,8 +230,9 @@ impl Ways {
 }
 
 impl Beam {
-    /// The beam of rays that start in one point and lie between four of them.
-    pub fn between(o: DVec3, corners: [DVec3; 4], basis: &Basis) -> Self {
+    /// The beam of rays from one point, however far away, that lie between four of them. Those that come from far start
+    /// nearer, after up to `moved` of their way.
+    pub fn between(o: DVec3, corners: [DVec3; 4], moved: f64, basis: &Basis) -> Self {
         let Basis { axis, across } = *basis;
         let mut slopes = Slopes::NONE;
         for d in corners {
@@ -243,9 +244,14 @@ impl Beam {
                 slopes.high[slot] = slopes.high[slot].max(slope);
             }
         }
-        let sides = through(o, slopes.normals(basis, Spread::Apart));
-        let (at, off) = (axis.dot(o), margin(axis));
-        Self { sides, axis, first: at - off, last: at + WAY + off, start: at + off }
+        let far = margin_at(axis, o);
+        let sides = match slopes.normals(basis, Spread::Apart) {
+            Some(normals) => normals.map(|normal| Plane { normal, offset: normal.dot(o) - margin_at(normal, o) }),
+            None => [Plane::NOWHERE; 4],
+        };
+        let at = axis.dot(o);
+        // Nothing that is met lies beyond the world.
+        Self { sides, axis, first: at - far, last: at.max(0.0) + WAY + far, start: at + moved + far }
     }
 
     /// The beams around bundles that all go to one point, each with how far, and the beam around them all. For what is
@@ -386,4 +392,12 @@ pub(super) fn lost(normal: DVec3) -> f64 {
 /// How far a plane is moved outward for what rounding may do.
 fn margin(normal: DVec3) -> f64 {
     ROUNDED * normal.abs().element_sum()
+}
+
+/// The same, for a plane through a point that may be far away, and through corners seen from there: three products and two
+/// sums of numbers as large as that; and what the eight roundings of a direction's component, of a ray and of a corner, are
+/// at the other end of such a way. 21 roundings, rounded up to 32 half-ulps.
+fn margin_at(normal: DVec3, point: DVec3) -> f64 {
+    let farther = 16.0 * f64::EPSILON * point.abs().max_element();
+    (ROUNDED + farther) * normal.abs().element_sum()
 }

@@ -33,6 +33,12 @@ impl Surfaces {
         materials: Vec::new(),
     };
 
+    /// No ray met anything.
+    pub fn forget(&mut self) {
+        (self.hits, self.patches) = (0, 0);
+        self.materials.clear();
+    }
+
     /// The points at which rays met something; `before` are two parts of the way from the eye to where they start, the
     /// second to be added first.
     pub fn points(&mut self, bundle: &Bundle, before: &[Column; 2], nearest: &Nearest, level: Level) {

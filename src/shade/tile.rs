@@ -11,6 +11,7 @@ use crate::lattice::FAN;
 use crate::math::{Bundle, Column, Columns, DVec3, LANES, Place, Ray, places};
 use crate::stage::{Meter, Probe, Stage};
 use crate::trace::{Engine, Fast, Hit, Shaft, TileMemory};
+use crate::view::Sight;
 
 use super::channel::Channel;
 use super::lit::Lit;
@@ -37,20 +38,14 @@ impl<C> Default for TileShading<C> {
 
 impl<C: Channel> TileShading<C> {
     /// Another tile, of so many bundles.
-    pub fn start(&mut self, bundles: usize) {
+    fn start(&mut self, bundles: usize) {
         if self.waves.is_empty() {
             self.waves.push(Wave::new(0));
         }
         let first = &mut self.waves[0];
         first.rays.resize(bundles, Bundle::EMPTY);
         first.before.resize(bundles, [Column::filled(0.0); 2]);
-    }
-
-    /// The place of a bundle of rays from the eye, `bundle` below what the tile was started with: they start near the world,
-    /// after a way in two parts that are to be added to a distance, the second first.
-    pub fn sight(&mut self, bundle: usize) -> (&mut Bundle, &mut [Column; 2]) {
-        let first = &mut self.waves[0];
-        (&mut first.rays[bundle], &mut first.before[bundle])
+        first.make_room();
     }
 
     /// The light that arrives along the rays of a row of a bundle.
@@ -71,17 +66,17 @@ impl<C: Channel> TileShading<C> {
 }
 
 impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
-    /// Finds what the rays of a tile see; `eye` is where they all start.
+    /// Finds what the rays of a tile see.
     pub fn tile(
         &self,
-        eye: DVec3,
+        sight: &Sight,
         tile: &mut TileShading<C>,
         memory: &mut Memory<Fast<'e>>,
         meter: &mut Meter<impl Probe>,
     ) {
+        tile.start(sight.blocks());
         tile.waves[0].inside = memory.media.start(&self.around_eye);
-        tile.waves[0].make_room();
-        self.see(eye, tile, memory, meter);
+        self.see(sight, tile, memory, meter);
         self.shade(0, tile, memory, meter);
         let mut last = 0;
         while self.send(last, tile, memory, meter) {
@@ -95,10 +90,10 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         meter.counts += std::mem::take(tile.trace.counts_mut());
     }
 
-    /// Finds what the rays from the eye meet.
+    /// Finds what the rays from the eye meet. Those of blocks in whose way there is nothing are not even made.
     fn see(
         &self,
-        eye: DVec3,
+        sight: &Sight,
         tile: &mut TileShading<C>,
         memory: &mut Memory<Fast<'e>>,
         meter: &mut Meter<impl Probe>,
@@ -107,13 +102,25 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         let TileShading { trace, waves, .. } = tile;
         let wave = &mut waves[0];
         let count = wave.rays.len();
-        self.engine.first_of(&wave.rays, None, &mut wave.nearest[..count], trace);
+        let Wave { rays, before, nearest, .. } = &mut *wave;
+        let mut make = |k: usize, rays: &mut Bundle| {
+            meter.at(Stage::Ray);
+            sight.rays(k, self.engine.level(), rays);
+            self.engine.approach(rays, &mut before[k]);
+            meter.at(Stage::Cell);
+        };
+        let made = self.engine.first_seen(sight, rays, &mut make, &mut nearest[..count], trace);
         self.engine.first_apart(&wave.rays, None, &mut wave.nearest[..count], trace);
-        for k in 0..wave.rays.len() {
+        for k in 0..count {
+            meter.counts.primary_rays += u64::from(sight.block(k).live().count_ones());
+            if made >> k & 1 == 0 {
+                wave.surfaces[k].forget();
+                continue;
+            }
             let unsure = std::mem::take(&mut wave.nearest[k].unsure);
             let mut alone = Vec::new();
             for at in places(k, unsure) {
-                let ray = Ray::new(eye, wave.rays[k].d.get(at.lane));
+                let ray = Ray::new(sight.eye, wave.rays[k].d.get(at.lane));
                 let hit = self.engine.first(&ray, &mut memory.engine, meter);
                 let inside = wave.inside.clone();
                 let sent = || Sent { ray, travelled: 0.0, weight: 1.0, generation: 0, inside };
@@ -122,7 +129,6 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
                 }
             }
             self.know(wave, k, &alone);
-            meter.counts.primary_rays += u64::from(wave.rays[k].live.count_ones());
             meter.counts.primary_hits += u64::from(wave.found(k).count_ones());
         }
     }

@@ -283,6 +283,21 @@ fn moved_nearer(ray: &Ray) -> (Ray, [f64; 2]) {
     (Ray::new(vector(near.o), vector(near.d)), way)
 }
 
+/// At least as far as any ray is moved ([`moved_nearer`]) that starts in `o` and goes between the directions `corners`.
+pub(super) fn most_moved(o: DVec3, corners: &[DVec3; 4]) -> f64 {
+    // A direction between the corners is a sum of shares of them, which add up to 1, over the length of that sum; and that
+    // is no less than it reaches along their middle.
+    let middle = (corners[0] + corners[1] + corners[2] + corners[3]).normalize_or(DVec3::X);
+    let reach = corners.iter().fold(f64::INFINITY, |least, d| least.min(d.dot(middle)));
+    let most = corners.iter().fold(0.0, |most, d| f64::max(most, -o.dot(*d)));
+    if most == 0.0 {
+        return 0.0;
+    }
+    // Where they go apart too far to say so, it is no farther than to the origin.
+    let far = if reach > 0.0 { (most / reach).min(o.length()) } else { o.length() };
+    (far - LIMIT).max(0.0)
+}
+
 /// [`moved_nearer`], for one ray or for several.
 #[inline(always)]
 pub(super) fn all_moved_nearer<N: Number>(rays: &Rays<N>) -> (Rays<N>, [N; 2]) {

@@ -6,16 +6,16 @@
 
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 
-use crate::lattice::{Basis, Beam, Child, FAN, SLACK, Spread};
-use crate::math::{Bounds, Bundle, Columns, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
+use crate::lattice::{Child, FAN, SLACK};
+use crate::math::{Bounds, LANES, Mask, Number, ROWS, Rays, row_of};
 use crate::solid::{
-    Asked, Ball, Body, Departures, Ends, Firsts, Flat, Form, Found, Reach, Spans, Starts,
-    first_of_expressions, firsts_of_spans, firsts_of_surface, with_spans,
+    Asked, Ball, Body, Ends, Firsts, Flat, Form, Found, Reach, Spans, first_of_expressions, firsts_of_spans, firsts_of_surface, with_spans,
 };
 
 use super::Fast;
 use super::memory::TileMemory;
 use super::nearest::{Nearest, Offer};
+use super::outset::{Outset, Outsets};
 use super::slices::{Slices, slices};
 use super::thin::{Slabs, Thin};
 use super::walk::{Waits, asking, bounds_between, push_nearest_last, reach, wide};
@@ -24,58 +24,37 @@ use super::walk::{Waits, asking, bounds_between, push_nearest_last, reach, wide}
 /// rays run apart, they have no company.
 const CROWD: u32 = 2;
 
-/// A bundle, and the surfaces that its rays leave: none from the eye.
-#[derive(Clone, Copy)]
-pub(super) struct Outset<'a> {
-    pub rays: &'a Bundle,
-    pub departures: Option<&'a Departures>,
-}
-
-impl Outset<'_> {
-    /// The surfaces that the rays of a row start on, as seen from a primitive.
-    #[inline(always)]
-    fn starts<S: Simd>(&self, simd: S, row: usize, primitive: f64x8<S>) -> Starts<f64x8<S>> {
-        let no = mask64x8::splat(simd, false);
-        let Some(departures) = self.departures else { return Starts { here: no, inward: no, off: None } };
-        Starts {
-            here: departures.primitive.load(simd, row).is_equal(primitive),
-            inward: row_of(simd, departures.inward, row),
-            off: Some(departures.off.load(simd, row)),
-        }
-    }
-}
-
 impl Fast<'_> {
-    /// The first hits of the rays of a tile. `nearest` has as many as there are bundles, and so has `departures`, which is
-    /// none for rays from the eye. Answers how many bundles were given up.
+    /// The first hits of the rays of a tile. `nearest` has as many as there are bundles. Answers which bundles may have met
+    /// anything, and how many were given up. Of those that were still to be made the others are not, nor are their hits
+    /// forgotten.
     #[inline(always)]
     pub(super) fn first_of_tile<S: Simd>(
         &self,
         simd: S,
-        bundles: &[Bundle],
-        departures: Option<&[Departures]>,
+        outsets: &mut Outsets,
         nearest: &mut [Nearest],
         memory: &mut TileMemory,
-    ) -> usize {
-        let from_eye = departures.is_none();
-        let TileMemory { beams, thin, fan, .. } = memory;
-        let whole = beams_of(simd, bundles, from_eye, beams);
-        fan.set(beams);
-        thin.iter_mut().for_each(Thin::forget);
+    ) -> (u16, usize) {
+        let whole = outsets.whole(simd);
+        let seen = matches!(outsets, Outsets::Seen { .. });
+        memory.thin.iter_mut().for_each(Thin::forget);
         memory.forget_sheared();
         let TileMemory { far, stack, .. } = memory;
         far.clear();
-        far.extend(bundles.iter().map(|b| if b.live == 0 { f64::NEG_INFINITY } else { f64::INFINITY }));
-        for found in &mut *nearest {
-            found.clear();
+        for (k, found) in nearest.iter_mut().enumerate() {
+            far.push(if outsets.is_blind(k) { f64::NEG_INFINITY } else { f64::INFINITY });
+            if seen {
+                found.forget_rays();
+            } else {
+                found.clear();
+            }
         }
         stack.clear();
         stack.push(Waits::root(u16::MAX));
-        let mut given_up = 0;
+        let mut spread = false;
+        let (mut touched, mut given_up) = (0, 0);
         let mut left_to_ask = [0; FAN];
-        for (left, bundle) in left_to_ask.iter_mut().zip(bundles) {
-            *left = CROWD * bundle.live.count_ones();
-        }
         while let Some(Waits { near, node, frustums }) = memory.stack.pop() {
             let farthest = memory.far.iter().fold(f64::NEG_INFINITY, |most, &far| f64::max(most, far));
             if near > farthest + self.slack {
@@ -85,6 +64,13 @@ impl Fast<'_> {
             memory.counts.cells_visited += 1;
             let (lo, hi) = node.sides(simd);
             let met = whole.meets_boxes(simd, &lo, &hi);
+            if met.boxes == 0 {
+                continue;
+            }
+            if !spread {
+                spread = true;
+                outsets.spread(simd, self.level, (&mut memory.beams, &mut memory.fan));
+            }
             let mut objects = met.boxes & !node.inner();
             while objects != 0 {
                 let slot = objects.trailing_zeros() as usize;
@@ -103,7 +89,17 @@ impl Fast<'_> {
                     // What is not a number is not known to be farther.
                     let behind = f64::from(met.near[k]) > memory.far[k] + self.slack;
                     if !behind {
-                        let (bundle, nearest) = (&bundles[k], &mut nearest[k]);
+                        let nearest = &mut nearest[k];
+                        if touched >> k & 1 == 0 {
+                            touched |= 1 << k;
+                            if seen {
+                                outsets.make(k);
+                                nearest.clear();
+                            }
+                            left_to_ask[k] = CROWD * outsets.get(k).rays.live.count_ones();
+                        }
+                        let outset = outsets.get(k);
+                        let bundle = outset.rays;
                         let Some(left_to_ask_now) = left_to_ask[k].checked_sub(1) else {
                             given_up += 1;
                             nearest.apart = bundle.live;
@@ -111,7 +107,6 @@ impl Fast<'_> {
                             continue;
                         };
                         left_to_ask[k] = left_to_ask_now;
-                        let outset = Outset { rays: bundle, departures: departures.map(|all| &all[k]) };
                         if !memory.thin[k].is_known() {
                             memory.thin[k].set(simd, bundle);
                         }
@@ -131,7 +126,7 @@ impl Fast<'_> {
             let TileMemory { fan, stack, .. } = memory;
             push_nearest_last(simd, stack, node, &met, (fan, frustums));
         }
-        given_up
+        (touched, given_up)
     }
 
     /// The first hits of a bundle with one object, whose box some of its rays may pass. Answers whether any ray came near it.
@@ -247,61 +242,6 @@ fn ball_of_bundle<S: Simd>(
         };
         nearest.offer(simd, row, &met);
     }
-}
-
-/// The frustum of a whole tile, and those of its bundles. Of blocks of rays that start in the eye itself they are those of
-/// their corners.
-#[inline(always)]
-fn beams_of<S: Simd>(simd: S, bundles: &[Bundle], from_eye: bool, beams: &mut Vec<Beam>) -> Beam {
-    beams.clear();
-    let ends = if from_eye { ends(bundles) } else { None };
-    if let Some((o, ends)) = ends {
-        // The sides of all blocks run along those of the tile.
-        let basis = Basis::of_corners(ends);
-        for bundle in bundles {
-            beams.push(match corners(bundle, [0, 7, 56, 63]) {
-                Some((_, d)) => Beam::between(o, d, &basis),
-                None => around(simd, std::slice::from_ref(bundle)),
-            });
-        }
-        return Beam::between(o, ends, &basis);
-    }
-    for bundle in bundles {
-        beams.push(match corners(bundle, [0, 7, 56, 63]) {
-            Some((o, d)) if from_eye => Beam::between(o, d, &Basis::of_corners(d)),
-            _ => around(simd, std::slice::from_ref(bundle)),
-        });
-    }
-    around(simd, bundles)
-}
-
-/// The frustum around rays of any kind.
-#[inline(always)]
-fn around<S: Simd>(simd: S, bundles: &[Bundle]) -> Beam {
-    Beam::around(simd, bundles.iter().map(|bundle| (bundle, None)), Spread::Apart)
-}
-
-/// Where the rays of a whole tile of four by four blocks start, and where those in its corners go; `None` at the rim of the
-/// picture, and where rays have been moved nearer to the world, each along its own way.
-fn ends(bundles: &[Bundle]) -> Option<(DVec3, [DVec3; 4])> {
-    let [a, .., b] = bundles else { return None };
-    if bundles.len() != FAN {
-        return None;
-    }
-    let (o, first) = corners(a, [0, 0, 0, 0])?;
-    let (p, last) = corners(b, [63, 63, 63, 63])?;
-    let (q, right) = corners(&bundles[3], [7, 7, 7, 7])?;
-    let (r, left) = corners(&bundles[12], [56, 56, 56, 56])?;
-    let one = bundles.iter().all(|bundle| corners(bundle, [0; 4]).is_some_and(|(own, _)| own == o));
-    (one && o == p && o == q && o == r).then_some((o, [first[0], right[0], left[0], last[0]]))
-}
-
-/// Where a whole block of rays starts, and where four of them go; `None` where rays are missing, or have been moved
-/// nearer to the world, each along its own way.
-fn corners(bundle: &Bundle, lanes: [usize; 4]) -> Option<(DVec3, [DVec3; 4])> {
-    let o = bundle.o.get(0);
-    let one = [7, 56, 63].into_iter().all(|lane| bundle.o.get(lane) == o);
-    (bundle.live == u64::MAX && one).then(|| (o, lanes.map(|lane| bundle.d.get(lane))))
 }
 
 /// Whose way is cut into slices.

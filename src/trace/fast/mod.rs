@@ -9,6 +9,7 @@ mod company;
 mod first;
 mod memory;
 mod nearest;
+mod outset;
 mod shaft;
 mod slices;
 mod stream;
@@ -22,9 +23,12 @@ use crate::lattice::{Boxes, FAN, Structure, SubLattices, slack};
 use crate::math::{Bundle, Column, Columns, ROWS, Ray};
 use crate::solid::{Assembly, Crossing, Departure, Departures};
 use crate::stage::{Meter, Probe};
+use crate::view::Sight;
 
 use super::exact::all_moved_nearer;
 use super::{Engine, Exact, Hit, Memory};
+
+use outset::Outsets;
 
 pub use memory::TileMemory;
 pub use nearest::Nearest;
@@ -78,13 +82,36 @@ impl<'a> Fast<'a> {
         nearest: &mut [Nearest],
         memory: &mut TileMemory,
     ) -> usize {
+        self.first_of_outsets(&mut Outsets::Made { bundles, departures }, nearest, memory).1
+    }
+
+    /// The first hits of the rays from the eye through a tile, as [`Fast::first_of`] finds them. `bundles` and `nearest` have
+    /// as many as the tile has blocks. The rays of a block are made, by `make`, where anything may lie in their way; the
+    /// answer has a bit for each block whose are. Of the others nothing is to be read.
+    pub fn first_seen(
+        &self,
+        sight: &Sight,
+        bundles: &mut [Bundle],
+        make: &mut dyn FnMut(usize, &mut Bundle),
+        nearest: &mut [Nearest],
+        memory: &mut TileMemory,
+    ) -> u16 {
+        self.first_of_outsets(&mut Outsets::Seen { sight, bundles, make }, nearest, memory).0
+    }
+
+    fn first_of_outsets(
+        &self,
+        outsets: &mut Outsets,
+        nearest: &mut [Nearest],
+        memory: &mut TileMemory,
+    ) -> (u16, usize) {
         dispatch!(self.level, simd => {
-            let given_up = self.first_of_tile(simd, bundles, departures, nearest, memory);
-            for (bundle, found) in bundles.iter().zip(&mut *nearest) {
+            let (touched, given_up) = self.first_of_tile(simd, outsets, nearest, memory);
+            for (k, found) in nearest.iter_mut().enumerate().filter(|(k, _)| touched >> k & 1 == 1) {
                 found.doubt(simd, self.slack);
-                found.unsure &= bundle.live & !found.apart;
+                found.unsure &= outsets.get(k).rays.live & !found.apart;
             }
-            given_up
+            (touched, given_up)
         })
     }
 

@@ -55,6 +55,11 @@ impl Nearest {
     pub fn clear(&mut self) {
         self.t = Column::filled(f64::INFINITY);
         self.second = Column::filled(f64::INFINITY);
+        self.forget_rays();
+    }
+
+    /// Forgets which rays met anything in which way; where is left over.
+    pub(super) fn forget_rays(&mut self) {
         (self.entering, self.unsure, self.apart) = (0, 0, 0);
     }
 

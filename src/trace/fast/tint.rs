@@ -10,7 +10,7 @@ use crate::math::{Column, lanes};
 use crate::solid::Departures;
 
 use super::Fast;
-use super::first::Outset;
+use super::outset::Outset;
 use super::memory::TileMemory;
 use super::shaft::{Shaft, Shone};
 

@@ -246,7 +246,9 @@ impl Beam {
         }
         let far = margin_at(axis, o);
         let sides = match slopes.normals(basis, Spread::Apart) {
-            Some(normals) => normals.map(|normal| Plane { normal, offset: normal.dot(o) - margin_at(normal, o) }),
+            Some(normals) => {
+                normals.map(|normal| Plane { normal, offset: normal.dot(o) - margin_at(normal, o) })
+            }
             None => [Plane::NOWHERE; 4],
         };
         let at = axis.dot(o);

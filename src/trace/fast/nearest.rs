@@ -2,7 +2,7 @@
 
 use fearless_simd::{Select, Simd, SimdBase, f64x8, mask64x8};
 
-use crate::math::{Bundle, Column, LANES, Mask, Number, ROWS};
+use crate::math::{Bundle, Column, LANES, Mask, Number, ROWS, row_of};
 use crate::solid::Crossing;
 
 use super::super::Hit;
@@ -133,10 +133,13 @@ impl Nearest {
     /// The greatest distance at which any of the rays may still meet something.
     #[inline(always)]
     pub fn farthest<S: Simd>(&self, simd: S, bundle: &Bundle) -> f64 {
-        let mut most = f64x8::splat(simd, f64::NEG_INFINITY);
+        // Nobody knows what those met that are not there: what they leave is not set.
+        let nowhere = f64x8::splat(simd, f64::NEG_INFINITY);
+        let mut most = nowhere;
         for row in 0..ROWS {
             if bundle.live_in(row) != 0 {
-                most = self.t.load(simd, row).larger(most);
+                let t = row_of(simd, bundle.live, row).select(self.t.load(simd, row), nowhere);
+                most = t.larger(most);
             }
         }
         most.reduce_max()

@@ -10,8 +10,8 @@ use crate::math::{Column, lanes};
 use crate::solid::Departures;
 
 use super::Fast;
-use super::outset::Outset;
 use super::memory::TileMemory;
+use super::outset::Outset;
 use super::shaft::{Shaft, Shone};
 
 /// What glass leaves of the light of a shaft's rays.

@@ -207,7 +207,7 @@ impl Plan {
         });
         let channels = match (reasons.colored, reasons.color_wanted) {
             (Some(what), _) => format!("{what} is coloured → three channels"),
-            (None, true) => "every light and every material is gray → one channel".into(),
+            (None, true) => "every light, material and the background are gray → one channel".into(),
             (None, false) => "every light is gray → one channel".into(),
         };
         vec![

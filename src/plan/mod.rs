@@ -144,13 +144,18 @@ impl Plan {
     }
 }
 
-/// The first thing with a colour that would be lost in one channel; surfaces count where colours are wanted.
+/// The first thing with a colour that would be lost in one channel.
+///
+/// Light of a colour on a surface of another is what one number can not say: where every lamp and the light all around
+/// are gray, the luminance of a surface's light is theirs times that of its colour. The background is only ever weakened,
+/// by numbers. So both, surfaces and background, count where colours are wanted.
 fn colored(scene: &Scene, lamps: &[Lamp], wanted: bool) -> Option<&'static str> {
-    let world = [("the ambient light", scene.world.ambient), ("the background", scene.world.background)];
-    let lights = lamps.iter().map(|l| ("a light", l.light));
-    let surfaces = scene.materials.iter().map(|m| ("a material", m.color)).filter(|_| wanted);
+    let shining =
+        lamps.iter().map(|l| ("a light", l.light)).chain([("the ambient light", scene.world.ambient)]);
+    let surfaces = scene.materials.iter().map(|m| ("a material", m.color));
+    let seen = surfaces.chain([("the background", scene.world.background)]).filter(|_| wanted);
     let is_gray = |c: DVec3| c.x == c.y && c.y == c.z;
-    world.into_iter().chain(lights).chain(surfaces).find(|&(_, c)| !is_gray(c)).map(|(what, _)| what)
+    shining.chain(seen).find(|&(_, c)| !is_gray(c)).map(|(what, _)| what)
 }
 
 /// Up to so many objects, of so many primitives in all, are tested one ray at a time as fast as a structure says which of

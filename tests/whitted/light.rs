@@ -83,6 +83,22 @@ fn that_is_totally_reflected_is_sent_once_with_both_shares() {
     assert_eq!((path[1].kind, path[1].weight), (Kind::Mirror, 0.75));
 }
 
+// Every scene of the Standard Procedural Databases, whose background is blue, was traced in three channels for a gray
+// picture.
+#[test]
+fn in_one_channel_is_the_gray_of_that_in_three_where_the_background_alone_has_a_colour() {
+    let text = "world(ambient = 0.1, background = [0.1, 0.4, 0.9]); light(at = [-3, -9, 5]);
+        material(kd = 0.6, ks = 0.2, kr = 0.3, color = [0.9, 0.3, 0.1]) sphere(1);
+        material(kd = 0.2, kt = 0.7, index = 1.4, color = [0.2, 0.9, 0.1]) translate([1.5, -1, 0]) sphere(0.8);";
+    for d in [[0.0, 1.0, 0.0], [0.1, 1.0, 0.1], [0.35, 1.0, 0.05], [0.9, 0.2, 0.1]] {
+        let d = DVec3::from_array(d).normalize();
+        let [(gray, one), (of_three, three)] =
+            [false, true].map(|color| dot(text, EYE, d, &Options { color, ..all_rays() }));
+        assert_eq!(one, three);
+        assert!(gray > 0.0 && (gray - of_three).abs() < 1e-14, "{gray} {of_three}");
+    }
+}
+
 #[test]
 fn of_a_ray_cut_off_is_ambient_and_counted() {
     let text = "world(ambient = 0.3, background = 0); material(kd = 0, ks = 0, kr = 1, color = [0, 0, 0]) {

@@ -77,11 +77,11 @@ impl<'b, C: Channel> Tracer<C> for Blocks<'_, 'b, C> {
     }
 }
 
-/// Copies as many as there is place for: mostly all.
-#[inline]
+/// Copies as many as there is place for: mostly all, which is then known when this is compiled.
+#[inline(always)]
 fn copy_row<C: Channel>(row: [C; LANES], to: &mut [C]) {
     match <&mut [C; LANES]>::try_from(&mut *to) {
         Ok(to) => *to = row,
-        Err(_) => to.copy_from_slice(&row[..to.len()]),
+        Err(_) => to.iter_mut().zip(row).for_each(|(to, light)| *to = light),
     }
 }

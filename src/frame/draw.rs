@@ -148,20 +148,21 @@ impl Viewed<'_> {
         let idle = || idle.lock().unwrap_or_else(PoisonError::into_inner);
         let drawn = tiles(size).into_par_iter().map(|tile| {
             let taken = idle().pop();
-            let (mut memory, mut dots) =
-                taken.unwrap_or_else(|| (tracer.memory(), TileDots::new(self.wants)));
+            // Behind a pointer: it is large, and handed on with every tile.
+            let mut worker = taken.unwrap_or_else(|| Box::new((tracer.memory(), TileDots::new(self.wants))));
+            let (memory, dots) = &mut *worker;
             dots.fit(&tile);
             let measured = if tile.number % TIMED == 0 {
                 let mut meter = Meter::new(Stopwatch::start(Stage::Ray));
-                tracer.tile(&tile, &mut memory, &mut dots, &mut meter);
+                tracer.tile(&tile, memory, dots, &mut meter);
                 (meter.counts, meter.probe.stop())
             } else {
                 let mut meter = Meter::new(Silent);
-                tracer.tile(&tile, &mut memory, &mut dots, &mut meter);
+                tracer.tile(&tile, memory, dots, &mut meter);
                 (meter.counts, StageTimes::default())
             };
-            bands[(tile.corner[1] / TILE) as usize].take(size.width, &tile, &dots);
-            idle().push((memory, dots));
+            bands[(tile.corner[1] / TILE) as usize].take(size.width, &tile, dots);
+            idle().push(worker);
             measured
         });
         drawn.reduce(Default::default, |mut all, one| {

@@ -66,6 +66,10 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         }
         let shafts = &mut shafts[..count];
         for k in 0..count {
+            if wave.surfaces[k].hits == 0 {
+                shafts[k].clear();
+                continue;
+            }
             let shines = self.made_so(&wave.surfaces[k], |finish| finish.kd > 0.0 || finish.ks > 0.0);
             let highlights = self.made_so(&wave.surfaces[k], |finish| finish.ks > 0.0) != 0;
             let asked = (shines, Needs { shadows: self.shadows, highlights });
@@ -85,7 +89,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
             }
             meter.at(Stage::Shade);
         }
-        for (k, shaft) in shafts.iter().enumerate() {
+        for (k, shaft) in shafts.iter().enumerate().filter(|(_, shaft)| shaft.rays.live != 0) {
             let asked = shaft.rays.live;
             let mut reached = asked;
             let mut dimmed = false;

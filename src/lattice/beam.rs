@@ -81,9 +81,9 @@ pub struct Met<S: Simd> {
     pub near: f32x8<S>,
 }
 
-/// Lights farther away than this are no apex for planes: what rounding makes of their place would be more than what
-/// the planes are moved outward by.
-const NEAR: f64 = WAY;
+/// Lights farther away than this are no apex for planes: what rounding makes of their place would be a thousandth of what
+/// half the digits lose ([`LOST`]).
+const NEAR: f64 = (1_u32 << 20) as f64;
 
 /// The axis of beams that run together, and two directions across it.
 #[derive(Clone, Copy, Debug)]
@@ -179,7 +179,7 @@ impl Slopes {
 #[inline(always)]
 fn through(point: DVec3, normals: Option<[DVec3; 4]>) -> [Plane; 4] {
     let Some([a, b, c, d]) = normals else { return [Plane::NOWHERE; 4] };
-    let plane = |normal: DVec3| Plane { normal, offset: normal.dot(point) - margin(normal) };
+    let plane = |normal: DVec3| Plane { normal, offset: normal.dot(point) - margin_at(normal, point) };
     [plane(a), plane(b), plane(c), plane(d)]
 }
 
@@ -218,7 +218,7 @@ impl Ways {
     #[inline(always)]
     fn beam(&self, basis: &Basis, apex: DVec3) -> Beam {
         let axis = basis.axis;
-        let (at, off) = (axis.dot(apex), margin(axis));
+        let (at, off) = (axis.dot(apex), margin_at(axis, apex));
         Beam {
             sides: through(apex, self.slopes.normals(basis, Spread::Together)),
             axis,
@@ -256,14 +256,14 @@ impl Beam {
         Self { sides, axis, first: at - far, last: at.max(0.0) + WAY + far, start: at + moved + far }
     }
 
-    /// The beams around bundles that all go to one point, each with how far, and the beam around them all. For what is
-    /// absent, or has no live ray, that of all stands among the `beams`.
+    /// The beams around bundles that all go to one point, each with how far, and the beam around them all. There is none for
+    /// what is absent, or has no live ray.
     #[inline(always)]
     pub fn towards<'b, S: Simd>(
         simd: S,
         bundles: &(impl Iterator<Item = Option<(&'b Bundle, &'b Column)>> + Clone),
         apex: DVec3,
-        beams: &mut Vec<Self>,
+        beams: &mut Vec<Option<Self>>,
     ) -> Self {
         beams.clear();
         let live = || bundles.clone().map(|b| b.filter(|(bundle, _)| bundle.live != 0));
@@ -271,32 +271,27 @@ impl Beam {
             let far = live().flatten().map(|(bundle, distance)| (bundle, Some(distance)));
             let all = Self::around(simd, far, Spread::Together);
             for bundle in live() {
-                beams.push(match bundle {
-                    Some((bundle, distance)) => {
+                beams.push(bundle.map(
+                    #[inline(always)]
+                    |(bundle, distance)| {
                         Self::around(simd, std::iter::once((bundle, Some(distance))), Spread::Together)
-                    }
-                    None => all,
-                });
+                    },
+                ));
             }
             return all;
         }
         let basis = Basis::along(live().flatten().map(|(bundle, _)| bundle));
         let mut all = Ways::NONE;
         for bundle in live() {
-            let ways = match bundle {
-                Some((bundle, _)) => Ways::of(simd, bundle, &basis),
-                None => Ways::NONE,
+            let Some((bundle, _)) = bundle else {
+                beams.push(None);
+                continue;
             };
+            let ways = Ways::of(simd, bundle, &basis);
             all.join(&ways);
-            beams.push(ways.beam(&basis, apex));
+            beams.push(Some(ways.beam(&basis, apex)));
         }
-        let all = all.beam(&basis, apex);
-        for (beam, bundle) in beams.iter_mut().zip(live()) {
-            if bundle.is_none() {
-                *beam = all;
-            }
-        }
-        all
+        all.beam(&basis, apex)
     }
 
     /// The beam around the live rays of some bundles, as far as `reach` of each.

@@ -44,10 +44,11 @@ impl Default for Fan {
 }
 
 impl Fan {
-    /// Sets the frustums, up to [`FAN`] of them; those that are left over meet nothing.
-    pub fn set(&mut self, beams: &[Beam]) {
+    /// Sets the frustums, up to [`FAN`] of them; those that are absent, or left over, meet nothing.
+    pub fn set(&mut self, beams: &[Option<Beam>]) {
         self.present = 0;
         for (lane, beam) in beams.iter().enumerate().take(FAN) {
+            let Some(beam) = beam else { continue };
             self.present |= 1 << lane;
             let (planes, start) = beam.planes();
             let backward = planes[5].0;

@@ -13,8 +13,8 @@ use super::walk::Waits;
 /// What tracing a tile needs, used again for every tile.
 #[derive(Debug)]
 pub struct TileMemory {
-    /// By bundle: its own frustum, and how far its rays have still to look.
-    pub(super) beams: Vec<Beam>,
+    /// By bundle: its own frustum, if it asks, and how far its rays have still to look.
+    pub(super) beams: Vec<Option<Beam>>,
     pub(super) far: Vec<f64>,
     /// Their rays in half the digits, for as many as a fan has.
     pub(super) thin: Vec<Thin>,

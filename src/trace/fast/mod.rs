@@ -20,7 +20,7 @@ mod walk;
 use fearless_simd::{Level, Simd, dispatch};
 
 use crate::lattice::{Boxes, FAN, Structure, SubLattices, slack};
-use crate::math::{Bundle, Column, Columns, ROWS, Ray};
+use crate::math::{BUNDLE, Bundle, Column, Columns, ROWS, Ray};
 use crate::solid::{Assembly, Crossing, Departure, Departures};
 use crate::stage::{Meter, Probe};
 use crate::view::Sight;
@@ -34,6 +34,10 @@ pub use memory::TileMemory;
 pub use nearest::Nearest;
 pub use shaft::{Shaft, Shone};
 pub use tint::{Clarity, Tint};
+
+/// So few rays of a tile towards a light take less time one by one than bringing them together does: what would not fill one
+/// bundle.
+const FEW_OF_TILE: u32 = BUNDLE as u32;
 
 /// The engine for tiles of rays, over an assembly and a hierarchy of its boxes.
 #[derive(Clone, Copy, Debug)]
@@ -125,6 +129,12 @@ impl<'a> Fast<'a> {
         lamp: &Shone,
         memory: &mut TileMemory,
     ) -> bool {
+        let rays: u32 = shafts.iter().map(|shaft| shaft.rays.live.count_ones()).sum();
+        if rays < FEW_OF_TILE {
+            shafts.iter_mut().for_each(Shaft::give_up);
+            self.blocked_apart(shafts, departures, lamp, memory);
+            return false;
+        }
         let mut company = std::mem::take(&mut memory.company);
         let helps = dispatch!(self.level, simd => company.would_help(simd, shafts, lamp.at));
         let apart = if helps {

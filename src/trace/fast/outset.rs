@@ -77,13 +77,13 @@ impl Outsets<'_> {
 
     /// Sets `fan` to the frustums of each.
     #[inline(always)]
-    pub fn spread<S: Simd>(&self, simd: S, level: Level, (beams, fan): (&mut Vec<Beam>, &mut Fan)) {
+    pub fn spread<S: Simd>(&self, simd: S, level: Level, (beams, fan): (&mut Vec<Option<Beam>>, &mut Fan)) {
         beams.clear();
         match self {
             Self::Made { bundles, .. } => {
                 beams.extend(bundles.iter().map(
                     #[inline(always)]
-                    |bundle| around(simd, std::slice::from_ref(bundle)),
+                    |bundle| Some(around(simd, std::slice::from_ref(bundle))),
                 ));
             }
             Self::Seen { sight, .. } => {
@@ -94,7 +94,7 @@ impl Outsets<'_> {
                 for k in 0..sight.blocks().min(FAN) {
                     let ends = [0, 1, 2, 3].map(|corner| corners.get(4 * k + corner));
                     let moved = most_moved(sight.eye, &ends);
-                    beams.push(Beam::between(sight.eye, ends, moved, &basis));
+                    beams.push(Some(Beam::between(sight.eye, ends, moved, &basis)));
                 }
             }
         }

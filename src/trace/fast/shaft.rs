@@ -129,9 +129,6 @@ impl Fast<'_> {
                 shaft.apart = shaft.rays.live;
             }
         }
-        let asking = shafts.iter().map(|shaft| (shaft.open() != 0).then_some((&shaft.rays, &shaft.distance)));
-        let whole = Beam::towards(simd, &asking, lamp.at, &mut memory.beams);
-        memory.fan.set(&memory.beams);
         let mut open = 0_u16;
         for (k, shaft) in shafts.iter().enumerate() {
             open |= u16::from(shaft.open() != 0) << k;
@@ -139,6 +136,9 @@ impl Fast<'_> {
         if open == 0 {
             return 0;
         }
+        let asking = shafts.iter().map(|shaft| (shaft.open() != 0).then_some((&shaft.rays, &shaft.distance)));
+        let whole = Beam::towards(simd, &asking, lamp.at, &mut memory.beams);
+        memory.fan.set(&memory.beams);
         let mut given_up = 0;
         memory.thin.iter_mut().for_each(Thin::forget);
         memory.forget_sheared();

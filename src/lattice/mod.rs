@@ -16,7 +16,7 @@ mod sub;
 mod tree;
 
 pub use beam::{Basis, Beam, Met, Spread, WAY, highest, lowest};
-pub use boxes::{Boxes, Child, Meeting, Node, Stream, WIDE, Ways};
+pub use boxes::{Boxes, Child, Meeting, Node, ROOM, Round, Stream, WIDE, Ways};
 pub use clip::{Outcode, entry};
 pub use fan::{FAN, Fan, FanMet};
 pub use loose::{Loose, MANY};

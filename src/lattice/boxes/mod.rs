@@ -6,6 +6,7 @@
 
 mod build;
 mod reach;
+mod round;
 mod split;
 mod stream;
 mod walk;
@@ -17,6 +18,7 @@ use crate::solid::Assembly;
 
 use super::planes::slack;
 
+pub use round::{ROOM, Round};
 pub use stream::{Meeting, Stream, Ways};
 
 /// Children of a node: as many as the registers of most processors have numbers, of 32 bits each.
@@ -45,6 +47,8 @@ pub struct Node {
     children: [u32; WIDE],
     /// Bit `slot` is set where the child is a node.
     inner: u8,
+    /// Bit `slot` is set where the child is a ball ([`Round`]).
+    round: u8,
     len: u8,
 }
 
@@ -82,6 +86,7 @@ impl Node {
         sides: [[[f32::INFINITY; WIDE], [f32::NEG_INFINITY; WIDE]]; 3],
         children: [0; WIDE],
         inner: 0,
+        round: 0,
         len: 0,
     };
 
@@ -165,7 +170,9 @@ impl Boxes {
     pub fn new(assembly: &Assembly) -> Self {
         let margin = DVec3::splat(slack(assembly.off));
         let objects = &assembly.objects;
-        Self::over(objects.len(), |object| objects[object].bounds.padded(margin))
+        let mut boxes = Self::over(objects.len(), |object| objects[object].bounds.padded(margin));
+        round::note(&mut boxes.nodes, assembly);
+        boxes
     }
 
     /// The hierarchy over the boxes of so many objects.

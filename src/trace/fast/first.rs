@@ -6,7 +6,7 @@
 
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 
-use crate::lattice::{Child, FAN, SLACK};
+use crate::lattice::{Child, FAN, Round, SLACK};
 use crate::math::{Bounds, LANES, Mask, Number, ROWS, Rays, row_of};
 use crate::solid::{
     Asked, Ball, Body, Ends, Firsts, Flat, Form, Found, Reach, Spans, first_of_expressions, firsts_of_spans,
@@ -78,7 +78,11 @@ impl Fast<'_> {
                 objects &= objects - 1;
                 let Some(Child::Object(object)) = node.child(slot) else { continue };
                 let (lo, hi) = node.corners(slot);
-                let met = memory.fan.meets(simd, lo, hi);
+                let round = (node.round() >> slot & 1 == 1).then(|| Round::of(lo, hi));
+                let met = match &round {
+                    Some(round) => memory.fan.meets_ball(simd, round.center, round.outer),
+                    None => memory.fan.meets(simd, lo, hi),
+                };
                 let mut left = met.frustums & frustums;
                 if left == 0 {
                     continue;
@@ -111,7 +115,10 @@ impl Fast<'_> {
                         if !memory.thin[k].is_known() {
                             memory.thin[k].set(simd, bundle);
                         }
-                        let passing = memory.thin[k].passing(simd, &slabs, bundle.live);
+                        let passing = match &round {
+                            Some(round) => memory.thin[k].ball(simd, round, self.slack, bundle.live).0,
+                            None => memory.thin[k].passing(simd, &slabs, bundle.live),
+                        };
                         if passing != 0
                             && self.object_of_bundle(simd, (object, passing), outset, nearest, memory, k)
                         {
@@ -147,20 +154,18 @@ impl Fast<'_> {
                 memory.counts.primitive_tests += 1;
                 let form = &primitives[*index as usize].form;
                 if let Form::Ball(ball) = form {
-                    let thin = &memory.thin[k];
-                    return simd.vectorize(
+                    simd.vectorize(
                         #[inline(always)]
                         || {
-                            let near = thin.near(simd, ball.center, ball.radius, passing);
                             let start = match outset.departures {
                                 None => 2.0 * ball.most_error(),
                                 Some(_) => ball.most_error() * (1.0 + self.assembly.off / ball.off()),
                             };
                             let about = (ball, form, start);
-                            ball_of_bundle(simd, about, near, outset, nearest, [object, *index]);
-                            near != 0
+                            ball_of_bundle(simd, about, passing, outset, nearest, [object, *index]);
                         },
                     );
+                    return true;
                 }
                 single(simd, form, (outset, passing), nearest, [object, *index]);
                 true

@@ -6,7 +6,7 @@
 
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 
-use crate::lattice::{Beam, Child, FAN, SLACK};
+use crate::lattice::{Beam, Child, FAN, Round, SLACK};
 use crate::math::{Bounds, Bundle, Column, DVec3, LANES, Mask, Number, ROWS, Rays, lanes, row_of};
 use crate::solid::{
     Asked, Ball, Body, Crossing, Departures, Firsts, Flat, Form, Found, Reach, Spans, Starts,
@@ -162,8 +162,15 @@ impl Fast<'_> {
                 let slot = objects.trailing_zeros() as usize;
                 objects &= objects - 1;
                 let Some(Child::Object(object)) = node.child(slot) else { continue };
+                let clarity = lamp.clarity.get(object as usize);
+                let is_glass = matches!(clarity, Some(Clarity::Clear | Clarity::Mixed));
                 let (lo, hi) = node.corners(slot);
-                let mut left = memory.fan.meets(simd, lo, hi).frustums & frustums & open;
+                let round = (node.round() >> slot & 1 == 1 && !is_glass).then(|| Round::of(lo, hi));
+                let met = match &round {
+                    Some(round) => memory.fan.meets_ball(simd, round.center, round.outer),
+                    None => memory.fan.meets(simd, lo, hi),
+                };
+                let mut left = met.frustums & frustums & open;
                 if left == 0 {
                     continue;
                 }
@@ -171,7 +178,7 @@ impl Fast<'_> {
                 while left != 0 {
                     let k = left.trailing_zeros() as usize;
                     left &= left - 1;
-                    let shaft = &shafts[k];
+                    let shaft = &mut shafts[k];
                     if !memory.thin[k].is_known() {
                         memory.thin[k].set(simd, &shaft.rays);
                         memory.thin[k].look(
@@ -179,20 +186,28 @@ impl Fast<'_> {
                             |lane| shaft.distance.0[lane] + self.slack,
                         );
                     }
-                    let passing = memory.thin[k].passing(simd, &slabs, shaft.open());
                     let Some(left_now) = left_to_ask[k].checked_sub(1) else {
                         given_up += 1;
-                        shafts[k].apart |= shafts[k].open();
+                        shaft.apart |= shaft.open();
                         open &= !(1 << k);
                         continue;
                     };
                     left_to_ask[k] = left_now;
+                    let passing = if let Some(round) = &round {
+                        let (near, inside) = memory.thin[k].ball(simd, round, self.slack, shaft.open());
+                        shaft.blocked |= inside;
+                        memory.counts.primitive_tests += u64::from(near != 0 && near == inside);
+                        near & !inside
+                    } else {
+                        memory.thin[k].passing(simd, &slabs, shaft.open())
+                    };
                     if passing == 0 {
+                        if shaft.open() == 0 {
+                            open &= !(1 << k);
+                        }
                         continue;
                     }
-                    let shaft = &mut shafts[k];
-                    let clarity = lamp.clarity.get(object as usize);
-                    if let Some(Clarity::Clear | Clarity::Mixed) = clarity {
+                    if is_glass {
                         let about = (&departures[k], lamp);
                         self.glass_in_shaft(simd, (object, passing), shaft, about, memory, k);
                     } else {
@@ -278,15 +293,9 @@ impl Fast<'_> {
                 memory.counts.primitive_tests += 1;
                 let form = &primitives[*index as usize].form;
                 if let Form::Ball(ball) = form {
-                    let thin = &memory.thin[k];
                     simd.vectorize(
                         #[inline(always)]
-                        || {
-                            let near = thin.near(simd, ball.center, ball.radius, passing);
-                            if near != 0 {
-                                self.ball_in_shaft(simd, (ball, form), near, shaft, departures, *index);
-                            }
-                        },
+                        || self.ball_in_shaft(simd, (ball, form), passing, shaft, departures, *index),
                     );
                     return;
                 }

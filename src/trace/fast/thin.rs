@@ -5,8 +5,11 @@
 
 use fearless_simd::{Select, Simd, SimdBase, SimdMask, f32x16};
 
+use crate::lattice::{ROOM, Round};
 use crate::math::{BUNDLE, Bundle, DVec3};
 use crate::solid::Bar;
+
+use super::walk::wide;
 
 /// Rays in a register.
 const WIDTH: usize = 16;
@@ -165,18 +168,22 @@ impl Thin {
         }
     }
 
-    /// Those of some rays whose lines may come within `radius` of a point; all others do not.
+    /// Which of some rays may meet a ball between the two of `round`, ahead of their starts and no farther than they look: all
+    /// others do not. And which certainly go into it ahead of their starts, and before the end of what they look at.
     #[inline(always)]
-    pub fn near<S: Simd>(&self, simd: S, center: DVec3, radius: f64, wanted: u64) -> u64 {
-        let from_base = center - self.base;
-        let far = from_base.abs().element_sum() + self.extent;
-        let reach = (radius + LOST * far) as f32;
+    pub fn ball<S: Simd>(&self, simd: S, round: &Round, slack: f64, wanted: u64) -> (u64, u64) {
+        let from_base = wide(round.center) - self.base;
+        let lost = LOST * (from_base.abs().element_sum() + self.extent);
+        let (outer, inner) = (f64::from(round.outer) + lost, f64::from(round.inner) - lost);
         // The radius itself, and its square, are rounded.
-        let limit = f32x16::splat(simd, reach * reach * (1.0 + 4.0 * f32::EPSILON));
-        let cx = f32x16::splat(simd, from_base.x as f32);
-        let cy = f32x16::splat(simd, from_base.y as f32);
-        let cz = f32x16::splat(simd, from_base.z as f32);
-        let mut rays = 0;
+        let limit = f32x16::splat(simd, (outer * outer) as f32 * (1.0 + 4.0 * f32::EPSILON));
+        let deep = f32x16::splat(simd, (inner.max(0.0) * inner.max(0.0)) as f32 * (1.0 - 4.0 * f32::EPSILON));
+        // How far the ends of a chord, as they are computed, may lie from its middle, as that is computed here.
+        let reach = f32x16::splat(simd, (outer + lost + ROOM) as f32 * (1.0 + 4.0 * f32::EPSILON));
+        let early = f32x16::splat(simd, (lost + ROOM + slack) as f32 * (1.0 + 4.0 * f32::EPSILON));
+        let shorter = f32x16::splat(simd, 1.0 - 8.0 * f32::EPSILON);
+        let [cx, cy, cz] = splats(simd, from_base);
+        let (mut near, mut inside) = (0, 0);
         for row in 0..THIN_ROWS {
             if (wanted >> (row * WIDTH)) as u16 == 0 {
                 continue;
@@ -187,13 +194,17 @@ impl Thin {
             let dx = row_of(simd, &self.d[0], row);
             let dy = row_of(simd, &self.d[1], row);
             let dz = row_of(simd, &self.d[2], row);
+            let to = row_of(simd, &self.limit, row);
             let t = x * dx + y * dy + z * dz;
             let (x, y, z) = (x - t * dx, y - t * dy, z - t * dz);
-            // What is not a number is not certain.
-            let beside = (x * x + y * y + z * z).simd_gt(limit);
-            rays |= (!beside).to_bitmask() << (row * WIDTH);
+            let square = x * x + y * y + z * z;
+            // What is not a number is neither certainly missed nor certainly met.
+            let missed = square.simd_gt(limit) | t.simd_gt(reach) | (-t - reach).simd_gt(to);
+            let met = square.simd_lt(deep) & (-t).simd_gt(reach) & (early - t).simd_lt(to * shorter);
+            near |= (!missed).to_bitmask() << (row * WIDTH);
+            inside |= met.to_bitmask() << (row * WIDTH);
         }
-        rays & wanted
+        (near & wanted, inside & wanted & !self.odd)
     }
 
     /// Those of some rays that may pass a box, ahead of their starts and no farther than they look; all others do not.
@@ -329,15 +340,28 @@ mod tests {
                 }
             }
             let bar = Bar { middle, along, radius };
+            // As a box tells of a ball: its numbers are rounded.
+            let round = Round {
+                center: [middle.x as f32, middle.y as f32, middle.z as f32],
+                outer: (radius + ROOM) as f32,
+                inner: (radius - 2.0 * ROOM) as f32,
+            };
             for level in [Level::new(), Level::baseline()] {
                 let mut thin = Thin::EMPTY;
-                let asked = dispatch!(level, simd => {
+                let (asked, inside) = dispatch!(level, simd => {
                     thin.set(simd, &bundle);
                     let slabs = Slabs::around(simd, lo, hi, 0.0);
                     let all = u64::MAX;
-                    [thin.passing(simd, &slabs, all), thin.beside(simd, &bar, 0.0, all),
-                        thin.near(simd, middle, radius, all)]
+                    let (near, inside) = thin.ball(simd, &round, 0.0, all);
+                    ([thin.passing(simd, &slabs, all), thin.beside(simd, &bar, 0.0, all), near], inside)
                 });
+                for lane in crate::math::lanes(inside) {
+                    let Ray { o, d } = bundle.ray(lane);
+                    let to_middle = middle - o;
+                    let t = to_middle.dot(d);
+                    let depth = radius * radius - (to_middle - t * d).length_squared();
+                    prop_assert!(depth > 0.0 && t > depth.sqrt());
+                }
                 for (expected, asked) in expected.into_iter().zip(asked) {
                     prop_assert_eq!(expected & !asked, 0);
                 }
@@ -352,6 +376,33 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn a_ball_is_known_to_be_met_and_to_be_missed_but_for_its_rim() {
+        let mut bundle = Bundle::EMPTY;
+        for lane in 0..BUNDLE {
+            let aim = DVec3::new((lane % 8) as f64 / 8.0, (lane / 8) as f64 / 8.0, 0.0);
+            bundle.set(
+                lane,
+                &Ray::new(DVec3::new(0.4, 0.4, -1.0), (aim - DVec3::new(0.4, 0.4, -1.0)).normalize()),
+            );
+        }
+        let round = Round { center: [0.5, 0.5, 0.0], outer: 0.3, inner: 0.3 - 4.0 * ROOM as f32 };
+        let mut thin = Thin::EMPTY;
+        let mut asked = |limit: f64| {
+            dispatch!(Level::new(), simd => {
+                thin.set(simd, &bundle);
+                thin.look(|_| limit);
+                thin.ball(simd, &round, 0.0, u64::MAX)
+            })
+        };
+        let (near, inside) = asked(9.0);
+        assert_eq!(near, inside);
+        assert!((8..40).contains(&near.count_ones()));
+        // Nearer than where any ray goes in, and between there and the middle.
+        assert_eq!(asked(0.6), (0, 0));
+        assert_eq!(asked(0.9), (near, 0));
     }
 
     #[test]

@@ -1,0 +1,99 @@
+//! Boxes of balls: what a box tells of the ball in it, without a look at the ball.
+
+use crate::math::DVec3;
+use crate::solid::{Assembly, Body, Form};
+
+use super::{Child, MARGIN, Node};
+
+/// Two balls about one point: a solid ball lies between them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Round {
+    /// Their middle.
+    pub center: [f32; 3],
+    /// The radius of the one that holds the ball, with the [`ROOM`] around it.
+    pub outer: f32,
+    /// The radius of the one that the ball holds; 0 or less where there is none.
+    pub inner: f32,
+}
+
+/// What lies deeper in the inner ball of a [`Round`] than this, or so far outside its outer one, does so for every
+/// computation of crossings too: the errors of the ball are less.
+pub const ROOM: f64 = MARGIN;
+
+impl Round {
+    /// The two balls of a box.
+    #[inline(always)]
+    pub fn of(lo: [f32; 3], hi: [f32; 3]) -> Self {
+        let half = [0, 1, 2].map(|axis| 0.5 * hi[axis] - 0.5 * lo[axis]);
+        let widest = half[0].max(half[1]).max(half[2]);
+        let least = half[0].min(half[1]).min(half[2]);
+        Self {
+            center: [0, 1, 2].map(|axis| 0.5 * lo[axis] + 0.5 * hi[axis]),
+            outer: widest,
+            // The box is moved outward by one of them, and by what is less; twice that, and once more for its rounding.
+            inner: least - 3.0 * MARGIN as f32,
+        }
+    }
+
+    /// Whether an object is a ball between the two, and its errors are small enough.
+    fn holds(&self, assembly: &Assembly, object: u32) -> bool {
+        let Body::Single(index) = assembly.objects[object as usize].body else { return false };
+        let Form::Ball(ball) = &assembly.primitives[index as usize].form else { return false };
+        let off_center = DVec3::from_array(self.center.map(f64::from)).distance(ball.center);
+        let error = ball.most_error() * (1.0 + assembly.off / ball.off());
+        error <= ROOM
+            && ball.radius + off_center <= f64::from(self.outer)
+            && f64::from(self.inner) + off_center + ball.off() <= ball.radius
+    }
+}
+
+impl Node {
+    /// A bit for each slot in whose box there is a ball, between the two of its [`Round`].
+    #[inline]
+    pub fn round(&self) -> u8 {
+        self.round
+    }
+
+    /// What the box of a slot tells of the ball in it.
+    #[inline(always)]
+    pub fn ball(&self, slot: usize) -> Round {
+        let (lo, hi) = self.corners(slot);
+        Round::of(lo, hi)
+    }
+}
+
+/// Notes which slots hold balls.
+pub(super) fn note(nodes: &mut [Node], assembly: &Assembly) {
+    for node in nodes {
+        for slot in 0..node.len() {
+            if let Some(Child::Object(object)) = node.child(slot) {
+                let round = node.ball(slot).holds(assembly, object);
+                node.round |= u8::from(round) << slot;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::lattice::Boxes;
+    use crate::scene::{ReadOptions, read};
+    use crate::solid::Assembly;
+
+    #[test]
+    fn balls_alone_are_round_and_nothing_else_is() {
+        let text = "sphere(1); translate([5, 1, 0.3]) scale([0.7, 0.7, 0.7]) sphere(1); translate([9, 0, 0]) scale([1, 2, 1]) sphere(1);
+            translate([0, 4, 0]) cube(1); translate([0, 7, 0]) difference() { sphere(1); cube(1); }
+            translate([0, 0, 7]) cylinder(1, 1, 1);";
+        let assembly =
+            Assembly::new(&read("balls", text.as_bytes(), &ReadOptions::default()).unwrap()).unwrap();
+        let boxes = Boxes::new(&assembly);
+        let [root] = boxes.nodes() else { panic!("few objects fill one node") };
+        let mut round = [false; 6];
+        for slot in 0..root.len() {
+            let Some(super::Child::Object(object)) = root.child(slot) else { panic!("no other node") };
+            round[assembly.objects[object as usize].number as usize] = root.round() >> slot & 1 == 1;
+        }
+        assert_eq!(round, [true, true, false, false, false, false]);
+    }
+}

@@ -12,7 +12,7 @@ use crate::plan::{Channels, EngineChoice, Plan};
 use crate::shade::{Channel, Shader};
 use crate::stage::{Counts, Meter, Silent, Stage, StageTimes, Stopwatch};
 use crate::trace::{Exact, Fast};
-use crate::view::{Lens, Picture, TILE, tiles};
+use crate::view::{Lens, Picture, TILE, Tile, tiles};
 
 use super::blocks::Blocks;
 use super::gather::{PictureDots, TileDots};
@@ -20,8 +20,18 @@ use super::points::{Points, Tracer};
 use super::{Frame, Request, Space, Studio, Wants};
 
 /// One tile in this many is timed stage by stage: reading the clock at every change of stage costs about as much
-/// as the stage. A prime, so that the timed tiles do not stand in columns.
+/// as the stage.
 const TIMED: u32 = 13;
+
+/// How many columns farther left the timed tiles of the next row stand: whatever the width of a picture, they are as many in
+/// each column, and no two are near each other.
+const TIMED_SHIFT: u32 = 5;
+
+/// Whether a tile is timed. The first is.
+fn is_timed(tile: &Tile) -> bool {
+    let [column, row] = tile.corner.map(|corner| corner / TILE);
+    (column + TIMED_SHIFT * row).is_multiple_of(TIMED)
+}
 
 impl Studio {
     /// Draws one picture. The same request gives the same dots and cells, on any number of threads.
@@ -152,7 +162,7 @@ impl Viewed<'_> {
             let mut worker = taken.unwrap_or_else(|| Box::new((tracer.memory(), TileDots::new(self.wants))));
             let (memory, dots) = &mut *worker;
             dots.fit(&tile);
-            let measured = if tile.number % TIMED == 0 {
+            let measured = if is_timed(&tile) {
                 let mut meter = Meter::new(Stopwatch::start(Stage::Ray));
                 tracer.tile(&tile, memory, dots, &mut meter);
                 (meter.counts, meter.probe.stop())

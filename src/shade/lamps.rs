@@ -77,8 +77,12 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         }
         if self.shadows {
             meter.at(Stage::Cell);
-            let (clarity, lets_through) = (&self.clarity[..], &self.lets_through[..]);
-            let shone = Shone { at: place, clarity, lets_through };
+            let shone = Shone {
+                at: place,
+                clarity: &self.clarity,
+                dark: &self.dark,
+                lets_through: &self.lets_through,
+            };
             if wave.apart {
                 shafts.iter_mut().for_each(Shaft::give_up);
                 self.engine.blocked_apart(shafts, &wave.departures, &shone, trace);

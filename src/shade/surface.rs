@@ -1,6 +1,6 @@
 //! The light that a surface sends to the eye.
 
-use crate::math::{DVec3, Ray};
+use crate::math::{Bounds, DVec3, Ray};
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::solid::{Assembly, Departure, Form};
@@ -34,6 +34,8 @@ pub struct Shader<'a, E, C> {
     pub(super) glass: bool,
     /// By object; empty where light comes through nothing.
     pub(super) clarity: Vec<Clarity>,
+    /// By object, as far as parts of it are opaque: a box around those; empty where light comes through nothing.
+    pub(super) dark: Vec<Bounds>,
     /// By primitive: the share of light that its material lets through; empty where none does.
     pub(super) lets_through: Vec<f64>,
     pub(super) generations: u32,
@@ -148,6 +150,7 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
                 _ => Clarity::Mixed,
             }
         };
+        let dark = |object: u32| assembly.bounds_of(object, |primitive| kt(primitive) == 0.0);
         let if_glass = |count: usize| if plan.glass { count as u32 } else { 0 };
         let secondary = plan.secondary.as_ref();
         let around_eye = secondary.iter().flat_map(|s| &s.around_eye);
@@ -162,6 +165,7 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
             shadows: plan.shadows,
             glass: plan.glass,
             clarity: (0..if_glass(assembly.objects.len())).map(clarity).collect(),
+            dark: (0..if_glass(assembly.objects.len())).map(dark).collect(),
             lets_through: (0..if_glass(assembly.primitives.len())).map(kt).collect(),
             generations: secondary.map_or(0, |s| s.generations),
             least_weight: secondary.map_or(0.0, |s| s.least_weight),

@@ -111,6 +111,16 @@ impl Tree {
         }
     }
 
+    /// The solids that it puts together: the operands of its unions, and of unions in those, or itself.
+    pub fn parts(&self) -> Vec<&Self> {
+        match self {
+            Self::Any(children) if children.iter().all(|child| !child.negated) => {
+                children.iter().flat_map(|child| child.tree.parts()).collect()
+            }
+            whole => vec![whole],
+        }
+    }
+
     /// A box around the solid. A difference reaches no further than what it cuts from.
     pub fn bounds(&self, primitives: &[Primitive]) -> Bounds {
         match self {

@@ -1,10 +1,11 @@
 //! Which objects a point is in.
 
-use crate::math::{DVec3, Ray};
+use crate::math::{Bounds, DVec3, Ray};
 use crate::stage::{Meter, Silent};
 
 use super::assembly::{Assembly, Body};
 use super::crossing::{Reach, Scratch, first_of_expression, first_of_span};
+use super::expression::Tree;
 
 /// A direction of length 1, to the bit, that runs along no axis and in no plane of two.
 const PROBE: DVec3 = DVec3::new(0.48, 0.6, 0.64);
@@ -32,6 +33,15 @@ impl Assembly {
             Body::Surface(_) => return false,
         };
         first.is_some_and(|crossing| !crossing.entering)
+    }
+
+    /// A box around those of the solids that an object puts together in which there is any primitive of some kind.
+    pub fn bounds_of(&self, object: u32, kind: impl Fn(u32) -> bool) -> Bounds {
+        let object = &self.objects[object as usize];
+        let Body::Composite { tree, .. } = &object.body else { return object.bounds };
+        let of_kind = |part: &&Tree| part.leaves().into_iter().any(&kind);
+        let parts = tree.parts().into_iter().filter(of_kind).map(|part| part.bounds(&self.primitives));
+        parts.fold(Bounds::EMPTY, |all, part| all.join(&part))
     }
 
     /// The primitives of an object, in file order.

@@ -120,7 +120,7 @@ impl Subject for FastEngine {
             let mut departures = Departures::NONE;
             departures.set(0, &departure);
             let mut shafts = [shaft];
-            let lamp = Shone { at: ray.at(distance), clarity: &[], lets_through: &[] };
+            let lamp = Shone { at: ray.at(distance), clarity: &[], dark: &[], lets_through: &[] };
             engine.blocked_of(&mut shafts, &[departures], &lamp, &mut tile);
             if shafts[0].unsure & 1 == 1 {
                 return engine.blocked(&ray, departure, distance, &mut memory, &mut meter);

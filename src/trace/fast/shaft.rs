@@ -53,6 +53,8 @@ pub struct Shone<'a> {
     pub at: DVec3,
     /// By object; empty where all are opaque.
     pub clarity: &'a [Clarity],
+    /// By object, as far as it is glass and parts of it are opaque: a box around those.
+    pub dark: &'a [Bounds],
     /// By primitive: the share of the light that its material lets through.
     pub lets_through: &'a [f64],
 }

@@ -2,7 +2,7 @@
 //!
 //! Each finds what it finds alone. Where that is more than one thing in one place, it is asked of the exact engine.
 
-use crate::lattice::{Meeting, Stream, Ways};
+use crate::lattice::{Meeting, Stream, Ways, entry};
 use crate::math::{Bundle, LANES, Place, Ray, lanes, places};
 use crate::solid::{Crossing, Departure, Departures, Eight, Form, Kind, Scratch};
 use crate::stage::{Counts, Meter, Silent};
@@ -11,7 +11,7 @@ use super::Fast;
 use super::memory::TileMemory;
 use super::nearest::Nearest;
 use super::shaft::{Shaft, Shone};
-use super::tint::Clarity;
+use super::tint::{Clarity, Pane};
 
 /// No index of a primitive: there are fewer.
 const NONE: u32 = u32::MAX;
@@ -92,6 +92,7 @@ impl Asking for First<'_> {
 
 /// What stands between surfaces and a light.
 struct Blocked<'a> {
+    fast: &'a Fast<'a>,
     shafts: &'a mut [Shaft],
     lamp: &'a Shone<'a>,
     slack: f64,
@@ -111,9 +112,12 @@ impl Asking for Blocked<'_> {
         let (shaft, bit) = (&mut self.shafts[bundle], 1 << lane);
         let distance = shaft.distance.0[lane];
         match self.lamp.clarity.get(object as usize).copied() {
-            Some(clarity @ (Clarity::Clear | Clarity::Mixed)) => {
+            Some(Clarity::Clear | Clarity::Mixed) => {
                 let left = self.lamp.lets_through[crossing.primitive as usize];
-                shaft.glass(lane, (crossing.t, crossing.error), clarity, left, self.slack);
+                let dark = self.lamp.dark_of(object, self.slack);
+                let clear = dark.is_none_or(|dark| entry(&shaft.rays.ray(lane), &dark).is_none());
+                let pane = Pane { object, t: crossing.t, error: crossing.error, left, clear };
+                shaft.glass(lane, &pane, self.slack, |other| self.fast.apart(other, object));
             }
             // Where a ray leaves glass and an opaque solid together, the glass has the say.
             Some(Clarity::Opaque) if !crossing.entering && shaft.blocks(lane, crossing) => {
@@ -182,7 +186,7 @@ impl Fast<'_> {
                 }
             }
         }
-        let mut asking = Blocked { shafts, lamp, slack: self.slack };
+        let mut asking = Blocked { fast: self, shafts, lamp, slack: self.slack };
         self.ask_stream(apart, &mut asking, counts);
     }
 

@@ -152,6 +152,21 @@ impl Slopes {
         }
     }
 
+    /// Those of directions between four, if they all go forward.
+    fn between(corners: &[DVec3; 4], basis: &Basis) -> Self {
+        let mut slopes = Self::NONE;
+        for d in corners {
+            let w = d.dot(basis.axis);
+            slopes.least = slopes.least.min(w);
+            for slot in 0..2 {
+                let slope = d.dot(basis.across[slot]) / w;
+                slopes.low[slot] = slopes.low[slot].min(slope);
+                slopes.high[slot] = slopes.high[slot].max(slope);
+            }
+        }
+        slopes
+    }
+
     #[inline(always)]
     fn join(&mut self, other: &Self) {
         for slot in 0..2 {
@@ -177,8 +192,8 @@ impl Slopes {
 
 /// Planes through one point.
 #[inline(always)]
-fn through(point: DVec3, normals: Option<[DVec3; 4]>) -> [Plane; 4] {
-    let Some([a, b, c, d]) = normals else { return [Plane::NOWHERE; 4] };
+fn through(point: DVec3, normals: [DVec3; 4]) -> [Plane; 4] {
+    let [a, b, c, d] = normals;
     let plane = |normal: DVec3| Plane { normal, offset: normal.dot(point) - margin_at(normal, point) };
     [plane(a), plane(b), plane(c), plane(d)]
 }
@@ -220,7 +235,8 @@ impl Ways {
         let axis = basis.axis;
         let (at, off) = (axis.dot(apex), margin_at(axis, apex));
         Beam {
-            sides: through(apex, self.slopes.normals(basis, Spread::Together)),
+            sides: (self.slopes.normals(basis, Spread::Together))
+                .map_or([Plane::NOWHERE; 4], |normals| through(apex, normals)),
             axis,
             first: self.nearest - off,
             last: at.max(self.farthest) + off,
@@ -231,29 +247,23 @@ impl Ways {
 
 impl Beam {
     /// The beam of rays from one point, however far away, that lie between four of them. Those that come from far start
-    /// nearer, after up to `moved` of their way.
+    /// nearer, after up to `moved` of their way. The sides run along those of `basis`, unless the rays go another way.
     pub fn between(o: DVec3, corners: [DVec3; 4], moved: f64, basis: &Basis) -> Self {
-        let Basis { axis, across } = *basis;
-        let mut slopes = Slopes::NONE;
-        for d in corners {
-            let w = d.dot(axis);
-            slopes.least = slopes.least.min(w);
-            for slot in 0..2 {
-                let slope = d.dot(across[slot]) / w;
-                slopes.low[slot] = slopes.low[slot].min(slope);
-                slopes.high[slot] = slopes.high[slot].max(slope);
-            }
+        let (mut basis, mut slopes) = (*basis, Slopes::between(&corners, basis));
+        if slopes.least <= COHERENT {
+            basis = Basis::of_corners(corners);
+            slopes = Slopes::between(&corners, &basis);
         }
-        let far = margin_at(axis, o);
-        let sides = match slopes.normals(basis, Spread::Apart) {
-            Some(normals) => {
-                normals.map(|normal| Plane { normal, offset: normal.dot(o) - margin_at(normal, o) })
-            }
-            None => [Plane::NOWHERE; 4],
+        let axis = basis.axis;
+        let Some(normals) = slopes.normals(&basis, Spread::Apart) else {
+            // Some may even go backward.
+            let (sides, all) = ([Plane::NOWHERE; 4], f64::INFINITY);
+            return Self { sides, axis, first: -all, last: all, start: all };
         };
-        let at = axis.dot(o);
+        let (at, far) = (axis.dot(o), margin_at(axis, o));
         // Nothing that is met lies beyond the world.
-        Self { sides, axis, first: at - far, last: at.max(0.0) + WAY + far, start: at + moved + far }
+        let last = at.max(0.0) + WAY + far;
+        Self { sides: through(o, normals), axis, first: at - far, last, start: at + moved + far }
     }
 
     /// The beams around bundles that all go to one point, each with how far, and the beam around them all. There is none for

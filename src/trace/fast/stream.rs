@@ -49,6 +49,11 @@ struct Question {
 }
 
 impl Apart {
+    /// Memory for rays that are asked one by one.
+    pub(super) fn scratch(&mut self) -> &mut Scratch {
+        &mut self.scratch
+    }
+
     fn clear(&mut self) {
         self.stream.clear();
         self.rays.clear();
@@ -188,6 +193,7 @@ impl Fast<'_> {
         }
         let mut asking = Blocked { fast: self, shafts, lamp, slack: self.slack };
         self.ask_stream(apart, &mut asking, counts);
+        self.settle_glass(shafts, memory);
     }
 
     /// Whether a ray leaves a mesh, which has many faces: of those nothing is noted for a bundle.

@@ -1,14 +1,16 @@
 //! Glass between the lit points of a tile and one light.
 //!
 //! A glass object takes its share of the light once, however often a ray crosses its surface, and whatever else is on the
-//! way: so what a ray meets of it first is all there is to know. Where there are two on one way that are not apart, or more,
-//! the ray is asked alone.
+//! way: so what a ray meets of it first is all there is to know, as long as nothing else is crossed in the same place: the
+//! light is followed from surface to surface, and what is left behind there might be passed over. Where there are three on
+//! one way the ray is asked alone: which comes first makes a difference in the last digit.
 
 use fearless_simd::Simd;
 
 use crate::lattice::FAN;
-use crate::math::{BUNDLE, Bounds, Column, DVec3, lanes};
+use crate::math::{BUNDLE, Bounds, Column, DVec3, Ray, lanes};
 use crate::solid::{Departures, WORLD};
+use crate::stage::{Meter, Silent};
 
 use super::Fast;
 use super::memory::TileMemory;
@@ -23,8 +25,12 @@ pub struct Tint {
     pub rays: u64,
     /// What is left of their light.
     pub share: Column,
+    /// Which of them meet a second glass object, of which it is not known yet whether it is met where the first is crossed.
+    close: u64,
     /// The objects that they meet, by their numbers.
     met: [[u32; BUNDLE]; MOST],
+    /// Where the first was met, and where the farther one of two, each with how far that may be off.
+    at: [[Column; 2]; MOST],
 }
 
 /// The most glass objects of which what is left of a ray's light is known here: two numbers have one product, whichever
@@ -47,33 +53,55 @@ pub enum Clarity {
 
 impl Tint {
     /// None.
-    pub const NONE: Self = Self { rays: 0, share: Column::filled(1.0), met: [[NONE; BUNDLE]; MOST] };
+    pub const NONE: Self = Self {
+        rays: 0,
+        share: Column::filled(1.0),
+        close: 0,
+        met: [[NONE; BUNDLE]; MOST],
+        at: [[Column::filled(0.0); 2]; MOST],
+    };
 
     /// Forgets all.
     pub fn clear(&mut self) {
-        self.rays = 0;
+        (self.rays, self.close) = (0, 0);
     }
 
     /// Forgets what some rays met.
     pub(super) fn forget(&mut self, rays: u64) {
         self.rays &= !rays;
+        self.close &= !rays;
     }
 
-    /// A ray meets a glass object that leaves so much of its light. Answers whether that is certain.
-    fn add(&mut self, lane: usize, object: u32, left: f64, apart: impl Fn(u32) -> bool) -> bool {
+    /// A ray meets a glass object. Answers whether what is left of its light is certain, or will be as soon as those that are
+    /// `close` are told apart.
+    fn add(&mut self, lane: usize, pane: &Pane, slack: f64, apart: impl Fn(u32) -> bool) -> bool {
         let bit = 1 << lane;
+        let [first, farther] = &mut self.at;
         if self.rays & bit == 0 {
             self.rays |= bit;
-            self.share.0[lane] = left;
-            (self.met[0][lane], self.met[1][lane]) = (object, NONE);
+            self.share.0[lane] = pane.left;
+            (self.met[0][lane], self.met[1][lane]) = (pane.object, NONE);
+            (first[0].0[lane], first[1].0[lane]) = (pane.t, pane.error);
             return true;
         }
-        // Where one of two has a surface at which the other's is crossed again, the order tells what light is left.
-        if self.met[1][lane] != NONE || !apart(self.met[0][lane]) {
+        if self.met[1][lane] != NONE {
             return false;
         }
-        self.met[1][lane] = object;
-        self.share.0[lane] *= left;
+        self.met[1][lane] = pane.object;
+        self.share.0[lane] *= pane.left;
+        if !apart(self.met[0][lane]) {
+            let (t, error) = (first[0].0[lane], first[1].0[lane]);
+            // Seen from any surface before it, each may be off by as much again.
+            let off = 2.0 * (error + pane.error) + slack;
+            if (t - pane.t).abs() <= 2.0 * off {
+                return false;
+            }
+            if t > pane.t {
+                (self.met[0][lane], self.met[1][lane]) = (pane.object, self.met[0][lane]);
+            }
+            (farther[0].0[lane], farther[1].0[lane]) = (t.max(pane.t), off);
+            self.close |= bit;
+        }
         true
     }
 }
@@ -88,7 +116,7 @@ impl Shaft {
             return;
         }
         let certain = met.clear && met.t + off < distance;
-        if !(certain && self.tint.add(lane, met.object, met.left, apart)) {
+        if !(certain && self.tint.add(lane, met, slack, apart)) {
             self.unsure |= 1 << lane;
         }
     }
@@ -150,6 +178,27 @@ impl Fast<'_> {
             }
         }
         memory.met = met;
+    }
+
+    /// Tells apart where the rays of some shafts meet a second glass object, and where they cross the first: those of which it
+    /// is not certain are unsure.
+    pub(super) fn settle_glass(&self, shafts: &mut [Shaft], memory: &mut TileMemory) {
+        let mut meter = Meter::new(Silent);
+        for shaft in shafts {
+            let close = std::mem::take(&mut shaft.tint.close) & !(shaft.blocked | shaft.unsure);
+            for lane in lanes(close) {
+                let ray = shaft.rays.ray(lane);
+                let [_, [t, off]] = &shaft.tint.at;
+                let (t, off) = (t.0[lane], off.0[lane]);
+                // From a little before the second, the first is next crossed well behind it, if at all.
+                let ray = Ray::new(ray.at(t - off), ray.d);
+                let (first, to) = (shaft.tint.met[0][lane], 4.0 * off);
+                let next = self.exact.object(first, &ray, None, to, memory.apart.scratch(), &mut meter);
+                let is_certain = next.is_none_or(|next| next.t - next.error > 2.0 * off);
+                shaft.unsure |= u64::from(!is_certain) << lane;
+            }
+        }
+        memory.counts += meter.counts;
     }
 
     /// Whether two objects are so far apart that no crossing with one can seem to lie where one with the other does.

@@ -21,9 +21,9 @@ use super::slices::{Slices, slices};
 use super::thin::{Slabs, Thin};
 use super::walk::{Waits, asking, bounds_between, push_nearest_last, reach, wide};
 
-/// The most objects that a bundle is asked about, for each of its rays, as for shafts: where a dot holds many objects, or
-/// rays run apart, they have no company.
-const CROWD: u32 = 2;
+/// The most objects that a bundle is asked about, for each of its rays: where a dot holds many objects, or rays run apart,
+/// they have no company. Fewer than for a shaft, which ends at the first thing that it meets.
+const CROWD: u32 = 1;
 
 impl Fast<'_> {
     /// The first hits of the rays of a tile. `nearest` has as many as there are bundles. Answers which bundles may have met
@@ -267,7 +267,7 @@ impl<S: Simd> Slices for Slicing<'_, S> {
     }
 
     fn bounds(&self, from: f64, to: f64) -> Bounds {
-        bounds_between(self.simd, self.outset.rays, from, to)
+        bounds_between(self.simd, self.outset.rays, self.open, from, to)
     }
 
     fn ask(&mut self, expression: Flat, (from, to): (f64, f64), memory: &mut TileMemory) {

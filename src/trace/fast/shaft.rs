@@ -350,7 +350,7 @@ impl<S: Simd> Slices for Slicing<'_, S> {
     }
 
     fn bounds(&self, from: f64, to: f64) -> Bounds {
-        bounds_between(self.simd, &self.shaft.rays, from, to)
+        bounds_between(self.simd, &self.shaft.rays, self.open, from, to)
     }
 
     fn ask(&mut self, expression: Flat, (from, to): (f64, f64), memory: &mut TileMemory) {

@@ -3,7 +3,7 @@
 use fearless_simd::{Simd, SimdBase, f64x8};
 
 use crate::lattice::{Child, Fan, Met, Node, highest, lowest};
-use crate::math::{Bounds, Bundle, DVec3, Number, ROWS};
+use crate::math::{Bounds, Bundle, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
 use crate::solid::Form;
 
 use super::thin::{Slabs, Thin};
@@ -74,24 +74,25 @@ pub fn reach<S: Simd>(simd: S, thin: &Thin, b: &Bounds, slack: f64, passing: u64
     )
 }
 
-/// The box around the way of all rays of a bundle between two distances.
-pub fn bounds_between<S: Simd>(simd: S, bundle: &Bundle, from: f64, to: f64) -> Bounds {
+/// The box around the way of some rays of a bundle between two distances.
+pub fn bounds_between<S: Simd>(simd: S, bundle: &Bundle, rays: u64, from: f64, to: f64) -> Bounds {
     simd.vectorize(
         #[inline(always)]
         || {
             let infinite = f64x8::splat(simd, f64::INFINITY);
             let (mut lo, mut hi) = ([infinite; 3], [-infinite; 3]);
             for row in 0..ROWS {
-                if bundle.live_in(row) == 0 {
+                if (rays >> (row * LANES)) as u8 == 0 {
                     continue;
                 }
-                let rays = bundle.load(simd, row);
-                for t in [from, to] {
-                    let p = rays.at(infinite.same(t));
-                    for axis in 0..3 {
-                        lo[axis] = p.along(axis).smaller(lo[axis]);
-                        hi[axis] = p.along(axis).larger(hi[axis]);
-                    }
+                let asks = row_of(simd, rays, row);
+                let Rays { o, d } = bundle.load(simd, row);
+                for axis in 0..3 {
+                    let (o, d) = (o.along(axis), d.along(axis));
+                    // The end may be no number, where that is infinitely far and the ray does not move: then it is the start.
+                    let (start, end) = (o + d * from, o + d * to);
+                    lo[axis] = asks.choose(end.smaller(start).smaller(lo[axis]), lo[axis]);
+                    hi[axis] = asks.choose(end.larger(start).larger(hi[axis]), hi[axis]);
                 }
             }
             let (lo, hi) = (

@@ -114,6 +114,16 @@ impl Shaft {
     }
 }
 
+/// An object that may stand in the way of a light, as far as its box tells.
+struct InTheWay<S: Simd> {
+    object: u32,
+    /// None where there is no glass at all.
+    clarity: Option<Clarity>,
+    /// If it is a ball, and opaque.
+    round: Option<Round>,
+    slabs: Slabs<S>,
+}
+
 impl Fast<'_> {
     /// Finds which rays towards a light are blocked. `departures` has the surfaces that they leave. Answers how many shafts
     /// were given up, since there are too many objects between their rays.
@@ -164,9 +174,9 @@ impl Fast<'_> {
                 let slot = objects.trailing_zeros() as usize;
                 objects &= objects - 1;
                 let Some(Child::Object(object)) = node.child(slot) else { continue };
-                let clarity = lamp.clarity.get(object as usize);
-                let is_glass = matches!(clarity, Some(Clarity::Clear | Clarity::Mixed));
                 let (lo, hi) = node.corners(slot);
+                let clarity = lamp.clarity.get(object as usize).copied();
+                let is_glass = matches!(clarity, Some(Clarity::Clear | Clarity::Mixed));
                 let round = (node.round() >> slot & 1 == 1 && !is_glass).then(|| Round::of(lo, hi));
                 let met = match &round {
                     Some(round) => memory.fan.meets_ball(simd, round.center, round.outer),
@@ -177,50 +187,18 @@ impl Fast<'_> {
                     continue;
                 }
                 let slabs = Slabs::around(simd, wide(lo), wide(hi), self.slack);
+                let in_the_way = InTheWay { object, clarity, round, slabs };
                 while left != 0 {
                     let k = left.trailing_zeros() as usize;
                     left &= left - 1;
-                    let shaft = &mut shafts[k];
-                    if !memory.thin[k].is_known() {
-                        memory.thin[k].set(simd, &shaft.rays);
-                        memory.thin[k].look(
-                            #[inline(always)]
-                            |lane| shaft.distance.0[lane] + self.slack,
-                        );
-                    }
                     let Some(left_now) = left_to_ask[k].checked_sub(1) else {
                         given_up += 1;
-                        shaft.apart |= shaft.open();
+                        shafts[k].apart |= shafts[k].open();
                         open &= !(1 << k);
                         continue;
                     };
                     left_to_ask[k] = left_now;
-                    let passing = if let Some(round) = &round {
-                        let (near, inside) = memory.thin[k].ball(simd, round, self.slack, shaft.open());
-                        shaft.blocked |= inside;
-                        memory.counts.primitive_tests += u64::from(near != 0 && near == inside);
-                        near & !inside
-                    } else {
-                        memory.thin[k].passing(simd, &slabs, shaft.open())
-                    };
-                    if passing == 0 {
-                        if shaft.open() == 0 {
-                            open &= !(1 << k);
-                        }
-                        continue;
-                    }
-                    if is_glass {
-                        let about = (&departures[k], lamp);
-                        self.glass_in_shaft(simd, (object, passing), shaft, about, memory, k);
-                    } else {
-                        let before = shaft.blocked;
-                        self.object_in_shaft(simd, (object, passing), shaft, &departures[k], memory, k);
-                        if clarity.is_some() {
-                            // Where a ray leaves glass and an opaque solid together, the glass has the say.
-                            shaft.unsure |= shaft.blocked & !before & shaft.leaving;
-                            shaft.blocked &= !shaft.unsure;
-                        }
-                    }
+                    self.in_shaft(simd, &in_the_way, (&mut shafts[k], &departures[k], lamp), memory, k);
                     if shafts[k].open() == 0 {
                         open &= !(1 << k);
                     }
@@ -233,6 +211,47 @@ impl Fast<'_> {
             push_nearest_last(simd, stack, node, &met, (fan, frustums & open));
         }
         given_up
+    }
+
+    /// Asks the rays of a shaft about an object in their way.
+    #[inline(always)]
+    fn in_shaft<S: Simd>(
+        &self,
+        simd: S,
+        &InTheWay { object, clarity, ref round, ref slabs }: &InTheWay<S>,
+        (shaft, departures, lamp): (&mut Shaft, &Departures, &Shone),
+        memory: &mut TileMemory,
+        k: usize,
+    ) {
+        if !memory.thin[k].is_known() {
+            memory.thin[k].set(simd, &shaft.rays);
+            memory.thin[k].look(
+                #[inline(always)]
+                |lane| shaft.distance.0[lane] + self.slack,
+            );
+        }
+        let passing = if let Some(round) = round {
+            let (near, inside) = memory.thin[k].ball(simd, round, self.slack, shaft.open());
+            shaft.blocked |= inside;
+            memory.counts.primitive_tests += u64::from(near != 0 && near == inside);
+            near & !inside
+        } else {
+            memory.thin[k].passing(simd, slabs, shaft.open())
+        };
+        if passing == 0 {
+            return;
+        }
+        if let Some(Clarity::Clear | Clarity::Mixed) = clarity {
+            self.glass_in_shaft(simd, (object, passing), shaft, (departures, lamp), memory, k);
+            return;
+        }
+        let before = shaft.blocked;
+        self.object_in_shaft(simd, (object, passing), shaft, departures, memory, k);
+        if clarity.is_some() {
+            // Where a ray leaves glass and an opaque solid together, the glass has the say.
+            shaft.unsure |= shaft.blocked & !before & shaft.leaving;
+            shaft.blocked &= !shaft.unsure;
+        }
     }
 
     /// A ball in the way of a light.

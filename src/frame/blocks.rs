@@ -9,6 +9,7 @@ use crate::view::{Lens, Sight, Tile};
 
 use super::gather::TileDots;
 use super::points::Tracer;
+use super::spare::Spare;
 
 /// Traces tile by tile, with the fast engine.
 pub(super) struct Blocks<'a, 'b, C> {
@@ -18,6 +19,7 @@ pub(super) struct Blocks<'a, 'b, C> {
     /// To the farthest point of the world, in the assembly's unit.
     pub way: f64,
     pub samples: u32,
+    pub spare: &'a Spare,
 }
 
 /// What a worker of [`Blocks`] needs.
@@ -26,11 +28,15 @@ pub(super) struct BlocksMemory<'b, C> {
     shading: TileShading<C>,
 }
 
-impl<'b, C: Channel> Tracer<C> for Blocks<'_, 'b, C> {
+impl<'b, C: Channel + 'static> Tracer<C> for Blocks<'_, 'b, C> {
     type Memory = BlocksMemory<'b, C>;
 
     fn memory(&self) -> BlocksMemory<'b, C> {
-        BlocksMemory { alone: self.shader.memory(), shading: TileShading::default() }
+        BlocksMemory { alone: self.shader.memory(), shading: self.spare.take() }
+    }
+
+    fn give_back(&self, memory: BlocksMemory<'b, C>) {
+        self.spare.give_back(memory.shading);
     }
 
     fn tile(

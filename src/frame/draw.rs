@@ -133,14 +133,19 @@ struct Viewed<'a> {
 impl Viewed<'_> {
     /// Traces all dots, by the plan's engine. Gives what was counted, and the times of the tiles that were
     /// timed.
-    fn trace<C: Channel>(&self, structure: Structure, dots: &mut PictureDots) -> (Counts, StageTimes) {
+    fn trace<C: Channel + 'static>(
+        &self,
+        structure: Structure,
+        dots: &mut PictureDots,
+    ) -> (Counts, StageTimes) {
         let Self { studio, plan, lens, .. } = *self;
         let (scene, assembly) = (studio.scene(), &studio.assembly);
         let way = farthest(assembly.datum.inward_near(lens.eye), &assembly.limit);
         if let (EngineChoice::Fast, Structure::Boxes(boxes, subs)) = (plan.engine, structure) {
             let engine = Fast::new(assembly, boxes, subs).at_level(studio.level());
             let shader = &Shader::<_, C>::new(scene, assembly, plan, &engine);
-            let sampler = Blocks { assembly, shader, lens, way, samples: plan.samples };
+            let (samples, spare) = (plan.samples, &studio.spare);
+            let sampler = Blocks { assembly, shader, lens, way, samples, spare };
             self.trace_by(&sampler, dots)
         } else {
             let engine = Exact::new(assembly, structure);
@@ -154,8 +159,8 @@ impl Viewed<'_> {
         let bands = dots.bands();
         // Of workers that have no tile in hand. Taken anew for each tile, since rayon would make more memories
         // than it has threads.
-        let idle = Mutex::new(Vec::new());
-        let idle = || idle.lock().unwrap_or_else(PoisonError::into_inner);
+        let workers = Mutex::new(Vec::new());
+        let idle = || workers.lock().unwrap_or_else(PoisonError::into_inner);
         let drawn = tiles(size).into_par_iter().map(|tile| {
             let taken = idle().pop();
             // Behind a pointer: it is large, and handed on with every tile.
@@ -175,11 +180,15 @@ impl Viewed<'_> {
             idle().push(worker);
             measured
         });
-        drawn.reduce(Default::default, |mut all, one| {
+        let all = drawn.reduce(Default::default, |mut all, one| {
             all.0 += one.0;
             all.1 += one.1;
             all
-        })
+        });
+        for worker in idle().drain(..) {
+            tracer.give_back(worker.0);
+        }
+        all
     }
 }
 

@@ -8,6 +8,7 @@ mod kept;
 pub mod pcat;
 mod points;
 mod request;
+mod spare;
 mod studio;
 
 pub use request::{Frame, Request, Space, Wants};

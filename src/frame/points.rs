@@ -14,8 +14,11 @@ pub(super) trait Tracer<C>: Sync {
     /// Memory of one worker, used again for every tile.
     type Memory: Send;
 
-    /// New memory for a worker.
+    /// Memory for a worker.
     fn memory(&self) -> Self::Memory;
+
+    /// Takes the memory of a worker back when all is drawn.
+    fn give_back(&self, _: Self::Memory) {}
 
     /// Fills all dots of a tile.
     fn tile(

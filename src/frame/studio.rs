@@ -13,6 +13,7 @@ use crate::solid::{Assembly, AssemblyError};
 use crate::view::framed;
 
 use super::kept::Kept;
+use super::spare::Spare;
 
 /// A scene made ready: its solids are put together once, its lattice is built when a picture first wants it, and
 /// all pictures share both.
@@ -29,6 +30,7 @@ pub struct Studio {
     /// The workers of the last picture, kept while the number of threads stays the same.
     workers: Mutex<Option<Workers>>,
     pub(super) kept: Mutex<Option<Kept>>,
+    pub(super) spare: Spare,
 }
 
 type Workers = (usize, Arc<rayon::ThreadPool>);
@@ -59,6 +61,7 @@ impl Studio {
             subs: OnceLock::new(),
             workers: Mutex::new(None),
             kept: Mutex::new(None),
+            spare: Spare::default(),
         })
     }
 

@@ -115,9 +115,11 @@ impl Fast<'_> {
                         if !memory.thin[k].is_known() {
                             memory.thin[k].set(simd, bundle);
                         }
-                        let passing = match &round {
-                            Some(round) => memory.thin[k].ball(simd, round, self.slack, bundle.live).0,
-                            None => memory.thin[k].passing(simd, &slabs, bundle.live),
+                        let passing = if let Some(round) = &round {
+                            memory.thin[k].ball(simd, round, self.slack, bundle.live).0
+                        } else {
+                            memory.thin[k].set_lines(simd, bundle);
+                            memory.thin[k].passing(simd, &slabs, bundle.live)
                         };
                         if passing != 0
                             && self.object_of_bundle(simd, (object, passing), outset, nearest, memory, k)

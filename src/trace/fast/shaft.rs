@@ -236,6 +236,7 @@ impl Fast<'_> {
             memory.counts.primitive_tests += u64::from(near != 0 && near == inside);
             near & !inside
         } else {
+            memory.thin[k].set_lines(simd, &shaft.rays);
             memory.thin[k].passing(simd, slabs, shaft.open())
         };
         if passing == 0 {

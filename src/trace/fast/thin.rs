@@ -68,8 +68,9 @@ pub struct Thin {
     extent: f64,
     /// The rays that are to be asked in full, whatever they are asked about.
     odd: u64,
-    /// Whether these are the rays of a bundle, not yet forgotten.
+    /// Whether these are the rays of a bundle, not yet forgotten; and whether what boxes and bars ask for is.
     known: bool,
+    lines_known: bool,
 }
 
 /// A box as its middle and half its size, and what is lost of it.
@@ -101,6 +102,7 @@ impl Thin {
         extent: 0.0,
         odd: 0,
         known: false,
+        lines_known: false,
     };
 
     /// Whether they have been set since they were forgotten.
@@ -116,7 +118,7 @@ impl Thin {
     /// The rays of a closed bundle, which look as far as they can.
     #[inline(always)]
     pub fn set<S: Simd>(&mut self, simd: S, bundle: &Bundle) {
-        (self.extent, self.odd, self.known) = (0.0, 0, true);
+        (self.extent, self.known, self.lines_known) = (0.0, true, false);
         self.limit = [f32::INFINITY; BUNDLE];
         for axis in 0..3 {
             let base = bundle.o[axis].0[0];
@@ -124,7 +126,6 @@ impl Thin {
             for lane in 0..BUNDLE {
                 self.o[axis][lane] = (bundle.o[axis].0[lane] - base) as f32;
                 self.d[axis][lane] = bundle.d[axis].0[lane] as f32;
-                self.start[axis][lane] = bundle.o[axis].0[lane] as f32;
             }
             let mut most = f32x16::splat(simd, 0.0);
             for row in 0..THIN_ROWS {
@@ -133,7 +134,6 @@ impl Thin {
             }
             self.extent += f64::from(most.reduce_max());
         }
-        self.set_lines(simd);
     }
 
     /// The rays look no farther than this, and what is lost of it.
@@ -145,9 +145,18 @@ impl Thin {
         }
     }
 
-    /// What only boxes and bars ask for.
+    /// Makes the same rays known for what only boxes and bars ask for.
     #[inline(always)]
-    fn set_lines<S: Simd>(&mut self, simd: S) {
+    pub fn set_lines<S: Simd>(&mut self, simd: S, bundle: &Bundle) {
+        if std::mem::replace(&mut self.lines_known, true) {
+            return;
+        }
+        self.odd = 0;
+        for axis in 0..3 {
+            for lane in 0..BUNDLE {
+                self.start[axis][lane] = bundle.o[axis].0[lane] as f32;
+            }
+        }
         let (one, still) = (f32x16::splat(simd, 1.0), f32x16::splat(simd, STILL));
         let within = f32x16::splat(simd, WITHIN);
         for row in 0..THIN_ROWS {
@@ -204,10 +213,11 @@ impl Thin {
             near |= (!missed).to_bitmask() << (row * WIDTH);
             inside |= met.to_bitmask() << (row * WIDTH);
         }
-        (near & wanted, inside & wanted & !self.odd)
+        (near & wanted, inside & wanted)
     }
 
-    /// Those of some rays that may pass a box, ahead of their starts and no farther than they look; all others do not.
+    /// Those of some rays that may pass a box, ahead of their starts and no farther than they look; all others do not. As for
+    /// all that follows, the rays are [known](Self::set_lines) as lines too.
     #[inline(always)]
     pub fn passing<S: Simd>(&self, simd: S, slabs: &Slabs<S>, wanted: u64) -> u64 {
         let mut rays = 0;
@@ -350,6 +360,7 @@ mod tests {
                 let mut thin = Thin::EMPTY;
                 let (asked, inside) = dispatch!(level, simd => {
                     thin.set(simd, &bundle);
+                    thin.set_lines(simd, &bundle);
                     let slabs = Slabs::around(simd, lo, hi, 0.0);
                     let all = u64::MAX;
                     let (near, inside) = thin.ball(simd, &round, 0.0, all);
@@ -417,6 +428,7 @@ mod tests {
         let mut asked = |limit: f64| {
             dispatch!(Level::new(), simd => {
                 thin.set(simd, &bundle);
+                thin.set_lines(simd, &bundle);
                 thin.look(|_| limit);
                 thin.passing(simd, &Slabs::around(simd, lo, hi, 0.0), u64::MAX).count_ones()
             })
@@ -428,6 +440,7 @@ mod tests {
         let mut thin = Thin::EMPTY;
         let asked = dispatch!(Level::new(), simd => {
             thin.set(simd, &bundle);
+            thin.set_lines(simd, &bundle);
             thin.passing(simd, &Slabs::around(simd, lo, hi, 0.0), u64::MAX)
         });
         assert_eq!(asked >> 5 & 1, 1);

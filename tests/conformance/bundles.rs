@@ -52,7 +52,9 @@ impl FastEngine {
             }
         }
         let mut nearest = vec![Nearest::NOTHING; bundles.len()];
-        engine.first_of(&bundles, leave.then_some(&from[..]), &mut nearest, tile);
+        let from = leave.then_some(&from[..]);
+        engine.first_of(&bundles, from, &mut nearest, tile);
+        engine.first_apart(&bundles, from, &mut nearest, tile);
         let mut answer = |(place, (ray, departure)): (usize, &(Ray, Option<Departure>))| {
             let (k, lane) = (place / RAYS, place % RAYS);
             // What the exact engine says of its error holds for the same bits.

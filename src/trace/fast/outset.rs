@@ -107,3 +107,93 @@ impl Outsets<'_> {
 fn around<S: Simd>(simd: S, bundles: &[Bundle]) -> Beam {
     Beam::around(simd, bundles.iter().map(|bundle| (bundle, None)), Spread::Apart)
 }
+
+#[cfg(test)]
+mod tests {
+    use fearless_simd::{SimdBase, dispatch, f32x8};
+    use proptest::prelude::*;
+
+    use super::super::super::exact::all_moved_nearer;
+    use super::*;
+    use crate::math::{DVec3, ROWS, Size, lanes};
+    use crate::scene::{Camera, FieldSpan};
+    use crate::view::{Lens, Picture, tiles};
+
+    fn direction() -> impl Strategy<Value = DVec3> {
+        let coordinate = || prop_oneof![-1.0..1.0_f64, (-1..=1_i8).prop_map(f64::from)];
+        (coordinate(), coordinate(), coordinate())
+            .prop_map(|(x, y, z)| DVec3::new(x, y, z).normalize_or(DVec3::X))
+    }
+
+    proptest! {
+        #[test]
+        fn what_a_ray_from_the_eye_meets_its_frustums_meet_no_farther(
+            (from, look, up) in (direction(), direction(), direction()),
+            // The eye in the world, near it, or far away, with a field as wide as that, or any.
+            (exponent, wide_exponent) in (-1.0..9.0_f64, -1.0..1.0_f64),
+            any_field in prop_oneof![Just(None), (0.01..179.0_f64).prop_map(Some)],
+            (width, height) in (1..80_u32, 1..80_u32),
+            off in (-0.5..0.5_f64, -0.5..0.5_f64),
+            pick in 0..64_usize,
+        ) {
+            let distance = libm::pow(10.0, exponent);
+            let eye = from * distance;
+            let narrow = 2.0 * libm::atan(libm::pow(10.0, wide_exponent) / distance).to_degrees();
+            let field = any_field.unwrap_or(narrow).min(179.0);
+            let camera = Camera {
+                name: None, eye, target: look * 0.3, up, field: [field; 2], span: FieldSpan::Edges, zoom: 1.0,
+            };
+            prop_assume!(eye.distance(camera.target) > 1e-3);
+            let lens = Lens::new(&camera, &Picture { dots: Size::new(width, height), dot_aspect: 1.0 });
+            let all = tiles(Size::new(width, height));
+            let tile = all[pick % all.len()];
+            let sight = Sight { lens: &lens, tile, off: [off.0, off.1], eye, way: distance + 4.0 };
+            let mut bundles = vec![Bundle::EMPTY; sight.blocks()];
+            let level = Level::new();
+            for (k, bundle) in bundles.iter_mut().enumerate() {
+                sight.rays(k, level, bundle);
+                dispatch!(level, simd => for row in 0..ROWS {
+                    let (near, _) = all_moved_nearer(&bundle.load(simd, row));
+                    bundle.o.store(row, near.o);
+                });
+            }
+            let mut unmade = bundles.clone();
+            let mut make = |_: usize, _: &mut Bundle| {};
+            let outsets = Outsets::Seen { sight: &sight, bundles: &mut unmade, make: &mut make };
+            let (mut beams, mut fan) = (Vec::new(), Fan::default());
+            let whole = dispatch!(level, simd => {
+                outsets.spread(simd, level, (&mut beams, &mut fan));
+                outsets.whole(simd)
+            });
+            for (k, bundle) in bundles.iter().enumerate() {
+                for lane in lanes(bundle.live) {
+                    let ray = bundle.ray(lane);
+                    for t in [0.0, 0.3, 2.0, 3.5, 5.0, 8.0] {
+                        let p = ray.at(t);
+                        if p.abs().max_element() > 2.0 {
+                            continue;
+                        }
+                        // As boxes are: rounded outward, and a little more.
+                        let lo = [p.x, p.y, p.z].map(|x| (x - 1e-6) as f32);
+                        let hi = [p.x, p.y, p.z].map(|x| (x + 1e-6) as f32);
+                        let (met, near) = dispatch!(level, simd => {
+                            let eight = |x: [f32; 3]| x.map(|x| f32x8::splat(simd, x));
+                            let met = whole.meets_boxes(simd, &eight(lo), &eight(hi));
+                            let near: [f32; 8] = met.near.into();
+                            (met.boxes, near[0])
+                        });
+                        prop_assert_eq!(met & 1, 1, "block {} lane {} at {}", k, lane, t);
+                        prop_assert!(f64::from(near) <= t, "{} {}", near, t);
+                        let met = dispatch!(level, simd => fan.meets(simd, lo, hi));
+                        prop_assert_eq!(met.frustums >> k & 1, 1, "block {} lane {} at {}", k, lane, t);
+                        prop_assert!(f64::from(met.near[k]) <= t, "{} {}", met.near[k], t);
+                        let center = [p.x, p.y, p.z].map(|x| x as f32);
+                        let met = dispatch!(level, simd => fan.meets_ball(simd, center, 1e-6));
+                        prop_assert_eq!(met.frustums >> k & 1, 1, "block {} lane {} at {}", k, lane, t);
+                        prop_assert!(f64::from(met.near[k]) <= t, "{} {}", met.near[k], t);
+                    }
+                }
+            }
+        }
+    }
+}

@@ -238,7 +238,8 @@ impl Ways {
             sides: (self.slopes.normals(basis, Spread::Together))
                 .map_or([Plane::NOWHERE; 4], |normals| through(apex, normals)),
             axis,
-            first: self.nearest - off,
+            // Some may go backward.
+            first: at.min(self.nearest) - off,
             last: at.max(self.farthest) + off,
             start: self.farthest + off,
         }

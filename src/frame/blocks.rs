@@ -83,7 +83,7 @@ impl<'b, C: Channel + 'static> Tracer<C> for Blocks<'_, 'b, C> {
     }
 }
 
-/// Copies as many as there is place for: mostly all, which is then known when this is compiled.
+/// Copies as many as there is place for: mostly all, of which the compiler then knows the number.
 #[inline(always)]
 fn copy_row<C: Channel>(row: [C; LANES], to: &mut [C]) {
     match <&mut [C; LANES]>::try_from(&mut *to) {

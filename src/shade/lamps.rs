@@ -1,7 +1,7 @@
 //! The light that the surfaces of one generation send back of themselves: their lit points ask for one lamp after the
 //! other, so that the rays towards it run side by side.
 
-use crate::math::{Column, Place, places};
+use crate::math::{Column, places};
 use crate::stage::{Meter, Probe, Stage};
 use crate::trace::{Fast, Shaft, Shone};
 
@@ -99,9 +99,8 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
             let mut dimmed = false;
             if self.shadows {
                 let blocked = asked & shaft.blocked;
-                let sure = shaft.tint.rays & !self.leaving_surfaces(wave, k, shaft.tint.rays);
-                let alone = asked & !blocked & (shaft.unsure | shaft.tint.rays & !sure);
-                let tinted = asked & !blocked & !alone & sure;
+                let alone = asked & !blocked & shaft.unsure;
+                let tinted = asked & !blocked & !alone & shaft.tint.rays;
                 meter.counts.shadow_rays += u64::from((asked & !alone).count_ones());
                 meter.counts.shadow_hits += u64::from((blocked | tinted).count_ones());
                 reached &= !blocked;
@@ -129,13 +128,6 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
                 lit[k].visible = Column::filled(1.0);
             }
         }
-    }
-
-    /// Which of some rays of a bundle met a surface that bounds no solid. Beyond glass such a surface may seem to lie ahead
-    /// of a ray that left it: how far it may be off its place knows no bound, and is not asked about any more.
-    fn leaving_surfaces(&self, wave: &Wave<C>, k: usize, rays: u64) -> u64 {
-        let met = |at: &Place| self.is_surface(wave.nearest[k].primitive.0[at.lane] as u32);
-        places(k, rays).filter(met).fold(0, |rays, at| rays | 1 << at.lane)
     }
 
     /// The rays of a bundle that met a material of some kind.

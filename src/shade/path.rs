@@ -87,15 +87,14 @@ impl Onward {
 impl<E: Engine, C: Channel> Shader<'_, E, C> {
     /// Of a glass surface and opaque solids that begin in the same place, the opaque shows: behind the glass there
     /// is nothing that a ray could go on through. To be asked before the memory is used again.
-    /// `kt` is what a material lets through.
-    pub(super) fn shown(&self, hit: Hit, kt: impl Fn(&Finish<C>) -> f64, memory: &Memory<E>) -> Hit {
+    pub(super) fn shown(&self, hit: Hit, memory: &Memory<E>) -> Hit {
         let together = self.engine.together(&memory.engine);
-        if together.len() < 2 || kt(self.finish(&hit)) == 0.0 {
+        if together.len() < 2 || self.finish(&hit).kt == 0.0 {
             return hit;
         }
         // A surface that bounds no solid shows on both sides.
         let opaque = together.iter().filter(|(_, c)| {
-            kt(self.finish_of(c.primitive)) == 0.0 && (c.entering || self.is_surface(c.primitive))
+            self.finish_of(c.primitive).kt == 0.0 && (c.entering || self.is_surface(c.primitive))
         });
         opaque.min_by_key(|(object, _)| *object).map_or(hit, |&(object, c)| Hit {
             object,

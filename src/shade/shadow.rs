@@ -1,9 +1,9 @@
 //! Rays towards the lights.
 
 use crate::math::Ray;
-use crate::solid::Departure;
+use crate::solid::{Crossing, Departure};
 use crate::stage::{Meter, Probe, Stage};
-use crate::trace::Engine;
+use crate::trace::{Clarity, Engine, Hit};
 
 use super::channel::Channel;
 use super::surface::{Memory, Shader};
@@ -31,8 +31,11 @@ impl<E: Engine, C: Channel> Shader<'_, E, C> {
         share.unwrap_or(1.0)
     }
 
-    /// The product of `kt` over the glass objects before `distance`, each counted once however often its surface is
-    /// crossed; 0 behind an opaque surface; `None` where there is nothing at all.
+    /// The product of `kt` over the glass objects before `distance`, in the order of their numbers; 0 where anything opaque is
+    /// met before it; `None` where there is nothing at all.
+    ///
+    /// Each object is asked for itself what the ray first meets of it: so it makes no difference which of two surfaces in one
+    /// place comes first.
     fn transmittance(
         &self,
         ray: &Ray,
@@ -41,30 +44,56 @@ impl<E: Engine, C: Channel> Shader<'_, E, C> {
         memory: &mut Memory<E>,
         meter: &mut Meter<impl Probe>,
     ) -> Option<f64> {
-        memory.crossed.clear();
-        let (mut leg, mut departure, mut way, mut share) = (*ray, departure, 0.0, None);
-        while let Some(hit) = self.engine.next(&leg, departure, &mut memory.engine, meter) {
-            let t = way + hit.t;
-            if t + hit.error >= distance {
-                break;
+        let Memory { engine, crossed, .. } = memory;
+        crossed.clear();
+        let kt = |crossing: &Crossing| self.lets_through[crossing.primitive as usize];
+        let visit = &mut |object, crossing: &Crossing| {
+            let is_before = crossing.is_before(distance);
+            if is_before && kt(crossing) > 0.0 {
+                crossed.push((object, *crossing));
             }
-            let hit = self.shown(hit, |finish| finish.lets_through, memory);
-            let kt = self.finish(&hit).lets_through;
-            if kt == 0.0 {
+            is_before && kt(crossing) == 0.0
+        };
+        if self.engine.meets(ray, departure, distance, engine, meter, visit) {
+            return Some(0.0);
+        }
+        crossed.sort_unstable_by_key(|&(object, _)| object);
+        let mut share = None;
+        for (object, first) in crossed {
+            let is_mixed = self.clarity[*object as usize] == Clarity::Mixed;
+            if is_mixed && self.goes_dark(ray, (*object, first), distance, engine, meter) {
                 return Some(0.0);
             }
-            if !memory.crossed.contains(&hit.object) {
-                memory.crossed.push(hit.object);
-                share = Some(share.unwrap_or(1.0) * kt);
-            }
-            // A step so short that rounding takes it away would be made for ever.
-            if t <= way {
-                break;
-            }
-            way = t;
-            leg.o = ray.at(way);
-            departure = self.departure(&hit, leg.o, ray.d);
+            share = Some(share.unwrap_or(1.0) * kt(first));
         }
         share
+    }
+
+    /// Whether a ray meets an opaque surface of an object before `distance`, behind a first one that is glass.
+    fn goes_dark(
+        &self,
+        ray: &Ray,
+        (object, first): (u32, &Crossing),
+        distance: f64,
+        memory: &mut E::Memory,
+        meter: &mut Meter<impl Probe>,
+    ) -> bool {
+        let (mut way, mut crossing) = (first.t, *first);
+        loop {
+            let p = ray.at(way);
+            let Crossing { primitive, surface, entering, .. } = crossing;
+            let hit = Hit { t: way, error: 0.0, p, object, primitive, surface, entering };
+            let (leg, departure) = (Ray::new(p, ray.d), self.departure(&hit, p, ray.d));
+            let left = distance - way;
+            let next = self.engine.of_object(object, &leg, departure, left, memory, meter);
+            // A step so short that rounding takes it away would be made for ever.
+            let Some(next) = next.filter(|next| next.is_before(left) && way + next.t > way) else {
+                return false;
+            };
+            if self.lets_through[next.primitive as usize] == 0.0 {
+                return true;
+            }
+            (way, crossing) = (way + next.t, next);
+        }
     }
 }

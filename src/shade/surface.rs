@@ -3,7 +3,7 @@
 use crate::math::{Bounds, DVec3, Ray};
 use crate::plan::Plan;
 use crate::scene::Scene;
-use crate::solid::{Assembly, Departure, Form};
+use crate::solid::{Assembly, Crossing, Departure, Form};
 use crate::stage::{Meter, Probe, Stage};
 use crate::trace::{Clarity, Engine, Hit};
 use crate::view::settled;
@@ -34,7 +34,7 @@ pub struct Shader<'a, E, C> {
     pub(super) glass: bool,
     /// By object; empty where light comes through nothing.
     pub(super) clarity: Vec<Clarity>,
-    /// By object, as far as parts of it are opaque: a box around those; empty where light comes through nothing.
+    /// By object: a box around its opaque parts where others are glass; empty where light comes through nothing.
     pub(super) dark: Vec<Bounds>,
     /// By primitive: the share of light that its material lets through; empty where none does.
     pub(super) lets_through: Vec<f64>,
@@ -50,7 +50,7 @@ pub struct Memory<E: Engine> {
     pub(super) engine: E::Memory,
     pub(super) media: Media,
     /// The glass objects that the present shadow ray has gone through.
-    pub(super) crossed: Vec<u32>,
+    pub(super) crossed: Vec<(u32, Crossing)>,
 }
 
 /// A material, ready for the channels and the terms that are computed: the shares of all others are 0.
@@ -63,8 +63,6 @@ pub(super) struct Finish<C> {
     pub kr: f64,
     pub kt: f64,
     pub index: f64,
-    /// The material's own `kt`: shadows are a switch of their own, and glass is glass to them by every model.
-    pub lets_through: f64,
 }
 
 /// A surface that a ray met, and how it lies to the ray.
@@ -135,7 +133,6 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
             kr: if_planned(plan.secondary.is_some(), m.kr),
             kt: if_planned(plan.secondary.is_some(), m.kt),
             index: m.index,
-            lets_through: m.kt,
         });
         let lamps = plan
             .lamps
@@ -150,7 +147,10 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
                 _ => Clarity::Mixed,
             }
         };
-        let dark = |object: u32| assembly.bounds_of(object, |primitive| kt(primitive) == 0.0);
+        let dark = |object: u32| match clarity(object) {
+            Clarity::Mixed => assembly.bounds_of(object, |primitive| kt(primitive) == 0.0),
+            Clarity::Opaque | Clarity::Clear => Bounds::EMPTY,
+        };
         let if_glass = |count: usize| if plan.glass { count as u32 } else { 0 };
         let secondary = plan.secondary.as_ref();
         let around_eye = secondary.iter().flat_map(|s| &s.around_eye);
@@ -195,7 +195,7 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
 
     /// The surface of the last hit.
     pub(super) fn met(&self, ray: &Ray, hit: Hit, memory: &Memory<E>) -> Met {
-        let hit = self.shown(hit, |finish| finish.kt, memory);
+        let hit = self.shown(hit, memory);
         let normal = self.assembly.turned_normal(hit.primitive, hit.surface, hit.p, ray.d);
         Met { hit, p: hit.p, normal }
     }

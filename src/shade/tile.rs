@@ -2,8 +2,7 @@
 //!
 //! All rays of one generation are traced before any is shaded ([`super::lamps`]); then those that are sent on
 //! ([`super::sends`]) are the next generation. When there are no more, the light that arrives goes the same way back. Only
-//! where a ray must tell two surfaces in one place apart, it goes
-//! its way alone.
+//! where a ray must tell two surfaces in one place apart, it goes its way alone.
 
 use std::ops::Range;
 

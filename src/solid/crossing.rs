@@ -34,6 +34,14 @@ pub struct Crossing {
     pub entering: bool,
 }
 
+impl Crossing {
+    /// Whether it lies before a light, however it may be off.
+    #[inline]
+    pub fn is_before(&self, distance: f64) -> bool {
+        self.t + self.error < distance
+    }
+}
+
 /// One crossing of one primitive.
 #[derive(Clone, Copy, Debug)]
 struct Event {

@@ -226,29 +226,29 @@ impl Engine for Exact<'_> {
         &memory.nearest
     }
 
-    fn blocked(
+    fn meets(
         &self,
         ray: &Ray,
         departure: Departure,
         distance: f64,
         memory: &mut Memory,
         meter: &mut Meter<impl Probe>,
+        visit: &mut dyn FnMut(u32, &Crossing) -> bool,
     ) -> bool {
-        let blocks = |c: Crossing| c.t + c.error < distance;
+        let mut test = |object: u32, memory: &mut Memory, meter: &mut Meter<_>| {
+            let crossing = self.object(object, ray, Some(departure), distance, &mut memory.scratch, meter);
+            crossing.is_some_and(|crossing| visit(object, &crossing))
+        };
         if let Structure::None = self.structure {
-            return (0..self.assembly.objects.len() as u32).any(|object| {
-                self.object(object, ray, Some(departure), distance, &mut memory.scratch, meter)
-                    .is_some_and(blocks)
-            });
+            return (0..self.assembly.objects.len() as u32).any(|object| test(object, memory, meter));
         }
         meter.at(Stage::Cell);
         let mut visited = 0;
         if let Structure::Boxes(boxes, _) = self.structure {
             let found = boxes.any(ray, distance, &mut visited, |object| {
-                let crossing =
-                    self.object(object, ray, Some(departure), distance, &mut memory.scratch, meter);
+                let found = test(object, memory, meter);
                 meter.at(Stage::Cell);
-                crossing.is_some_and(blocks)
+                found
             });
             meter.counts.cells_visited += visited;
             return found;
@@ -257,10 +257,9 @@ impl Engine for Exact<'_> {
         let found = self.structure.walk(ray, 0.0, distance, &mut visited, |objects, _| {
             for &object in objects {
                 if memory.first_time(object) {
-                    let crossing =
-                        self.object(object, ray, Some(departure), distance, &mut memory.scratch, meter);
+                    let found = test(object, memory, meter);
                     meter.at(Stage::Cell);
-                    if crossing.is_some_and(blocks) {
+                    if found {
                         return ControlFlow::Break(());
                     }
                 }
@@ -269,6 +268,18 @@ impl Engine for Exact<'_> {
         });
         meter.counts.cells_visited += visited;
         found.is_some()
+    }
+
+    fn of_object(
+        &self,
+        object: u32,
+        ray: &Ray,
+        departure: Departure,
+        distance: f64,
+        memory: &mut Memory,
+        meter: &mut Meter<impl Probe>,
+    ) -> Option<Crossing> {
+        self.object(object, ray, Some(departure), distance, &mut memory.scratch, meter)
     }
 }
 

@@ -63,6 +63,29 @@ pub trait Engine {
     /// is one of them. To be asked before the memory is used for another ray: empty if the last one met nothing.
     fn together<'m>(&self, memory: &'m Self::Memory) -> &'m [(u32, Crossing)];
 
+    /// Calls `visit` with what a ray that leaves a surface first meets of each object in its way, as far as that may lie before
+    /// `distance`, in no order, until it says yes. Answers whether it did.
+    fn meets(
+        &self,
+        ray: &Ray,
+        departure: Departure,
+        distance: f64,
+        memory: &mut Self::Memory,
+        meter: &mut Meter<impl Probe>,
+        visit: &mut dyn FnMut(u32, &Crossing) -> bool,
+    ) -> bool;
+
+    /// What a ray that leaves a surface first meets of one object, as far as that may lie before `distance`.
+    fn of_object(
+        &self,
+        object: u32,
+        ray: &Ray,
+        departure: Departure,
+        distance: f64,
+        memory: &mut Self::Memory,
+        meter: &mut Meter<impl Probe>,
+    ) -> Option<Crossing>;
+
     /// Whether anything stands between a surface and a light at `distance`.
     fn blocked(
         &self,
@@ -71,5 +94,8 @@ pub trait Engine {
         distance: f64,
         memory: &mut Self::Memory,
         meter: &mut Meter<impl Probe>,
-    ) -> bool;
+    ) -> bool {
+        let blocks = &mut |_, crossing: &Crossing| crossing.is_before(distance);
+        self.meets(ray, departure, distance, memory, meter, blocks)
+    }
 }

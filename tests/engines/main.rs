@@ -3,6 +3,7 @@
 #[path = "../anything/mod.rs"]
 mod anything;
 mod glass;
+mod lamps;
 mod random;
 mod range;
 #[path = "../request/mod.rs"]

@@ -30,7 +30,8 @@ impl Round {
         Self {
             center: [0, 1, 2].map(|axis| 0.5 * lo[axis] + 0.5 * hi[axis]),
             outer: widest,
-            // The box is moved outward by one of them, and by what is less; twice that, and once more for its rounding.
+            // The sides are moved outward by a margin, by the slack, which is mostly far less, and by a rounding: `holds`
+            // tells whether three are enough.
             inner: least - 3.0 * MARGIN as f32,
         }
     }

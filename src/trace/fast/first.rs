@@ -27,8 +27,8 @@ const CROWD: u32 = 1;
 
 impl Fast<'_> {
     /// The first hits of the rays of a tile. `nearest` has as many as there are bundles. Answers which bundles may have met
-    /// anything, and how many were given up. Of those that were still to be made the others are not, nor are their hits
-    /// forgotten.
+    /// anything, and how many were given up. Of those that were still to be made the others are not: that none of their rays
+    /// is unsure or without company is all that is known of them.
     #[inline(always)]
     pub(super) fn first_of_tile<S: Simd>(
         &self,

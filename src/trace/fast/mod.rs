@@ -208,14 +208,27 @@ impl Engine for Fast<'_> {
         self.exact.together(memory)
     }
 
-    fn blocked(
+    fn meets(
         &self,
         ray: &Ray,
         departure: Departure,
         distance: f64,
         memory: &mut Memory,
         meter: &mut Meter<impl Probe>,
+        visit: &mut dyn FnMut(u32, &Crossing) -> bool,
     ) -> bool {
-        self.exact.blocked(ray, departure, distance, memory, meter)
+        self.exact.meets(ray, departure, distance, memory, meter, visit)
+    }
+
+    fn of_object(
+        &self,
+        object: u32,
+        ray: &Ray,
+        departure: Departure,
+        distance: f64,
+        memory: &mut Memory,
+        meter: &mut Meter<impl Probe>,
+    ) -> Option<Crossing> {
+        self.exact.of_object(object, ray, departure, distance, memory, meter)
     }
 }

@@ -38,8 +38,6 @@ pub struct Shaft {
     pub blocked: u64,
     /// What glass does to the rays that are not blocked.
     pub tint: Tint,
-    /// Which of the blocked started inside of what blocks them.
-    pub leaving: u64,
     /// Which are to be asked one by one.
     pub unsure: u64,
     /// Which have no company, and are to be asked in a stream.
@@ -66,7 +64,6 @@ impl Shaft {
         distance: Column::filled(0.0),
         blocked: 0,
         tint: Tint::NONE,
-        leaving: 0,
         unsure: 0,
         apart: 0,
     };
@@ -74,7 +71,7 @@ impl Shaft {
     /// No ray asks, and nothing is known.
     pub fn clear(&mut self) {
         self.rays.live = 0;
-        (self.blocked, self.leaving, self.unsure, self.apart) = (0, 0, 0, 0);
+        (self.blocked, self.unsure, self.apart) = (0, 0, 0);
         self.tint.clear();
     }
 
@@ -101,7 +98,7 @@ impl Shaft {
     /// Whether a crossing lies before the light.
     #[inline]
     pub(super) fn blocks(&self, lane: usize, crossing: &Crossing) -> bool {
-        crossing.t + crossing.error < self.distance.0[lane]
+        crossing.is_before(self.distance.0[lane])
     }
 
     /// Notes the rays that meet something before they reach the light.
@@ -109,7 +106,6 @@ impl Shaft {
         for lane in lanes(found.any) {
             let blocks = found.t.0[lane] + found.error.0[lane] < self.distance.0[lane];
             self.blocked |= u64::from(blocks) << lane;
-            self.leaving |= u64::from(blocks) << lane & !found.entering;
         }
     }
 }
@@ -246,13 +242,7 @@ impl Fast<'_> {
             self.glass_in_shaft(simd, (object, passing), shaft, (departures, lamp), memory, k);
             return;
         }
-        let before = shaft.blocked;
         self.object_in_shaft(simd, (object, passing), shaft, departures, memory, k);
-        if clarity.is_some() {
-            // Where a ray leaves glass and an opaque solid together, the glass has the say.
-            shaft.unsure |= shaft.blocked & !before & shaft.leaving;
-            shaft.blocked &= !shaft.unsure;
-        }
     }
 
     /// A ball in the way of a light.
@@ -290,10 +280,8 @@ impl Fast<'_> {
             if (met & !sure & !beside).any() {
                 let inward = mask64x8::from_bitmask(simd, departures.inward >> (row * LANES) & 0xFF);
                 let off = Some(departures.off.load(simd, row));
-                let Firsts { end, any, entering } =
-                    firsts_of_spans(spans, form, &Starts { here, inward, off });
+                let Firsts { end, any, .. } = firsts_of_spans(spans, form, &Starts { here, inward, off });
                 blocked = any & (end.t + end.error).is_below(distance);
-                shaft.leaving |= (u64::from((blocked & !entering).bits()) << (row * LANES)) & near;
             }
             shaft.blocked |= (u64::from(blocked.bits()) << (row * LANES)) & near;
         }
@@ -415,9 +403,8 @@ fn single<S: Simd>(
             let here = departures.primitive.load(simd, row).is_equal(f64x8::splat(simd, f64::from(index)));
             let off = Some(departures.off.load(simd, row));
             let starts = Starts { here, inward: row_of(simd, departures.inward, row), off };
-            let Firsts { end, any, entering } = firsts_of_spans(spans, form, &starts);
+            let Firsts { end, any, .. } = firsts_of_spans(spans, form, &starts);
             let blocked = any & (end.t + end.error).is_below(shaft.distance.load(simd, row));
-            shaft.leaving |= u64::from((blocked & !entering).bits()) << (row * LANES) & wanted;
             shaft.blocked |= u64::from(blocked.bits()) << (row * LANES) & wanted;
         }
     }

@@ -11,7 +11,7 @@ use super::Fast;
 use super::memory::TileMemory;
 use super::nearest::Nearest;
 use super::shaft::{Shaft, Shone};
-use super::tint::{Clarity, Pane};
+use super::tint::{Clarity, End};
 
 /// No index of a primitive: there are fewer.
 const NONE: u32 = u32::MAX;
@@ -49,11 +49,6 @@ struct Question {
 }
 
 impl Apart {
-    /// Memory for rays that are asked one by one.
-    pub(super) fn scratch(&mut self) -> &mut Scratch {
-        &mut self.scratch
-    }
-
     fn clear(&mut self) {
         self.stream.clear();
         self.rays.clear();
@@ -97,7 +92,6 @@ impl Asking for First<'_> {
 
 /// What stands between surfaces and a light.
 struct Blocked<'a> {
-    fast: &'a Fast<'a>,
     shafts: &'a mut [Shaft],
     lamp: &'a Shone<'a>,
     slack: f64,
@@ -105,11 +99,8 @@ struct Blocked<'a> {
 
 impl Asking for Blocked<'_> {
     #[inline]
-    fn to(&self, Place { bundle, lane }: Place, object: u32) -> f64 {
-        match self.lamp.clarity.get(object as usize) {
-            Some(Clarity::Clear | Clarity::Mixed) => f64::INFINITY,
-            _ => self.shafts[bundle].distance.0[lane],
-        }
+    fn to(&self, Place { bundle, lane }: Place, _: u32) -> f64 {
+        self.shafts[bundle].distance.0[lane]
     }
 
     #[inline]
@@ -121,12 +112,7 @@ impl Asking for Blocked<'_> {
                 let left = self.lamp.lets_through[crossing.primitive as usize];
                 let dark = self.lamp.dark_of(object, self.slack);
                 let clear = dark.is_none_or(|dark| entry(&shaft.rays.ray(lane), &dark).is_none());
-                let pane = Pane { object, t: crossing.t, error: crossing.error, left, clear };
-                shaft.glass(lane, &pane, self.slack, |other| self.fast.apart(other, object));
-            }
-            // Where a ray leaves glass and an opaque solid together, the glass has the say.
-            Some(Clarity::Opaque) if !crossing.entering && shaft.blocks(lane, crossing) => {
-                shaft.unsure |= bit;
+                shaft.glass(lane, End { t: crossing.t, error: crossing.error }, clear, left);
             }
             _ if shaft.blocks(lane, crossing) => shaft.blocked |= bit,
             _ => {}
@@ -191,9 +177,8 @@ impl Fast<'_> {
                 }
             }
         }
-        let mut asking = Blocked { fast: self, shafts, lamp, slack: self.slack };
+        let mut asking = Blocked { shafts, lamp, slack: self.slack };
         self.ask_stream(apart, &mut asking, counts);
-        self.settle_glass(shafts, memory);
     }
 
     /// Whether a ray leaves a mesh, which has many faces: of those nothing is noted for a bundle.

@@ -1,16 +1,14 @@
 //! Glass between the lit points of a tile and one light.
 //!
 //! A glass object takes its share of the light once, however often a ray crosses its surface, and whatever else is on the
-//! way: so what a ray meets of it first is all there is to know, as long as nothing else is crossed in the same place: the
-//! light is followed from surface to surface, and what is left behind there might be passed over. Where there are three on
-//! one way the ray is asked alone: which comes first makes a difference in the last digit.
+//! way: so what a ray meets of it first is all there is to know. A ray through three of them is asked alone: the last digit of
+//! their product is that of the order of their numbers.
 
 use fearless_simd::Simd;
 
 use crate::lattice::FAN;
-use crate::math::{BUNDLE, Bounds, Column, DVec3, Ray, lanes};
-use crate::solid::{Departures, WORLD};
-use crate::stage::{Meter, Silent};
+use crate::math::{Bounds, Column, DVec3, lanes};
+use crate::solid::Departures;
 
 use super::Fast;
 use super::memory::TileMemory;
@@ -25,20 +23,9 @@ pub struct Tint {
     pub rays: u64,
     /// What is left of their light.
     pub share: Column,
-    /// Which of them meet a second glass object, of which it is not known yet whether it is met where the first is crossed.
-    close: u64,
-    /// The objects that they meet, by their numbers.
-    met: [[u32; BUNDLE]; MOST],
-    /// Where the first was met, and where the farther one of two, each with how far that may be off.
-    at: [[Column; 2]; MOST],
+    /// Which of them meet two glass objects.
+    two: u64,
 }
-
-/// The most glass objects of which what is left of a ray's light is known here: two numbers have one product, whichever
-/// comes first, and three have not.
-const MOST: usize = 2;
-
-/// No object: there are fewer.
-const NONE: u32 = u32::MAX;
 
 /// How an object treats light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,88 +40,54 @@ pub enum Clarity {
 
 impl Tint {
     /// None.
-    pub const NONE: Self = Self {
-        rays: 0,
-        share: Column::filled(1.0),
-        close: 0,
-        met: [[NONE; BUNDLE]; MOST],
-        at: [[Column::filled(0.0); 2]; MOST],
-    };
+    pub const NONE: Self = Self { rays: 0, share: Column::filled(1.0), two: 0 };
 
     /// Forgets all.
     pub fn clear(&mut self) {
-        (self.rays, self.close) = (0, 0);
+        (self.rays, self.two) = (0, 0);
     }
 
     /// Forgets what some rays met.
     pub(super) fn forget(&mut self, rays: u64) {
         self.rays &= !rays;
-        self.close &= !rays;
+        self.two &= !rays;
     }
 
-    /// A ray meets a glass object. Answers whether what is left of its light is certain, or will be as soon as those that are
-    /// `close` are told apart.
-    fn add(&mut self, lane: usize, pane: &Pane, slack: f64, apart: impl Fn(u32) -> bool) -> bool {
+    /// A ray meets a glass object that leaves so much of its light. Answers whether what is left is certain.
+    fn add(&mut self, lane: usize, left: f64) -> bool {
         let bit = 1 << lane;
-        let [first, farther] = &mut self.at;
         if self.rays & bit == 0 {
             self.rays |= bit;
-            self.share.0[lane] = pane.left;
-            (self.met[0][lane], self.met[1][lane]) = (pane.object, NONE);
-            (first[0].0[lane], first[1].0[lane]) = (pane.t, pane.error);
+            self.share.0[lane] = left;
             return true;
         }
-        if self.met[1][lane] != NONE {
-            return false;
-        }
-        self.met[1][lane] = pane.object;
-        self.share.0[lane] *= pane.left;
-        if !apart(self.met[0][lane]) {
-            let (t, error) = (first[0].0[lane], first[1].0[lane]);
-            // Seen from any surface before it, each may be off by as much again.
-            let off = 2.0 * (error + pane.error) + slack;
-            if (t - pane.t).abs() <= 2.0 * off {
-                return false;
-            }
-            if t > pane.t {
-                (self.met[0][lane], self.met[1][lane]) = (pane.object, self.met[0][lane]);
-            }
-            (farther[0].0[lane], farther[1].0[lane]) = (t.max(pane.t), off);
-            self.close |= bit;
-        }
-        true
+        let is_second = self.two & bit == 0;
+        self.two |= bit;
+        self.share.0[lane] *= left;
+        is_second
     }
 }
 
 impl Shaft {
-    /// A ray first meets a glass object at a distance that may be off by `error`, and this is left of its light there.
-    pub(super) fn glass(&mut self, lane: usize, met: &Pane, slack: f64, apart: impl Fn(u32) -> bool) {
-        let distance = self.distance.0[lane];
-        // Seen from the glass before it, both may be off by as much again.
-        let off = 2.0 * met.error + slack;
-        if met.t - off > distance {
-            return;
-        }
-        let certain = met.clear && met.t + off < distance;
-        if !(certain && self.tint.add(lane, met, slack, apart)) {
+    /// A ray first meets a glass object there, which leaves so much of its light. `clear`: it meets nothing of it that is
+    /// opaque.
+    pub(super) fn glass(&mut self, lane: usize, crossing: End, clear: bool, left: f64) {
+        if crossing.t + crossing.error < self.distance.0[lane] && !(clear && self.tint.add(lane, left)) {
             self.unsure |= 1 << lane;
         }
     }
 }
 
-/// What a ray meets first of a glass object.
-pub(super) struct Pane {
-    pub object: u32,
+/// Where a crossing is, and how far that may be off.
+#[derive(Clone, Copy)]
+pub(super) struct End {
     pub t: f64,
     pub error: f64,
-    /// What is left of the ray's light.
-    pub left: f64,
-    /// The ray meets nothing of the object that is opaque.
-    pub clear: bool,
 }
 
 impl Shone<'_> {
-    /// A box around what is opaque of a glass object, if anything is; no surface of that is farther outside than `slack`.
+    /// A box around what is opaque of a glass object, if anything is, and `slack` around it: no surface of that seems to lie
+    /// farther outside.
     pub(super) fn dark_of(&self, object: u32, slack: f64) -> Option<Bounds> {
         let is_mixed = self.clarity.get(object as usize) == Some(&Clarity::Mixed);
         is_mixed.then(|| self.dark[object as usize].padded(DVec3::splat(slack)))
@@ -164,50 +117,18 @@ impl Fast<'_> {
                 let thin = &memory.thin[k];
                 simd.vectorize(
                     #[inline(always)]
-                    || thin.passing(simd, &Slabs::around(simd, lo, hi, self.slack), shaft.open()),
+                    || thin.passing(simd, &Slabs::around(simd, lo, hi, 0.0), shaft.open()),
                 )
             }
             None => 0,
         };
         for lane in lanes(shaft.open()) {
-            let (t, error) = (met.t.0[lane], met.error.0[lane]);
-            if t < f64::INFINITY {
+            let end = End { t: met.t.0[lane], error: met.error.0[lane] };
+            if end.t < f64::INFINITY {
                 let left = lamp.lets_through[met.primitive.0[lane] as usize];
-                let pane = Pane { object: about.0, t, error, left, clear: dark >> lane & 1 == 0 };
-                shaft.glass(lane, &pane, self.slack, |other| self.apart(other, about.0));
+                shaft.glass(lane, end, dark >> lane & 1 == 0, left);
             }
         }
         memory.met = met;
-    }
-
-    /// Tells apart where the rays of some shafts meet a second glass object, and where they cross the first: those of which it
-    /// is not certain are unsure.
-    pub(super) fn settle_glass(&self, shafts: &mut [Shaft], memory: &mut TileMemory) {
-        let mut meter = Meter::new(Silent);
-        for shaft in shafts {
-            let close = std::mem::take(&mut shaft.tint.close) & !(shaft.blocked | shaft.unsure);
-            for lane in lanes(close) {
-                let ray = shaft.rays.ray(lane);
-                let [_, [t, off]] = &shaft.tint.at;
-                let (t, off) = (t.0[lane], off.0[lane]);
-                // From a little before the second, the first is next crossed well behind it, if at all.
-                let ray = Ray::new(ray.at(t - off), ray.d);
-                let (first, to) = (shaft.tint.met[0][lane], 4.0 * off);
-                let next = self.exact.object(first, &ray, None, to, memory.apart.scratch(), &mut meter);
-                let is_certain = next.is_none_or(|next| next.t - next.error > 2.0 * off);
-                shaft.unsure |= u64::from(!is_certain) << lane;
-            }
-        }
-        memory.counts += meter.counts;
-    }
-
-    /// Whether two objects are so far apart that no crossing with one can seem to lie where one with the other does.
-    pub(super) fn apart(&self, a: u32, b: u32) -> bool {
-        let [a, b] = [a, b].map(|object| &self.assembly.objects[object as usize].bounds);
-        let gap = (a.lo - b.hi).max(b.lo - a.hi).max_element();
-        // Where a ray grazes something round, whose radius is at most that of the world, the square of half the chord is
-        // off by twice the product of that radius and what a surface is off.
-        let off = self.assembly.off;
-        gap > 2.0 * (off + (2.0 * WORLD * off).sqrt()) + self.slack
     }
 }

@@ -1,0 +1,46 @@
+//! Lamps in the midst of what they shine on: rays run to them from all sides.
+
+use ray13::frame::Studio;
+use ray13::math::Size;
+use ray13::plan::StructureChoice;
+use ray13::scene::{ReadOptions, read};
+
+use crate::request::request;
+use crate::same::{difference, exact, fast};
+
+// Found by an attack: where rays of a tile came to the lamp from opposite sides, what stood before it was passed over by
+// those that ran against the axis of the tile's shaft, and light leaked through.
+#[test]
+fn a_lamp_in_a_ball_over_a_floor_and_one_between_balls() {
+    let texts = [
+        "camera(eye = [0, -3, 40], target = [0, 0, 0], field = [60, 60]); light(at = [0, 0, 1]);
+            sphere(at = [0, 0, 1], semi = 0.1); cube(at = [0, 0, -0.5], semi = [20, 20, 0.5]);",
+        "camera(eye = [1, -9, 6], target = [0, 0, 0], field = [60, 60]); light(at = [0, 0, 0]); light(at = [0.4, 0, 1]);
+            balls",
+    ];
+    for (k, text) in texts.into_iter().enumerate() {
+        let text = text.replace("balls", &balls());
+        let name = format!("lamps{k}.scene");
+        let scene = read(&name, text.as_bytes(), &ReadOptions::default()).unwrap_or_else(|e| panic!("{e}"));
+        let studio = Studio::new(scene).unwrap();
+        for dots in [Size::new(33, 33), Size::new(160, 100)] {
+            let camera = studio.camera(0, f64::from(dots.width) / f64::from(dots.height));
+            let request = request(camera, dots);
+            let frame = fast(&studio, &request);
+            assert!(frame.counts.shadow_hits > 0, "no light is stopped");
+            if let Some(fault) = difference(&frame, &exact(&studio, &request, StructureChoice::None)) {
+                panic!("{name}, {dots:?}: {fault}");
+            }
+        }
+    }
+}
+
+/// Balls all around the origin, small and large.
+fn balls() -> String {
+    let places = (-2..=2).flat_map(|i| (-2..=2).flat_map(move |j| (-1..=1).map(move |k| [i, j, k])));
+    let ball = |[i, j, k]: [i32; 3]| {
+        let size = 0.1 + 0.06 * f64::from((7 * i + 3 * j + 5 * k).rem_euclid(7));
+        format!("sphere(at = [{i}, {j}, {k}], semi = {size});\n")
+    };
+    places.filter(|&place| place != [0, 0, 0]).map(ball).collect()
+}

@@ -84,8 +84,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
                 lets_through: &self.lets_through,
             };
             if wave.apart {
-                shafts.iter_mut().for_each(Shaft::give_up);
-                self.engine.blocked_apart(shafts, &wave.departures, &shone, trace);
+                self.engine.blocked_alone(shafts, &wave.departures, &shone, trace);
             } else {
                 // What curved surfaces send on mostly runs apart, towards one lamp as towards another.
                 wave.apart =

@@ -1,29 +1,8 @@
-//! Light through glass, where one ray alone goes from surface to surface and the rays of a tile ask object by object.
+//! Light through glass, by both engines: each object is asked for itself what it leaves.
 
-use ray13::frame::Studio;
 use ray13::math::{DVec3, Size};
-use ray13::plan::StructureChoice;
-use ray13::scene::{Camera, ReadOptions, read};
 
-use crate::request::request;
-use crate::same::{difference, exact, fast};
-
-#[track_caller]
-fn same(name: &str, text: &str, dots: Size, eyes: &[DVec3]) {
-    let scene = read(name, text.as_bytes(), &ReadOptions::default());
-    let studio = Studio::new(scene.unwrap_or_else(|e| panic!("{e}"))).unwrap();
-    let own = studio.camera(0, f64::from(dots.width) / f64::from(dots.height));
-    let target = DVec3::new(0.1, 0.05, -0.07);
-    let others = eyes.iter().map(|&eye| Camera { eye, target, ..own.clone() });
-    for camera in others.chain([own.clone()]) {
-        let request = request(camera, dots);
-        let frame = fast(&studio, &request);
-        assert!(frame.counts.shadow_hits > 0, "no light is stopped");
-        if let Some(fault) = difference(&frame, &exact(&studio, &request, StructureChoice::None)) {
-            panic!("from {}: {fault}", request.camera.eye);
-        }
-    }
-}
+use crate::same::same;
 
 // Found by random scenes: one way goes into the first and leaves both in one place, where the second is passed over.
 #[test]

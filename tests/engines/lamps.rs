@@ -1,12 +1,8 @@
 //! Lamps in the midst of what they shine on: rays run to them from all sides.
 
-use ray13::frame::Studio;
 use ray13::math::Size;
-use ray13::plan::StructureChoice;
-use ray13::scene::{ReadOptions, read};
 
-use crate::request::request;
-use crate::same::{difference, exact, fast};
+use crate::same::same;
 
 // Found by an attack: where rays of a tile came to the lamp from opposite sides, what stood before it was passed over by
 // those that ran against the axis of the tile's shaft, and light leaked through.
@@ -21,16 +17,8 @@ fn a_lamp_in_a_ball_over_a_floor_and_one_between_balls() {
     for (k, text) in texts.into_iter().enumerate() {
         let text = text.replace("balls", &balls());
         let name = format!("lamps{k}.scene");
-        let scene = read(&name, text.as_bytes(), &ReadOptions::default()).unwrap_or_else(|e| panic!("{e}"));
-        let studio = Studio::new(scene).unwrap();
         for dots in [Size::new(33, 33), Size::new(160, 100)] {
-            let camera = studio.camera(0, f64::from(dots.width) / f64::from(dots.height));
-            let request = request(camera, dots);
-            let frame = fast(&studio, &request);
-            assert!(frame.counts.shadow_hits > 0, "no light is stopped");
-            if let Some(fault) = difference(&frame, &exact(&studio, &request, StructureChoice::None)) {
-                panic!("{name}, {dots:?}: {fault}");
-            }
+            same(&name, &text, dots, &[]);
         }
     }
 }

@@ -23,7 +23,7 @@ pub const ROOM: f64 = MARGIN;
 impl Round {
     /// The two balls of a box.
     #[inline(always)]
-    pub fn of(lo: [f32; 3], hi: [f32; 3]) -> Self {
+    fn of(lo: [f32; 3], hi: [f32; 3]) -> Self {
         let half = [0, 1, 2].map(|axis| 0.5 * hi[axis] - 0.5 * lo[axis]);
         let widest = half[0].max(half[1]).max(half[2]);
         let least = half[0].min(half[1]).min(half[2]);
@@ -49,17 +49,16 @@ impl Round {
 }
 
 impl Node {
-    /// A bit for each slot in whose box there is a ball, between the two of its [`Round`].
-    #[inline]
-    pub fn round(&self) -> u8 {
-        self.round
-    }
-
-    /// What the box of a slot tells of the ball in it.
+    /// What the box of a slot tells of the ball in it, where there is one between the two of [`Round`].
     #[inline(always)]
-    pub fn ball(&self, slot: usize) -> Round {
-        let (lo, hi) = self.corners(slot);
-        Round::of(lo, hi)
+    pub fn ball(&self, slot: usize) -> Option<Round> {
+        (self.round >> slot & 1 == 1).then(
+            #[inline(always)]
+            || {
+                let (lo, hi) = self.corners(slot);
+                Round::of(lo, hi)
+            },
+        )
     }
 }
 
@@ -68,7 +67,8 @@ pub(super) fn note(nodes: &mut [Node], assembly: &Assembly) {
     for node in nodes {
         for slot in 0..node.len() {
             if let Some(Child::Object(object)) = node.child(slot) {
-                let round = node.ball(slot).holds(assembly, object);
+                let (lo, hi) = node.corners(slot);
+                let round = Round::of(lo, hi).holds(assembly, object);
                 node.round |= u8::from(round) << slot;
             }
         }
@@ -93,7 +93,7 @@ mod tests {
         let mut round = [false; 6];
         for slot in 0..root.len() {
             let Some(super::Child::Object(object)) = root.child(slot) else { panic!("no other node") };
-            round[assembly.objects[object as usize].number as usize] = root.round() >> slot & 1 == 1;
+            round[assembly.objects[object as usize].number as usize] = root.ball(slot).is_some();
         }
         assert_eq!(round, [true, true, false, false, false, false]);
     }

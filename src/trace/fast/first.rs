@@ -6,7 +6,7 @@
 
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 
-use crate::lattice::{Child, FAN, Round, SLACK};
+use crate::lattice::{Child, FAN, SLACK};
 use crate::math::{Bounds, LANES, Mask, Number, ROWS, Rays, row_of};
 use crate::solid::{
     Asked, Ball, Body, Ends, Firsts, Flat, Form, Found, Reach, Spans, first_of_expressions, firsts_of_spans,
@@ -18,7 +18,7 @@ use super::memory::TileMemory;
 use super::nearest::{Nearest, Offer};
 use super::outset::{Outset, Outsets};
 use super::slices::{Slices, slices};
-use super::thin::{Slabs, Thin};
+use super::thin::Slabs;
 use super::walk::{Waits, asking, bounds_between, push_nearest_last, reach, wide};
 
 /// The most objects that a bundle is asked about, for each of its rays: where a dot holds many objects, or rays run apart,
@@ -39,7 +39,6 @@ impl Fast<'_> {
     ) -> (u16, usize) {
         let whole = outsets.whole(simd);
         let seen = matches!(outsets, Outsets::Seen { .. });
-        memory.thin.iter_mut().for_each(Thin::forget);
         memory.forget_sheared();
         let TileMemory { far, stack, .. } = memory;
         far.clear();
@@ -78,7 +77,7 @@ impl Fast<'_> {
                 objects &= objects - 1;
                 let Some(Child::Object(object)) = node.child(slot) else { continue };
                 let (lo, hi) = node.corners(slot);
-                let round = (node.round() >> slot & 1 == 1).then(|| Round::of(lo, hi));
+                let round = node.ball(slot);
                 let met = match &round {
                     Some(round) => memory.fan.meets_ball(simd, round.center, round.outer),
                     None => memory.fan.meets(simd, lo, hi),
@@ -101,7 +100,9 @@ impl Fast<'_> {
                                 outsets.make(k);
                                 nearest.clear();
                             }
-                            left_to_ask[k] = CROWD * outsets.get(k).rays.live.count_ones();
+                            let bundle = outsets.get(k).rays;
+                            left_to_ask[k] = CROWD * bundle.live.count_ones();
+                            memory.thin[k].set(simd, bundle);
                         }
                         let outset = outsets.get(k);
                         let bundle = outset.rays;
@@ -112,9 +113,6 @@ impl Fast<'_> {
                             continue;
                         };
                         left_to_ask[k] = left_to_ask_now;
-                        if !memory.thin[k].is_known() {
-                            memory.thin[k].set(simd, bundle);
-                        }
                         let passing = if let Some(round) = &round {
                             memory.thin[k].ball(simd, round, self.slack, bundle.live).0
                         } else {

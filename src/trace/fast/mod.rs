@@ -131,8 +131,7 @@ impl<'a> Fast<'a> {
     ) -> bool {
         let rays: u32 = shafts.iter().map(|shaft| shaft.rays.live.count_ones()).sum();
         if rays < FEW_OF_TILE {
-            shafts.iter_mut().for_each(Shaft::give_up);
-            self.blocked_apart(shafts, departures, lamp, memory);
+            self.blocked_alone(shafts, departures, lamp, memory);
             return false;
         }
         let mut company = std::mem::take(&mut memory.company);

@@ -173,7 +173,7 @@ impl Fast<'_> {
                 let (lo, hi) = node.corners(slot);
                 let clarity = lamp.clarity.get(object as usize).copied();
                 let is_glass = matches!(clarity, Some(Clarity::Clear | Clarity::Mixed));
-                let round = (node.round() >> slot & 1 == 1 && !is_glass).then(|| Round::of(lo, hi));
+                let round = node.ball(slot).filter(|_| !is_glass);
                 let met = match &round {
                     Some(round) => memory.fan.meets_ball(simd, round.center, round.outer),
                     None => memory.fan.meets(simd, lo, hi),

@@ -11,7 +11,7 @@ use super::Fast;
 use super::memory::TileMemory;
 use super::nearest::Nearest;
 use super::shaft::{Shaft, Shone};
-use super::tint::{Clarity, End};
+use super::tint::Clarity;
 
 /// No index of a primitive: there are fewer.
 const NONE: u32 = u32::MAX;
@@ -65,8 +65,8 @@ impl Apart {
 
 /// What rays without company are asked about.
 trait Asking {
-    /// How far a crossing with an object may be to matter.
-    fn to(&self, at: Place, object: u32) -> f64;
+    /// How far a crossing may be to matter.
+    fn to(&self, at: Place) -> f64;
     /// A crossing with an object. Answers how far the ray still looks: below 0 where no farther at all.
     fn meet(&mut self, at: Place, object: u32, crossing: &Crossing) -> f64;
 }
@@ -79,7 +79,7 @@ struct First<'a> {
 
 impl Asking for First<'_> {
     #[inline]
-    fn to(&self, Place { bundle, lane }: Place, _: u32) -> f64 {
+    fn to(&self, Place { bundle, lane }: Place) -> f64 {
         self.nearest[bundle].t.0[lane] + self.slack
     }
 
@@ -99,7 +99,7 @@ struct Blocked<'a> {
 
 impl Asking for Blocked<'_> {
     #[inline]
-    fn to(&self, Place { bundle, lane }: Place, _: u32) -> f64 {
+    fn to(&self, Place { bundle, lane }: Place) -> f64 {
         self.shafts[bundle].distance.0[lane]
     }
 
@@ -108,14 +108,14 @@ impl Asking for Blocked<'_> {
         let (shaft, bit) = (&mut self.shafts[bundle], 1 << lane);
         let distance = shaft.distance.0[lane];
         match self.lamp.clarity.get(object as usize).copied() {
+            _ if !shaft.blocks(lane, crossing) => {}
             Some(Clarity::Clear | Clarity::Mixed) => {
                 let left = self.lamp.lets_through[crossing.primitive as usize];
                 let dark = self.lamp.dark_of(object, self.slack);
                 let clear = dark.is_none_or(|dark| entry(&shaft.rays.ray(lane), &dark).is_none());
-                shaft.glass(lane, End { t: crossing.t, error: crossing.error }, clear, left);
+                shaft.glass(lane, clear, left);
             }
-            _ if shaft.blocks(lane, crossing) => shaft.blocked |= bit,
-            _ => {}
+            _ => shaft.blocked |= bit,
         }
         if (shaft.blocked | shaft.unsure) & bit != 0 { -1.0 } else { distance + self.slack }
     }
@@ -154,9 +154,21 @@ impl Fast<'_> {
         }
     }
 
+    /// The same as [`Fast::blocked_of`] finds, for rays of which none has company.
+    pub fn blocked_alone(
+        &self,
+        shafts: &mut [Shaft],
+        departures: &[Departures],
+        lamp: &Shone,
+        memory: &mut TileMemory,
+    ) {
+        shafts.iter_mut().for_each(Shaft::give_up);
+        self.blocked_apart(shafts, departures, lamp, memory);
+    }
+
     /// Which of the rays towards a light that have no company, those in [`Shaft::apart`], are blocked, and what glass leaves
     /// of the light of the others.
-    pub fn blocked_apart(
+    pub(super) fn blocked_apart(
         &self,
         shafts: &mut [Shaft],
         departures: &[Departures],
@@ -208,7 +220,7 @@ impl Fast<'_> {
                     continue;
                 }
                 let Alone { at, ray, departure } = &rays[number as usize];
-                let to = asking.to(*at, object);
+                let to = asking.to(*at);
                 if let Some(crossing) = self.exact.object(object, ray, *departure, to, scratch, &mut meter) {
                     ways.look(number, asking.meet(*at, object, &crossing));
                 }

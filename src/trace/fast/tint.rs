@@ -69,20 +69,13 @@ impl Tint {
 }
 
 impl Shaft {
-    /// A ray first meets a glass object there, which leaves so much of its light. `clear`: it meets nothing of it that is
-    /// opaque.
-    pub(super) fn glass(&mut self, lane: usize, crossing: End, clear: bool, left: f64) {
-        if crossing.t + crossing.error < self.distance.0[lane] && !(clear && self.tint.add(lane, left)) {
+    /// A ray meets a glass object before the light, which leaves so much of it. `clear`: it meets nothing of that object that
+    /// is opaque.
+    pub(super) fn glass(&mut self, lane: usize, clear: bool, left: f64) {
+        if !(clear && self.tint.add(lane, left)) {
             self.unsure |= 1 << lane;
         }
     }
-}
-
-/// Where a crossing is, and how far that may be off.
-#[derive(Clone, Copy)]
-pub(super) struct End {
-    pub t: f64,
-    pub error: f64,
 }
 
 impl Shone<'_> {
@@ -123,10 +116,10 @@ impl Fast<'_> {
             None => 0,
         };
         for lane in lanes(shaft.open()) {
-            let end = End { t: met.t.0[lane], error: met.error.0[lane] };
-            if end.t < f64::INFINITY {
+            // Infinite where nothing was met.
+            if met.t.0[lane] + met.error.0[lane] < shaft.distance.0[lane] {
                 let left = lamp.lets_through[met.primitive.0[lane] as usize];
-                shaft.glass(lane, end, dark >> lane & 1 == 0, left);
+                shaft.glass(lane, dark >> lane & 1 == 0, left);
             }
         }
         memory.met = met;

@@ -45,7 +45,8 @@ pub struct Stream {
 struct Walker {
     ray: u32,
     node: u32,
-    waiting: Waiting,
+    /// Behind a pointer: the last takes the place of one that is done.
+    waiting: Box<Waiting>,
 }
 
 /// What each of those that are on their way meets in the next step: where it enters each box, and a bit for each.
@@ -203,7 +204,7 @@ fn walked<S: Simd>(
     let mut started = rays.min(ABREAST as u32);
     let mut active = started as usize;
     while walkers.len() < active {
-        walkers.push(Walker { ray: 0, node: 0, waiting: Waiting::NOTHING });
+        walkers.push(Walker { ray: 0, node: 0, waiting: Box::new(Waiting::NOTHING) });
     }
     for (ray, walker) in walkers.iter_mut().enumerate().take(active) {
         (walker.ray, walker.node) = (ray as u32, 0);

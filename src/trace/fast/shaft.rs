@@ -6,7 +6,7 @@
 
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 
-use crate::lattice::{Beam, Child, FAN, Round, SLACK};
+use crate::lattice::{Beam, Child, FAN, Met, Round, SLACK};
 use crate::math::{Bounds, Bundle, Column, DVec3, LANES, Mask, Number, ROWS, Rays, lanes, row_of};
 use crate::solid::{
     Asked, Ball, Body, Crossing, Departures, Firsts, Flat, Form, Found, Reach, Spans, Starts,
@@ -203,8 +203,10 @@ impl Fast<'_> {
                     return given_up;
                 }
             }
+            // Towards the light the shaft narrows: what stands near it stands before most of the rays.
+            let from_light = Met { near: -met.near, ..met };
             let TileMemory { fan, stack, .. } = memory;
-            push_nearest_last(simd, stack, node, &met, (fan, frustums & open));
+            push_nearest_last(simd, stack, node, &from_light, (fan, frustums & open));
         }
         given_up
     }

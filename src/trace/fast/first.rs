@@ -262,6 +262,8 @@ struct Slicing<'a, S> {
 }
 
 impl<S: Simd> Slices for Slicing<'_, S> {
+    const FEW: usize = 3;
+
     fn open(&self) -> u64 {
         self.open
     }

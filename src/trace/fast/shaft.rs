@@ -15,7 +15,7 @@ use crate::solid::{
 
 use super::Fast;
 use super::memory::TileMemory;
-use super::slices::{Slices, slices};
+use super::slices::{SOME, Slices, slices};
 use super::thin::{Slabs, Thin};
 use super::tint::{Clarity, Tint};
 use super::walk::{Waits, asking, bounds_between, push_nearest_last, reach, wide};
@@ -355,6 +355,9 @@ struct Slicing<'a, S> {
 }
 
 impl<S: Simd> Slices for Slicing<'_, S> {
+    /// What is nearest does not matter, only whether there is anything.
+    const FEW: usize = SOME;
+
     fn open(&self) -> u64 {
         self.open
     }

@@ -8,11 +8,10 @@ use super::Fast;
 use super::memory::TileMemory;
 
 /// The most leaves of an expression that are asked at once, rather than the way being cut into shorter slices: more
-/// cost more than a slice does.
-const FEW: usize = 3;
+/// cost more than slices do.
+pub const SOME: usize = 6;
 
-/// So many are asked at once where the way has been cut [`CUTS`] times: what is nearest mostly hides half of them.
-const SOME: usize = 4;
+/// Where the way has been cut so often, or oftener, up to [`SOME`] leaves are asked at once, whatever [`Slices::FEW`].
 const CUTS: u32 = 2;
 
 /// How often the way through an object is halved at most: into 64 slices, about as many as a sub-lattice has cells.
@@ -20,6 +19,10 @@ const HALVINGS: u32 = 6;
 
 /// Whose way is cut into slices.
 pub trait Slices {
+    /// The most leaves that are asked at once before the way has been cut often: fewer than [`SOME`] where what is nearest
+    /// mostly hides the others.
+    const FEW: usize;
+
     /// The rays that have not met the object yet.
     fn open(&self) -> u64;
 
@@ -42,10 +45,10 @@ pub fn slices(
     slice(fast, whole, rays, expression, way, HALVINGS, memory);
 }
 
-fn slice(
+fn slice<R: Slices>(
     fast: &Fast,
     whole: Option<Whole>,
-    rays: &mut impl Slices,
+    rays: &mut R,
     expression: Flat,
     (from, to): (f64, f64),
     halvings: u32,
@@ -69,7 +72,7 @@ fn slice(
     let mut remains = memory.remains.pop().unwrap_or_default();
     if expression.pruned(primitives, &b, &mut memory.pruning, &mut remains) == Left::Some {
         let left = Flat::from(&remains);
-        let few = if halvings + CUTS > HALVINGS { FEW } else { SOME };
+        let few = if halvings + CUTS > HALVINGS { R::FEW } else { SOME };
         if left.leaves.len() <= few || halvings == 0 {
             rays.ask(left, (from, to), memory);
         } else {

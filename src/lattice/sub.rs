@@ -25,9 +25,9 @@ const ALL_LEAVES: f64 = 4.0 * MOST_LEAVES;
 /// The sub-lattices of all composite objects.
 #[derive(Debug)]
 pub struct SubLattices {
-    /// By object; empty where no object has one.
+    /// By object, up to the last that has one.
     cells: Vec<Option<SubLattice>>,
-    /// By object: for beams, of those with many primitives; empty where there is none.
+    /// By object, up to the last that has one: for beams, of those with many primitives.
     loose: Vec<Option<Loose>>,
 }
 
@@ -65,10 +65,14 @@ impl SubLattices {
     }
 }
 
-/// Most large scenes have no composite object at all.
+/// By object up to the last that has one: most large scenes have no composite object at all.
 fn unless_none<T>(all: impl Iterator<Item = Option<T>>) -> Vec<Option<T>> {
-    let all: Vec<_> = all.collect();
-    if all.iter().all(Option::is_none) { Vec::new() } else { all }
+    let mut kept = Vec::new();
+    for (object, one) in all.enumerate().filter(|(_, one)| one.is_some()) {
+        kept.resize_with(object, || None);
+        kept.push(one);
+    }
+    kept
 }
 
 /// What one sub-lattice may hold.

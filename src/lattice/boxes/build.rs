@@ -7,8 +7,6 @@
 use fearless_simd::{Level, dispatch};
 use rayon::prelude::*;
 
-use crate::math::Bounds;
-
 use super::reach::{About, Reach};
 use super::split::parted;
 use super::{Child, Node, WIDE};
@@ -22,10 +20,9 @@ const SETTLED: usize = 4096;
 
 /// The nodes over the boxes of `count` objects; the root is the first. Neither the number of threads nor the level
 /// changes anything about them.
-pub fn built(level: Level, count: usize, bounds: impl Fn(usize) -> Bounds + Sync) -> Vec<Node> {
+pub fn built(level: Level, count: usize, reach: impl Fn(usize) -> Reach + Send + Sync) -> Vec<Node> {
     let mut items = Vec::new();
-    let item = |object: usize| Reach::new(&bounds(object), object as u32);
-    (0..count).into_par_iter().with_min_len(SETTLED).map(item).collect_into_vec(&mut items);
+    (0..count).into_par_iter().with_min_len(SETTLED).map(reach).collect_into_vec(&mut items);
     let mut nodes = Vec::new();
     if items.is_empty() {
         nodes.push(Node::EMPTY);
@@ -191,6 +188,6 @@ fn lay(part: &Grown, nodes: &mut Vec<Node>) {
                 Child::Node(child)
             }
         };
-        nodes[index].push(&slot.reach.bounds(), child);
+        nodes[index].push(&slot.reach, child);
     }
 }

@@ -18,6 +18,8 @@ use crate::solid::Assembly;
 
 use super::planes::slack;
 
+use reach::Reach;
+
 pub use round::{ROOM, Round};
 pub use stream::{Meeting, Stream, Ways};
 
@@ -137,15 +139,16 @@ impl Node {
         Bounds::new(DVec3::from_array(lo.map(f64::from)), DVec3::from_array(hi.map(f64::from)))
     }
 
-    fn push(&mut self, bounds: &Bounds, child: Child) {
+    fn push(&mut self, reach: &Reach, child: Child) {
         let slot = self.len();
-        for axis in 0..3 {
-            let [lo, hi] = &mut self.sides[axis];
-            lo[slot] = lower(bounds.lo[axis] - MARGIN);
-            hi[slot] = upper(bounds.hi[axis] + MARGIN);
+        for (axis, [lo, hi]) in self.sides.iter_mut().enumerate() {
+            [lo[slot], hi[slot]] = reach.sides(axis);
         }
         match child {
-            Child::Object(index) => self.children[slot] = index,
+            Child::Object(index) => {
+                self.children[slot] = index;
+                self.round |= u8::from(reach.is_round()) << slot;
+            }
             Child::Node(index) => {
                 self.children[slot] = index | INNER;
                 self.inner |= 1 << slot;
@@ -170,15 +173,16 @@ impl Boxes {
     pub fn new(assembly: &Assembly) -> Self {
         let margin = DVec3::splat(slack(assembly.off));
         let objects = &assembly.objects;
-        let mut boxes = Self::over(objects.len(), |object| objects[object].bounds.padded(margin));
-        round::note(&mut boxes.nodes, assembly);
-        boxes
+        Self::over(objects.len(), |object| {
+            let reach = Reach::new(&objects[object].bounds.padded(margin), object as u32);
+            if Round::is_in(&reach, assembly) { reach.round() } else { reach }
+        })
     }
 
     /// The hierarchy over the boxes of so many objects.
-    fn over(count: usize, bounds: impl Fn(usize) -> Bounds + Sync) -> Self {
+    fn over(count: usize, reach: impl Fn(usize) -> Reach + Send + Sync) -> Self {
         let level = Level::new();
-        Self { nodes: build::built(level, count, bounds), level }
+        Self { nodes: build::built(level, count, reach), level }
     }
 
     /// All nodes. The root is the first; where there are no objects it is empty.

@@ -1,8 +1,10 @@
 //! Boxes in the form in which very many are joined and parted: one operation on all their sides.
 
-use fearless_simd::{Select, Simd, SimdBase, f64x4, f64x8};
+use fearless_simd::{Select, Simd, SimdBase, f32x4, f32x8};
 
 use crate::math::{Bounds, DVec3};
+
+use super::{MARGIN, lower, upper};
 
 /// Where the longest edge stands.
 const LONGEST: usize = 3;
@@ -13,49 +15,72 @@ const UPPER: usize = 4;
 /// Where an object's number stands.
 const OBJECT: usize = 7;
 
-/// A box as how far it reaches: along −x, −y and −z, its longest edge, and along x, y and z. Two are joined by the
+/// Marks the number of an object whose box tells what ball it is.
+const ROUND: u32 = 1 << 31;
+
+/// A box as a node holds it, in half the digits, and as how far it reaches: along −x, −y and −z, its longest edge, and along x, y and z. Two are joined by the
 /// larger of each, the longest edge too: that of a joined one is the longest of any box in it.
 ///
 /// The last number is an object's, by its bits, where the box is one's own; else it says nothing.
 #[derive(Clone, Copy)]
-#[repr(C, align(64))]
-pub struct Reach([f64; 8]);
+#[repr(C, align(32))]
+pub struct Reach([f32; 8]);
 
 impl Reach {
-    pub const NOTHING: Self = Self([f64::NEG_INFINITY; 8]);
+    pub const NOTHING: Self = Self([f32::NEG_INFINITY; 8]);
 
-    /// The box of an object.
+    /// The box of an object, moved outward by [`MARGIN`].
     pub fn new(b: &Bounds, object: u32) -> Self {
-        let [edge_x, edge_y, edge_z] = (b.hi - b.lo).to_array();
-        let longer = |a: f64, b: f64| if a > b { a } else { b };
-        let longest = longer(longer(edge_x, edge_y), edge_z);
-        let number = f64::from_bits(u64::from(object));
-        Self([-b.lo.x, -b.lo.y, -b.lo.z, longest, b.hi.x, b.hi.y, b.hi.z, number])
+        let [x, y, z] = (b.lo - MARGIN).to_array().map(|side| -lower(side));
+        let [to_x, to_y, to_z] = (b.hi + MARGIN).to_array().map(upper);
+        let longer = |a: f32, b: f32| if a > b { a } else { b };
+        let longest = longer(longer(to_x + x, to_y + y), to_z + z);
+        Self([x, y, z, longest, to_x, to_y, to_z, f32::from_bits(object)])
     }
 
     /// The object whose box it is.
     #[inline]
     pub fn object(&self) -> u32 {
-        self.0[OBJECT].to_bits() as u32
+        self.0[OBJECT].to_bits() & !ROUND
     }
 
-    pub fn bounds(&self) -> Bounds {
-        Bounds::new(-DVec3::from_slice(&self.0), DVec3::from_slice(&self.0[UPPER..]))
+    /// The box of a ball that it tells ([`Round`](super::Round)).
+    pub fn round(mut self) -> Self {
+        self.0[OBJECT] = f32::from_bits(self.object() | ROUND);
+        self
+    }
+
+    /// Whether the box of an object tells what ball it is.
+    #[inline]
+    pub fn is_round(&self) -> bool {
+        self.0[OBJECT].to_bits() & ROUND != 0
+    }
+
+    /// The lower and the upper corner.
+    pub fn corners(&self) -> ([f32; 3], [f32; 3]) {
+        let [from, to] = [0, 1].map(|end| [0, 1, 2].map(|axis| self.sides(axis)[end]));
+        (from, to)
+    }
+
+    /// From where to where it reaches along an axis.
+    #[inline]
+    pub fn sides(&self, axis: usize) -> [f32; 2] {
+        [-self.0[axis], self.0[axis + UPPER]]
     }
 
     /// The longest edge of any box in it.
     #[inline(always)]
-    pub fn longest(&self) -> f64 {
+    pub fn longest(&self) -> f32 {
         self.0[LONGEST]
     }
 
     #[inline(always)]
-    pub fn load<S: Simd>(&self, simd: S) -> f64x8<S> {
-        f64x8::from_slice(simd, &self.0)
+    pub fn load<S: Simd>(&self, simd: S) -> f32x8<S> {
+        f32x8::from_slice(simd, &self.0)
     }
 
     #[inline(always)]
-    pub fn store<S: Simd>(sides: f64x8<S>) -> Self {
+    pub fn store<S: Simd>(sides: f32x8<S>) -> Self {
         let mut own = Self::NOTHING;
         sides.store_slice(&mut own.0);
         own
@@ -68,7 +93,7 @@ impl Reach {
 
     #[inline(always)]
     pub fn edge(&self, axis: usize) -> f64 {
-        self.0[axis] + self.0[axis + UPPER]
+        f64::from(self.0[axis]) + f64::from(self.0[axis + UPPER])
     }
 
     /// The edges of the whole.
@@ -79,15 +104,15 @@ impl Reach {
 
     /// Twice the centre.
     #[inline(always)]
-    pub fn center(&self, axis: usize) -> f64 {
+    pub fn center(&self, axis: usize) -> f32 {
         self.0[axis + UPPER] - self.0[axis]
     }
 
     /// Twice the centre on all axes, and a number that says nothing.
     #[inline(always)]
-    pub fn centers<S: Simd>(&self, simd: S) -> f64x4<S> {
+    pub fn centers<S: Simd>(&self, simd: S) -> f32x4<S> {
         let (lower, upper) = self.0.split_at(UPPER);
-        f64x4::from_slice(simd, upper) - f64x4::from_slice(simd, lower)
+        f32x4::from_slice(simd, upper) - f32x4::from_slice(simd, lower)
     }
 
     /// Half the surface, where it is not empty.
@@ -100,7 +125,7 @@ impl Reach {
 
 /// The larger of each two; the own one where the other is no number.
 #[inline(always)]
-fn larger<S: Simd>(own: f64x8<S>, other: f64x8<S>) -> f64x8<S> {
+fn larger<S: Simd>(own: f32x8<S>, other: f32x8<S>) -> f32x8<S> {
     other.simd_gt(own).select(other, own)
 }
 
@@ -109,21 +134,21 @@ fn larger<S: Simd>(own: f64x8<S>, other: f64x8<S>) -> f64x8<S> {
 pub struct About {
     pub reach: Reach,
     /// The least of twice their centres, by axis; the last number says nothing.
-    low: [f64; 4],
+    low: [f32; 4],
     /// The largest.
-    high: [f64; 4],
+    high: [f32; 4],
 }
 
 impl About {
     pub const NOTHING: Self =
-        Self { reach: Reach::NOTHING, low: [f64::INFINITY; 4], high: [f64::NEG_INFINITY; 4] };
+        Self { reach: Reach::NOTHING, low: [f32::INFINITY; 4], high: [f32::NEG_INFINITY; 4] };
 
     /// What is known of all these.
     #[inline(always)]
     pub fn all<S: Simd>(simd: S, items: &[Reach]) -> Self {
         let mut reach = Reach::NOTHING.load(simd);
-        let mut low = f64x4::splat(simd, f64::INFINITY);
-        let mut high = f64x4::splat(simd, f64::NEG_INFINITY);
+        let mut low = f32x4::splat(simd, f32::INFINITY);
+        let mut high = f32x4::splat(simd, f32::NEG_INFINITY);
         for item in items {
             reach = larger(reach, item.load(simd));
             let centers = item.centers(simd);
@@ -148,14 +173,14 @@ impl About {
 
     /// From where to where twice the centres reach along an axis.
     #[inline(always)]
-    pub fn centers(&self, axis: usize) -> (f64, f64) {
+    pub fn centers(&self, axis: usize) -> (f32, f32) {
         (self.low[axis], self.high[axis])
     }
 
     /// The axis along which the centres reach farthest.
     #[inline(always)]
     pub fn widest(&self) -> usize {
-        let reach = |axis: usize| self.high[axis] - self.low[axis];
+        let reach = |axis: usize| f64::from(self.high[axis] - self.low[axis]);
         DVec3::new(reach(0), reach(1), reach(2)).max_position()
     }
 }

@@ -3,7 +3,8 @@
 use crate::math::DVec3;
 use crate::solid::{Assembly, Body, Form};
 
-use super::{Child, MARGIN, Node};
+use super::reach::Reach;
+use super::{MARGIN, Node};
 
 /// Two balls about one point: a solid ball lies between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,6 +37,12 @@ impl Round {
         }
     }
 
+    /// Whether the box of an object tells that it is a ball, and which.
+    pub(super) fn is_in(reach: &Reach, assembly: &Assembly) -> bool {
+        let (lo, hi) = reach.corners();
+        Self::of(lo, hi).holds(assembly, reach.object())
+    }
+
     /// Whether an object is a ball between the two, and its errors are small enough.
     fn holds(&self, assembly: &Assembly, object: u32) -> bool {
         let Body::Single(index) = assembly.objects[object as usize].body else { return false };
@@ -62,19 +69,6 @@ impl Node {
     }
 }
 
-/// Notes which slots hold balls.
-pub(super) fn note(nodes: &mut [Node], assembly: &Assembly) {
-    for node in nodes {
-        for slot in 0..node.len() {
-            if let Some(Child::Object(object)) = node.child(slot) {
-                let (lo, hi) = node.corners(slot);
-                let round = Round::of(lo, hi).holds(assembly, object);
-                node.round |= u8::from(round) << slot;
-            }
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use crate::lattice::Boxes;
@@ -92,7 +86,7 @@ mod tests {
         let [root] = boxes.nodes() else { panic!("few objects fill one node") };
         let mut round = [false; 6];
         for slot in 0..root.len() {
-            let Some(super::Child::Object(object)) = root.child(slot) else { panic!("no other node") };
+            let Some(super::super::Child::Object(object)) = root.child(slot) else { panic!("no other node") };
             round[assembly.objects[object as usize].number as usize] = root.ball(slot).is_some();
         }
         assert_eq!(round, [true, true, false, false, false, false]);

@@ -3,7 +3,7 @@
 //! Where to part is looked for among a few bins of the boxes' centres (I. Wald: On fast construction of SAH-based
 //! bounding volume hierarchies, 2007).
 
-use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x4};
+use fearless_simd::{Level, Simd, SimdBase, dispatch, f32x4};
 use rayon::prelude::*;
 
 use super::WIDE;
@@ -53,8 +53,8 @@ enum Key {
 #[derive(Clone, Copy)]
 struct Scale {
     key: Key,
-    low: f64,
-    per_bin: f64,
+    low: f32,
+    per_bin: f32,
     last: usize,
 }
 
@@ -64,7 +64,7 @@ impl Scale {
         let (low, high) = about.centers(axis);
         let reach = high - low;
         // Where all centres are one, so is their bin.
-        let per_bin = if reach > 0.0 { (last + 1) as f64 / reach } else { 0.0 };
+        let per_bin = if reach > 0.0 { (last + 1) as f32 / reach } else { 0.0 };
         Self { key: Key::Center(axis), low, per_bin, last }
     }
 
@@ -93,7 +93,7 @@ impl Scale {
 
     /// Not-a-number becomes 0. Converting to 32 bits is faster than to 64.
     #[inline(always)]
-    fn whole(&self, place: f64) -> usize {
+    fn whole(&self, place: f32) -> usize {
         (place as u32 as usize).min(self.last)
     }
 }
@@ -297,7 +297,7 @@ fn cheapest(level: Level, items: &[Reach], about: &About) -> Option<Split> {
     };
     // Only what is as long as a good part of the range is worth to be set apart.
     let longest = about.reach.longest();
-    if longest > 0.5 * about.reach.edges().max_element() {
+    if f64::from(longest) > 0.5 * about.reach.edges().max_element() {
         let scale = Scale { key: Key::Size, low: longest, per_bin: 1.0, last: POWERS };
         let bins = Bins::of(level, &scale, items);
         if let Some((cost, last)) = dispatch!(level, simd => bins.swept(simd, POWERS))
@@ -314,8 +314,8 @@ fn cheapest(level: Level, items: &[Reach], about: &About) -> Option<Split> {
 fn by_every_axis<S: Simd>(simd: S, items: &[Reach], about: &About, last: usize) -> Option<(f64, Split)> {
     let [x, y, z] =
         [Scale::along(0, about, last), Scale::along(1, about, last), Scale::along(2, about, last)];
-    let low = f64x4::from_slice(simd, &[x.low, y.low, z.low, 0.0]);
-    let per_bin = f64x4::from_slice(simd, &[x.per_bin, y.per_bin, z.per_bin, 0.0]);
+    let low = f32x4::from_slice(simd, &[x.low, y.low, z.low, 0.0]);
+    let per_bin = f32x4::from_slice(simd, &[x.per_bin, y.per_bin, z.per_bin, 0.0]);
     let mut bins = [Bins::NOTHING; 3];
     for item in items {
         let mut places = [0.0; 4];

@@ -30,7 +30,7 @@ pub(super) fn cloud(n: usize, size: f64) -> Vec<Bounds> {
 }
 
 pub(super) fn over(boxes: &[Bounds]) -> Boxes {
-    Boxes::over(boxes.len(), |object| boxes[object])
+    Boxes::over(boxes.len(), |object| Reach::new(&boxes[object], object as u32))
 }
 
 /// How far a side of a box within 0..1 may stand outside what it was made around: [`MARGIN`], and a rounding.
@@ -215,7 +215,9 @@ const PAD: f64 = 1e-13;
 fn rays_visit_every_box_that_they_meet_once() {
     for size in [0.0, 0.01, 0.3] {
         let boxes = cloud(2000, size);
-        let of = Boxes::over(boxes.len(), |object| boxes[object].padded(DVec3::splat(PAD)));
+        let of = Boxes::over(boxes.len(), |object| {
+            Reach::new(&boxes[object].padded(DVec3::splat(PAD)), object as u32)
+        });
         let mut met = 0;
         for ray in rays(&boxes) {
             for to in [f64::INFINITY, 0.5] {

@@ -81,10 +81,10 @@ impl Outsets<'_> {
         beams.clear();
         match self {
             Self::Made { bundles, .. } => {
-                beams.extend(bundles.iter().map(
-                    #[inline(always)]
-                    |bundle| Some(around(simd, std::slice::from_ref(bundle))),
-                ));
+                // Not by `map`, whose closure is compiled by itself, for any processor.
+                for bundle in *bundles {
+                    beams.push(Some(around(simd, std::slice::from_ref(bundle))));
+                }
             }
             Self::Seen { sight, .. } => {
                 // The sides of all blocks run along those of the tile.

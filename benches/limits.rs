@@ -1,0 +1,179 @@
+//! How far the kernels that eight rays go through at once are from what this processor's arithmetic allows.
+//! `cargo bench --bench limits` prints the table of docs/performance.md.
+//!
+//! What a kernel computes is counted by running it on numbers that count. What the processor allows is measured too: chains
+//! of one operation that do not wait for each other. A kernel takes at least as long as its simple operations do, and as its
+//! quotients and roots do, which go through another unit beside them; loads, stores and the order of things come on top.
+
+#[expect(dead_code, reason = "no scene of many objects is measured")]
+#[path = "../examples/million/scenery.rs"]
+mod scenery;
+#[expect(dead_code, reason = "criterion measures no limits")]
+mod setting;
+
+mod counted;
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
+use ray13::math::{BUNDLE, Bundle, DVec3, Mask, Number, ROWS, Ray, Rays};
+use ray13::scene::Format;
+use ray13::solid::{Assembly, Form};
+
+use counted::{Counted, Operations};
+
+/// Convex forms, each by a text that gives it and no other.
+const FORMS: [(&str, &str); 6] = [
+    ("ball", "sphere(1);"),
+    ("axis box", "cube(1.6, center = true);"),
+    ("skew box", "rotate([20, 30, 40]) cube(1.6, center = true);"),
+    ("ellipsoid", "rotate([20, 30, 40]) scale([1, 0.8, 0.6]) sphere(1);"),
+    ("cylinder", "rotate([20, 30, 40]) cylinder(h = 1.6, r = 0.8, center = true);"),
+    ("cone", "rotate([20, 30, 40]) cylinder(h = 1.6, r1 = 1, r2 = 0, center = true);"),
+];
+
+/// Chains of operations side by side: more than any processor has operations of one kind on their way.
+const CHAINS: usize = 12;
+
+/// Operations of a chain, and rounds of a kernel, between two looks at the clock.
+const ROUNDS: usize = 2000;
+
+/// The least of so many times counts: whatever else a machine does only adds to it.
+const TIMES: usize = 200;
+
+/// What eight numbers side by side take, in nanoseconds.
+struct Pace {
+    simple: f64,
+    quotient: f64,
+    root: f64,
+}
+
+fn main() {
+    let level = Level::new();
+    let pace = dispatch!(level, simd => Pace {
+        simple: chained(simd, |x, a, k| if k % 2 == 0 { x * a } else { x + a }),
+        quotient: chained(simd, |x, a, _| a / x),
+        root: chained(simd, |x, _, _| x.root()),
+    });
+    println!(
+        "eight numbers: a sum or a product {:.2} ns, a quotient {:.2} ns, a root {:.2} ns\n",
+        pace.simple, pace.quotient, pace.root
+    );
+    println!("| form | simple | quotients | roots | at least | measured | times |");
+    println!("|---|---|---|---|---|---|---|");
+    for (name, text) in FORMS {
+        let assembly =
+            Assembly::new(&setting::scene(name, text, Format::Language)).unwrap_or_else(|e| panic!("{e}"));
+        let form = &assembly.primitives[0].form;
+        let (bundle, rays) = rays(&assembly, form);
+        let Operations { simple, quotients, roots } = counted(form, &rays);
+        let least = (simple * pace.simple).max(quotients * pace.quotient + roots * pace.root);
+        let measured = dispatch!(level, simd => measured(simd, form, &bundle));
+        println!(
+            "| {name} | {simple:.0} | {quotients:.0} | {roots:.0} | {least:.1} ns | {measured:.1} ns | {:.1} |",
+            measured / least
+        );
+    }
+}
+
+/// A bundle of rays that all meet a form.
+fn rays(assembly: &Assembly, form: &Form) -> (Bundle, Vec<Ray>) {
+    let (center, reach) = (assembly.limit.center(), assembly.limit.half().max_element());
+    let eye = center + DVec3::new(1.0, -4.0, 2.0) * reach;
+    let mut bundle = Bundle::EMPTY;
+    let mut rays = Vec::new();
+    let mut place = 0_u32;
+    while rays.len() < BUNDLE {
+        // A fraction of the golden section and one of a root of 2: spread over a square, in no order.
+        let [x, z] = [0.618_034, 0.414_214].map(|step| (f64::from(place) * step).fract() - 0.5);
+        place += 1;
+        let ray = Ray::new(eye, (center + DVec3::new(x, 0.0, z) * reach - eye).normalize());
+        if form.span(&ray).is_some() {
+            bundle.set(rays.len(), &ray);
+            rays.push(ray);
+        }
+    }
+    (bundle, rays)
+}
+
+/// What a ray takes on average.
+fn counted(form: &Form, rays: &[Ray]) -> Operations {
+    let all = counted::during(|| {
+        for ray in rays {
+            black_box(form.spans(&Counted::of(&Rays::from(ray))));
+        }
+    });
+    all.over(rays.len() as f64)
+}
+
+/// What an operation takes in nanoseconds, where nothing waits for anything.
+#[inline(always)]
+fn chained<S: Simd>(simd: S, step: impl Fn(f64x8<S>, f64x8<S>, usize) -> f64x8<S>) -> f64 {
+    // Near 1, where neither sums nor products leave the numbers that are quick.
+    let a = f64x8::splat(simd, black_box(1.0 + 1e-9));
+    let mut chains = [f64x8::splat(simd, black_box(1.5)); CHAINS];
+    let time = least(|| {
+        for round in 0..ROUNDS {
+            for x in &mut chains {
+                *x = step(*x, a, round);
+            }
+        }
+        black_box(chains[0].as_slice());
+    });
+    for x in &chains {
+        black_box(x.as_slice());
+    }
+    time / (ROUNDS * CHAINS) as f64
+}
+
+/// What the spans of a row of rays take in nanoseconds.
+#[inline(always)]
+fn measured<S: Simd>(simd: S, form: &Form, bundle: &Bundle) -> f64 {
+    macro_rules! of {
+        ($($kind:ident),*) => {
+            match form {
+                $(Form::$kind(solid) => rows(simd, bundle, #[inline(always)] |rays| {
+                    let spans = solid.spans(rays);
+                    let sum = spans.enter.t + spans.leave.t + spans.enter.error + spans.leave.error;
+                    spans.any.choose(sum + spans.enter.surface + spans.leave.surface, sum)
+                }),)*
+                _ => f64::NAN,
+            }
+        };
+    }
+    of!(Ball, AxisBox, SkewBox, Round)
+}
+
+#[inline(always)]
+fn rows<S: Simd>(simd: S, bundle: &Bundle, spans: impl Fn(&Rays<f64x8<S>>) -> f64x8<S>) -> f64 {
+    let time = least(|| {
+        // By itself: a closure is not compiled for the processor that its surroundings are for.
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let mut sum = f64x8::splat(simd, 0.0);
+                for _ in 0..ROUNDS / ROWS {
+                    let bundle = black_box(bundle);
+                    for row in 0..ROWS {
+                        sum += spans(&bundle.load(simd, row));
+                    }
+                }
+                black_box(sum.as_slice());
+            },
+        );
+    });
+    time / (ROUNDS / ROWS * ROWS) as f64
+}
+
+/// The least time of many, in nanoseconds.
+#[inline(always)]
+fn least(mut work: impl FnMut()) -> f64 {
+    let mut least = Duration::MAX;
+    for _ in 0..TIMES {
+        let start = Instant::now();
+        work();
+        least = least.min(start.elapsed());
+    }
+    least.as_secs_f64() * 1e9
+}

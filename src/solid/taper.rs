@@ -78,8 +78,13 @@ impl Taper {
     #[inline(always)]
     pub fn sides<N: Number>(&self, rays: &Centred<N>) -> Spans<N> {
         let tapers = Tapers { middle: rays.t.same(self.middle), slope: rays.t.same(self.slope) };
-        let off = rays.o.same(rays.off);
-        tapers.sides(&Rays { o: rays.o, d: rays.d }, (off, rays.t.same(rays.seeming)))
+        let (lines, off) =
+            (Rays { o: rays.o, d: rays.d }, (rays.o.same(rays.off), rays.t.same(rays.seeming)));
+        if self.slope == 0.0 {
+            tapers.of_kind::<true>(&lines, off)
+        } else {
+            tapers.of_kind::<false>(&lines, off)
+        }
     }
 }
 
@@ -95,21 +100,33 @@ impl<N: Number> Tapers<N> {
     /// point closest to the unit origin, which may be `off` its place; `seeming` is the share of that that is our own
     /// rounding. An end that there is not is infinite.
     #[inline(always)]
-    pub fn sides(&self, rays: &Rays<N>, (off, seeming): (Vector<N>, N)) -> Spans<N> {
+    pub fn sides(&self, rays: &Rays<N>, off: (Vector<N>, N)) -> Spans<N> {
+        self.of_kind::<false>(rays, off)
+    }
+
+    /// The same. `STRAIGHT`: all slopes are 0, and the terms that have them are left out.
+    #[inline(always)]
+    fn of_kind<const STRAIGHT: bool>(&self, rays: &Rays<N>, (off, seeming): (Vector<N>, N)) -> Spans<N> {
         let Self { middle, slope } = *self;
         let Rays { o, d } = *rays;
-        let (rho, d_rho) = (o.z * slope + middle, d.z * slope);
-        let a = d.x * d.x + d.y * d.y - d_rho * d_rho;
-        let b = o.x * d.x + o.y * d.y - rho * d_rho;
+        let zero = middle.same(0.0);
+        let (rho, d_rho) = if STRAIGHT { (middle, zero) } else { (o.z * slope + middle, d.z * slope) };
+        let (mut a, mut b) = (d.x * d.x + d.y * d.y, o.x * d.x + o.y * d.y);
+        if !STRAIGHT {
+            (a, b) = (a - d_rho * d_rho, b - rho * d_rho);
+        }
         let c = o.x * o.x + o.y * o.y - rho * rho;
         // b² − ac by Lagrange's identity for the form x² + y² − ρ²: differences of products of nearby lengths,
         // never of their squares.
         let across = d.x * o.y - d.y * o.x;
-        let along = (squared(d.x * rho - d_rho * o.x) + squared(d.y * rho - d_rho * o.y)).root();
+        let (mut x, mut y) = (d.x * rho, d.y * rho);
+        if !STRAIGHT {
+            (x, y) = (x - d_rho * o.x, y - d_rho * o.y);
+        }
+        let along = (squared(x) + squared(y)).root();
         let discriminant = (along - across.magnitude()) * (along + across.magnitude());
-        let off = Vector { z: slope.magnitude() * off.z, ..off };
-        let form = SideForm { o: Vector { z: rho, ..o }, d: Vector { z: d_rho, ..d } };
-        let zero = middle.same(0.0);
+        let off = if STRAIGHT { off } else { Vector { z: slope.magnitude() * off.z, ..off } };
+        let form = SideForm::<N, STRAIGHT> { o: Vector { z: rho, ..o }, d: Vector { z: d_rho, ..d } };
         let (crosses, steeper) = (a.is_above(zero), a.is_below(zero));
         // A chord is none where the form at its middle, −discriminant / a at t = −b / a, may be 0.
         let is_chord =
@@ -137,14 +154,16 @@ impl<N: Number> Tapers<N> {
         let t = c * -0.5 / b;
         let once = Ends { t, error: form.off(t, off) * 0.5 / b.magnitude(), surface };
         let line = Spans::line(middle);
-        // Steeper than the side: one crossing per nappe; only the one with ρ ≥ 0 is the solid's.
-        let widens = d_rho.is_above(zero);
         let slanted = !b.is_equal(zero);
         let leaves = b.is_above(zero);
-        let enter = Ends::choose(slanted & !leaves, once, line.enter);
-        let leave = Ends::choose(slanted & leaves, once, line.leave);
-        let enter = Ends::choose(steeper, Ends::choose(widens, high, line.enter), enter);
-        let leave = Ends::choose(steeper, Ends::choose(widens, line.leave, low), leave);
+        let mut enter = Ends::choose(slanted & !leaves, once, line.enter);
+        let mut leave = Ends::choose(slanted & leaves, once, line.leave);
+        if !STRAIGHT {
+            // Steeper than the side: one crossing per nappe; only the one with ρ ≥ 0 is the solid's.
+            let widens = d_rho.is_above(zero);
+            enter = Ends::choose(steeper, Ends::choose(widens, high, line.enter), enter);
+            leave = Ends::choose(steeper, Ends::choose(widens, line.leave, low), leave);
+        }
         Spans {
             enter: Ends::choose(crosses, low, enter),
             leave: Ends::choose(crosses, high, leave),
@@ -153,17 +172,21 @@ impl<N: Number> Tapers<N> {
     }
 }
 
-/// The form x² + y² − ρ² along lines; ρ is the third component.
-struct SideForm<N> {
+/// The form x² + y² − ρ² along lines; ρ is the third component, and known exactly where it is `STRAIGHT`.
+struct SideForm<N, const STRAIGHT: bool> {
     o: Vector<N>,
     d: Vector<N>,
 }
 
-impl<N: Number> SideForm<N> {
+impl<N: Number, const STRAIGHT: bool> SideForm<N, STRAIGHT> {
     /// How much a point at `t` that is moved by `off` changes the form: by (2|x| + off.x)·off.x, and so for y and ρ. Near
     /// an apex hardly at all, and at the long end of an ellipse by the long axis' off only.
     #[inline(always)]
     fn off(&self, t: N, off: Vector<N>) -> N {
+        if STRAIGHT {
+            let (x, y) = ((self.o.x + self.d.x * t).magnitude(), (self.o.y + self.d.y * t).magnitude());
+            return (x * 2.0 + off.x) * off.x + (y * 2.0 + off.y) * off.y;
+        }
         let p = (self.o + self.d * t).magnitude();
         Vector { x: p.x * 2.0 + off.x, y: p.y * 2.0 + off.y, z: p.z * 2.0 + off.z }.dot(off)
     }

@@ -1,7 +1,9 @@
 //! Tracing a picture by tiles, whose rays run side by side.
 
+use std::sync::OnceLock;
+
 use crate::math::LANES;
-use crate::shade::{Channel, Memory, Shader, TileShading};
+use crate::shade::{Channel, Memory, Shader, TileHits, TileShading};
 use crate::solid::Assembly;
 use crate::stage::{Meter, Probe};
 use crate::trace::Fast;
@@ -19,6 +21,8 @@ pub(super) struct Blocks<'a, 'b, C> {
     /// To the farthest point of the world, in the assembly's unit.
     pub way: f64,
     pub samples: u32,
+    /// By tile: what the rays through the middles of its dots meet, where that is kept.
+    pub hits: Option<&'a [OnceLock<TileHits>]>,
     pub spare: &'a Spare,
 }
 
@@ -49,7 +53,8 @@ impl<'b, C: Channel + 'static> Tracer<C> for Blocks<'_, 'b, C> {
         let eye = self.assembly.datum.inward_near(self.lens.eye);
         let BlocksMemory { alone, shading } = memory;
         let sight = Sight { lens: self.lens, tile: *tile, off: [0.0; 2], eye, way: self.way };
-        self.shader.tile(&sight, shading, alone, meter);
+        let kept = self.hits.map(|tiles| &tiles[tile.number as usize]);
+        self.shader.tile(&sight, kept, shading, alone, meter);
         for block in 0..sight.blocks() {
             sight.block(block).rows(tile, |row, dots_of_row| {
                 copy_row(shading.light(block, row), &mut dots.light[dots_of_row.clone()]);
@@ -68,7 +73,7 @@ impl<'b, C: Channel + 'static> Tracer<C> for Blocks<'_, 'b, C> {
         let inside = |k: u32| (f64::from(k) + 0.5) * step - 0.5;
         for (a, b) in (0..self.samples).flat_map(|b| (0..self.samples).map(move |a| (a, b))) {
             let sight = Sight { off: [inside(a), inside(b)], ..sight };
-            self.shader.tile(&sight, shading, alone, meter);
+            self.shader.tile(&sight, None, shading, alone, meter);
             for block in 0..sight.blocks() {
                 sight.block(block).rows(tile, |row, dots_of_row| {
                     for (dot, light) in dots.light[dots_of_row].iter_mut().zip(shading.light(block, row)) {

@@ -77,6 +77,25 @@ impl Studio {
         self.level
     }
 
+    /// Puts another scene in the place of this one. Where it has the same solids ([`Scene::has_solids_of`]), as after a change
+    /// of lights, materials or world, nothing is put together or cut anew, and pictures of a view that was drawn before take
+    /// over what their rays from the eye met; else all is made anew, as by [`Studio::new`], whose errors leave the studio as
+    /// it was.
+    pub fn set_scene(&mut self, scene: Scene) -> Result<(), AssemblyError> {
+        if self.scene.has_solids_of(&scene) {
+            self.assembly.take_materials(&scene);
+            if let Some(kept) = self.kept.get_mut().unwrap_or_else(PoisonError::into_inner) {
+                kept.forget_light();
+            }
+            self.scene = scene;
+        } else {
+            let new = Self::new(scene)?;
+            let (workers, spare) = (std::mem::take(&mut self.workers), std::mem::take(&mut self.spare));
+            *self = Self { level: self.level, workers, spare, ..new };
+        }
+        Ok(())
+    }
+
     /// The scene.
     pub fn scene(&self) -> &Scene {
         &self.scene

@@ -32,6 +32,15 @@ pub struct Scene {
     pub notes: Vec<String>,
 }
 
+impl Scene {
+    /// Whether another scene has the same solids in the same order, whatever they are called, made of and lit by: a ray from
+    /// anywhere meets the same in both.
+    pub fn has_solids_of(&self, other: &Self) -> bool {
+        let mut both = self.objects.iter().zip(&other.objects);
+        self.objects.len() == other.objects.len() && both.all(|(a, b)| a.solid.is_shaped_as(&b.solid))
+    }
+}
+
 /// One object of the lattice.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Object {
@@ -61,6 +70,21 @@ impl Solid {
         match self {
             Self::Primitive(p) => f(p),
             Self::Union(c) | Self::Intersection(c) | Self::Difference(c) => c.iter().for_each(|s| s.visit(f)),
+        }
+    }
+
+    /// Whether it is the same but for materials.
+    fn is_shaped_as(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Primitive(a), Self::Primitive(b)) => {
+                (&a.shape, &a.map, &a.map_error) == (&b.shape, &b.map, &b.map_error)
+            }
+            (Self::Union(a), Self::Union(b))
+            | (Self::Intersection(a), Self::Intersection(b))
+            | (Self::Difference(a), Self::Difference(b)) => {
+                a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.is_shaped_as(b))
+            }
+            _ => false,
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod channel;
 mod direction;
+mod hits;
 mod lamps;
 mod lit;
 mod media;
@@ -15,6 +16,7 @@ mod tile;
 mod wave;
 
 pub use channel::{Channel, luminance};
+pub use hits::TileHits;
 pub use path::{Kind, Leg};
 pub use surface::{Memory, Seen, Shader, View};
 pub use tile::TileShading;

@@ -5,6 +5,7 @@
 //! where a ray must tell two surfaces in one place apart, it goes its way alone.
 
 use std::ops::Range;
+use std::sync::OnceLock;
 
 use crate::lattice::FAN;
 use crate::math::{Bundle, Column, Columns, DVec3, LANES, Place, Ray, places};
@@ -13,6 +14,7 @@ use crate::trace::{Engine, Fast, Hit, Shaft, TileMemory};
 use crate::view::Sight;
 
 use super::channel::Channel;
+use super::hits::{BlockHits, TileHits};
 use super::lit::Lit;
 use super::path::Sent;
 use super::surface::{Memory, Met, Seen, Shader};
@@ -65,17 +67,28 @@ impl<C: Channel> TileShading<C> {
 }
 
 impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
-    /// Finds what the rays of a tile see.
+    /// Finds what the rays of a tile see. What those from the eye met is taken from `kept`, which was set by the same sight of
+    /// the same solids, or put there; where there is no such place, it is not kept.
     pub fn tile(
         &self,
         sight: &Sight,
+        kept: Option<&OnceLock<TileHits>>,
         tile: &mut TileShading<C>,
         memory: &mut Memory<Fast<'e>>,
         meter: &mut Meter<impl Probe>,
     ) {
         tile.start(sight.blocks());
         tile.waves[0].inside = memory.media.start(&self.around_eye);
-        self.see(sight, tile, memory, meter);
+        match kept.map(|kept| (kept, kept.get())) {
+            None => self.see(sight, None, tile, memory, meter),
+            Some((_, Some(hits))) => self.recall(sight, hits, tile, memory, meter),
+            Some((kept, None)) => {
+                let mut hits = TileHits::default();
+                self.see(sight, Some(&mut hits), tile, memory, meter);
+                // Whoever was sooner set the same.
+                let _ = kept.set(hits);
+            }
+        }
         self.shade(0, tile, memory, meter);
         let mut last = 0;
         while self.send(last, tile, memory, meter) {
@@ -93,6 +106,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
     fn see(
         &self,
         sight: &Sight,
+        mut keep: Option<&mut TileHits>,
         tile: &mut TileShading<C>,
         memory: &mut Memory<Fast<'e>>,
         meter: &mut Meter<impl Probe>,
@@ -104,8 +118,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         let Wave { rays, before, nearest, .. } = &mut *wave;
         let mut make = |k: usize, rays: &mut Bundle| {
             meter.at(Stage::Ray);
-            sight.rays(k, self.engine.level(), rays);
-            self.engine.approach(rays, &mut before[k]);
+            self.set_out(sight, k, rays, &mut before[k]);
             meter.at(Stage::Cell);
         };
         let made = self.engine.first_seen(sight, rays, &mut make, &mut nearest[..count], trace);
@@ -118,17 +131,40 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
             }
             let unsure = std::mem::take(&mut wave.nearest[k].unsure);
             let mut alone = Vec::new();
-            for at in places(k, unsure) {
-                let ray = Ray::new(sight.eye, wave.rays[k].d.get(at.lane));
-                let hit = self.engine.first(&ray, &mut memory.engine, meter);
-                let inside = wave.inside.clone();
-                let sent = || Sent { ray, travelled: 0.0, weight: 1.0, generation: 0, inside };
-                if let Some(met) = self.take(wave, at, sent, hit, memory, meter) {
-                    alone.push((at, met));
-                }
-            }
+            self.see_alone(sight, (k, unsure), wave, &mut alone, memory, meter);
             self.know(wave, k, &alone);
-            meter.counts.primary_hits += u64::from(wave.found(k).count_ones());
+            let found = wave.found(k);
+            meter.counts.primary_hits += u64::from(found.count_ones());
+            if let Some(hits) = keep.as_mut().filter(|_| found != 0) {
+                hits.keep(k, BlockHits::new(&wave.nearest[k], wave.known[k], &alone));
+            }
+        }
+    }
+
+    /// Makes the rays from the eye through a block.
+    pub(super) fn set_out(&self, sight: &Sight, k: usize, rays: &mut Bundle, before: &mut [Column; 2]) {
+        sight.rays(k, self.engine.level(), rays);
+        self.engine.approach(rays, before);
+    }
+
+    /// Finds what some rays from the eye through a block meet, one after the other, and adds it to `alone`.
+    pub(super) fn see_alone(
+        &self,
+        sight: &Sight,
+        (k, some): (usize, u64),
+        wave: &mut Wave<C>,
+        alone: &mut Vec<(Place, Met)>,
+        memory: &mut Memory<Fast<'e>>,
+        meter: &mut Meter<impl Probe>,
+    ) {
+        for at in places(k, some) {
+            let ray = Ray::new(sight.eye, wave.rays[k].d.get(at.lane));
+            let hit = self.engine.first(&ray, &mut memory.engine, meter);
+            let inside = wave.inside.clone();
+            let sent = || Sent { ray, travelled: 0.0, weight: 1.0, generation: 0, inside };
+            if let Some(met) = self.take(wave, at, sent, hit, memory, meter) {
+                alone.push((at, met));
+            }
         }
     }
 
@@ -220,7 +256,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
     }
 
     /// The surfaces that a bundle met. `alone` are rays whose numbers were found alone.
-    fn know(&self, wave: &mut Wave<C>, k: usize, alone: &[(Place, Met)]) {
+    pub(super) fn know(&self, wave: &mut Wave<C>, k: usize, alone: &[(Place, Met)]) {
         let level = self.engine.level();
         let Wave { rays, before, nearest, surfaces, departures, known, .. } = wave;
         let (bundle, nearest, surfaces) = (&rays[k], &nearest[k], &mut surfaces[k]);

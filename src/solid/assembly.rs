@@ -320,6 +320,14 @@ impl Assembly {
         self.primitives[primitive as usize].material
     }
 
+    /// Takes the materials of another scene with the same solids ([`Scene::has_solids_of`]).
+    pub fn take_materials(&mut self, scene: &Scene) {
+        let mut own = self.primitives.iter_mut();
+        for object in &scene.objects {
+            object.solid.visit(&mut |p| own.next().into_iter().for_each(|own| own.material = p.material));
+        }
+    }
+
     /// The normal of a primitive's surface at a point of the assembly, turned to the side that a ray along `d`
     /// comes from, of length 1.
     ///

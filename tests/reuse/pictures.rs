@@ -1,6 +1,4 @@
-//! What a request shares with the picture before it is not computed again, and the pictures are the same as without.
-
-mod request;
+//! Glyphs, palette and tone: the light of the picture before is there.
 
 use std::sync::Arc;
 
@@ -10,7 +8,8 @@ use ray13::math::Size;
 use ray13::scene::{self, ReadOptions};
 use ray13::stage::{Counts, Stage};
 use ray13::tone::Tone;
-use request::request;
+
+use crate::request::request;
 
 /// Not a multiple of any tile, with a rim of half a cell.
 const DOTS: Size = Size::new(121, 83);
@@ -24,10 +23,11 @@ fn plain(studio: &Studio) -> Request {
     Request { wants: Wants::CELLS, ..request(studio.camera(0, 1.5), DOTS) }
 }
 
+/// Whether its light was computed.
 fn traced(frame: &Frame) -> bool {
     assert_eq!(frame.trace.is_zero(), frame.counts == Counts::default());
-    assert_eq!(frame.times[Stage::Ray].is_zero(), frame.counts.primary_rays == 0);
-    frame.counts.primary_rays > 0
+    assert_eq!(frame.times[Stage::Shade].is_zero(), frame.counts.primary_hits == 0);
+    frame.counts.primary_hits > 0
 }
 
 /// Everything of a frame that is not a figure.

@@ -1,0 +1,113 @@
+//! What the rays from the eye through a tile met, kept: while view and solids stay, light is computed anew without tracing
+//! them.
+
+use crate::math::{BUNDLE, DVec3, Place};
+use crate::stage::{Meter, Probe, Stage};
+use crate::trace::{Fast, Hit, Nearest};
+use crate::view::Sight;
+
+use super::channel::Channel;
+use super::surface::{Memory, Met, Shader};
+use super::tile::TileShading;
+
+/// What the rays from the eye through a tile met. It depends on nothing but the view and the solids: not on lights, on what
+/// the solids are made of, nor on what is computed of them. It takes 20 bytes for each dot of the blocks that see anything.
+#[derive(Debug, Default)]
+pub struct TileHits {
+    /// The blocks that see anything, a bit for each.
+    seeing: u16,
+    /// What these see, in their order.
+    blocks: Vec<BlockHits>,
+}
+
+/// What the rays of one block met, as [`Nearest`] has it.
+#[derive(Debug)]
+pub(super) struct BlockHits {
+    t: [f64; BUNDLE],
+    object: [u32; BUNDLE],
+    primitive: [u32; BUNDLE],
+    surface: [u32; BUNDLE],
+    entering: u64,
+    /// Rays that met more than one surface in one place: which of them shows, and what is behind it, are questions of
+    /// material.
+    together: u64,
+    /// Where rays met a surface that were traced alone: their distances are whole ways from the eye, which do not give the
+    /// place back.
+    alone: Vec<(usize, DVec3)>,
+}
+
+impl TileHits {
+    /// Keeps what a block sees, the next one that sees anything.
+    pub(super) fn keep(&mut self, block: usize, hits: BlockHits) {
+        self.seeing |= 1 << block;
+        self.blocks.push(hits);
+    }
+}
+
+impl BlockHits {
+    /// Of what is known of a bundle. `alone` are rays that were traced alone, `together` those among them whose light is known
+    /// already.
+    pub fn new(nearest: &Nearest, together: u64, alone: &[(Place, Met)]) -> Self {
+        let single = alone.iter().filter(|(at, _)| together >> at.lane & 1 == 0);
+        Self {
+            t: nearest.t.0,
+            object: nearest.object.0.map(|object| object as u32),
+            primitive: nearest.primitive.0.map(|primitive| primitive as u32),
+            surface: nearest.surface.0.map(|surface| surface as u32),
+            entering: nearest.entering,
+            together,
+            alone: single.map(|(at, met)| (at.lane, met.p)).collect(),
+        }
+    }
+
+    /// Says so to the bundle `k`. Answers which rays met what when they were traced alone.
+    fn tell(&self, k: usize, nearest: &mut Nearest) -> Vec<(Place, Met)> {
+        nearest.t.0 = self.t;
+        nearest.object.0 = self.object.map(f64::from);
+        nearest.primitive.0 = self.primitive.map(f64::from);
+        nearest.surface.0 = self.surface.map(f64::from);
+        (nearest.entering, nearest.unsure) = (self.entering, 0);
+        let met = |&(lane, p): &(usize, DVec3)| {
+            let hit = Hit {
+                t: self.t[lane],
+                error: 0.0,
+                p,
+                object: self.object[lane],
+                primitive: self.primitive[lane],
+                surface: self.surface[lane],
+                entering: self.entering >> lane & 1 == 1,
+            };
+            (Place { bundle: k, lane }, Met { hit, p, normal: DVec3::ZERO })
+        };
+        self.alone.iter().map(met).collect()
+    }
+}
+
+impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
+    /// Takes over what the rays from the eye met. Only those are traced again that met more than one surface in one place.
+    pub(super) fn recall(
+        &self,
+        sight: &Sight,
+        hits: &TileHits,
+        tile: &mut TileShading<C>,
+        memory: &mut Memory<Fast<'e>>,
+        meter: &mut Meter<impl Probe>,
+    ) {
+        let wave = &mut tile.waves[0];
+        let mut blocks = hits.blocks.iter();
+        for k in 0..wave.rays.len() {
+            let Some(block) = (hits.seeing >> k & 1 == 1).then(|| blocks.next()).flatten() else {
+                wave.surfaces[k].forget();
+                continue;
+            };
+            meter.at(Stage::Ray);
+            self.set_out(sight, k, &mut wave.rays[k], &mut wave.before[k]);
+            meter.at(Stage::Shade);
+            let mut alone = block.tell(k, &mut wave.nearest[k]);
+            self.see_alone(sight, (k, block.together), wave, &mut alone, memory, meter);
+            self.know(wave, k, &alone);
+            meter.counts.primary_rays += u64::from(block.together.count_ones());
+            meter.counts.primary_hits += u64::from(wave.found(k).count_ones());
+        }
+    }
+}

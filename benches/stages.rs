@@ -9,12 +9,12 @@ use std::fs;
 use std::hint::black_box;
 use std::path::Path;
 
-use criterion::{BenchmarkId, Criterion};
+use criterion::{BatchSize, BenchmarkId, Criterion};
 use ray13::frame::{Request, Studio, Wants};
 use ray13::glyph::{GlyphMode, Palette, compose};
 use ray13::lattice::{Lattice, SubLattices, Tree};
 use ray13::math::Size;
-use ray13::plan::Options;
+use ray13::plan::{Options, Shading};
 use ray13::scene::{Format, Scene, embedded};
 use ray13::solid::Assembly;
 use ray13::tone::Tone;
@@ -38,6 +38,7 @@ fn main() {
     assembling(&mut criterion);
     cutting(&mut criterion);
     drawing(&mut criterion);
+    lighting(&mut criterion);
     composing(&mut criterion);
     criterion.final_summary();
 }
@@ -109,11 +110,54 @@ fn drawing(criterion: &mut Criterion) {
     for scene in embedded() {
         drawn(scene.name, inside(scene.name));
     }
-    let balls = Path::new(SPD).join("balls.nff");
-    match fs::read_to_string(&balls) {
-        Ok(text) => drawn("spd balls", setting::scene("balls.nff", &text, Format::Nff)),
-        Err(error) => eprintln!("frame/spd balls is skipped: {}: {error}", balls.display()),
+    if let Some(balls) = balls() {
+        drawn("spd balls", balls);
     }
+    group.finish();
+}
+
+fn balls() -> Option<Scene> {
+    let balls = Path::new(SPD).join("balls.nff");
+    let text = fs::read_to_string(&balls);
+    let text =
+        text.inspect_err(|error| eprintln!("spd balls is skipped: {}: {error}", balls.display())).ok()?;
+    Some(setting::scene("balls.nff", &text, Format::Nff))
+}
+
+/// Another light from the same view, with all rays traced anew and with what those from the eye met taken over; and another
+/// light in the same solids.
+fn lighting(criterion: &mut Criterion) {
+    let one_thread = Options { threads: 1, ..Options::default() };
+    let lights = [
+        ("eq. (1), no shadows", Options { shading: Shading::Lambert, shadows: false, ..one_thread }),
+        ("eq. (1)", Options { shading: Shading::Lambert, ..one_thread }),
+        ("eq. (4)", one_thread),
+    ];
+    let mut group = criterion.benchmark_group("light");
+    let scenes = embedded().iter().map(|scene| (scene.name, inside(scene.name)));
+    for (name, scene) in scenes.chain(balls().map(|balls| ("spd balls", balls))) {
+        let studio = Studio::new(scene).unwrap_or_else(|e| panic!("{e}"));
+        let plain = Request { wants: Wants::LIGHT, ..request(&studio) };
+        // None of those that are measured.
+        let before =
+            Request { options: Options { shading: Shading::Phong, ..plain.options }, ..plain.clone() };
+        for (light, options) in lights {
+            let request = Request { options, ..plain.clone() };
+            group.bench_function(format!("{name}/{light}/anew"), |bencher| {
+                bencher.iter(|| studio.draw_anew(black_box(&request)));
+            });
+            group.bench_function(format!("{name}/{light}/hits taken over"), |bencher| {
+                let again = || drop(studio.draw(&before));
+                bencher.iter_batched(again, |()| studio.draw(&request), BatchSize::PerIteration);
+            });
+        }
+    }
+    let [(name, text), _] = spread();
+    let scene = setting::scene(name, &text, Format::Nff);
+    let mut studio = Studio::new(scene.clone()).unwrap_or_else(|e| panic!("{e}"));
+    group.bench_function(BenchmarkId::new("set_scene", format!("{OBJECTS} {name}")), |bencher| {
+        bencher.iter_batched(|| scene.clone(), |scene| studio.set_scene(scene), BatchSize::PerIteration);
+    });
     group.finish();
 }
 

@@ -75,9 +75,9 @@ impl Stage {
 /// What a picture needed, counted. Adding two adds every count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
-    /// Rays from the eye.
+    /// Rays from the eye that were traced.
     pub primary_rays: u64,
-    /// Rays from the eye that met something.
+    /// Rays from the eye that met something, be it that an earlier picture found out.
     pub primary_hits: u64,
     /// Rays sent towards a light.
     pub shadow_rays: u64,

@@ -41,9 +41,11 @@ impl Studio {
     /// from it in nothing that dots depend on, no ray is traced: only characters are made anew, and these only where
     /// glyphs, palette or tone have changed. Such a frame counts nothing and gives no time to the stages it left out.
     ///
-    /// Where a request has another light from the same view, which is camera, dots and their aspect, the second picture keeps
-    /// what its rays from the eye met, and those after it take that over; the fast engine does. It takes 20 bytes a dot,
-    /// for at most as many dots as the picture has in blocks of 8 × 8, and is forgotten with the view.
+    /// Where requests differ in light and not in view, which is camera, dots and their aspect, the second picture keeps what
+    /// its rays from the eye met, and those after it take that over; with several samples a dot, for the one in its middle. Such
+    /// a frame counts only the few rays from the eye that are traced again, where surfaces lie in one place and their
+    /// materials decide. What is kept takes 21 bytes a dot of the blocks of 8 × 8 that see anything, and is forgotten with the
+    /// view. The exact engine traces all rays.
     pub fn draw(&self, request: &Request) -> Frame {
         let start = Instant::now();
         self.finished(request, self.reused(request), start)

@@ -39,7 +39,8 @@ impl Studio {
     /// nothing of them.
     pub(super) fn reused(&self, request: &Request) -> Reused {
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        let Some(Kept { request: last, frame, hits }) = kept.as_mut().filter(|k| request.has_view_of(&k.request))
+        let Some(Kept { request: last, frame, hits }) =
+            kept.as_mut().filter(|k| request.has_view_of(&k.request))
         else {
             return Reused::default();
         };

@@ -79,10 +79,11 @@ pub struct Frame {
     pub object: Option<Arc<Grid<u32>>>,
     /// The characters.
     pub cells: Option<Arc<Grid<Cell>>>,
-    /// What was counted while this frame was drawn: nothing where its light is that of the picture before.
+    /// What was counted while this frame was drawn: nothing where its light is that of the picture before, and where hits
+    /// were taken over, as rays from the eye only those that had to be traced again.
     pub counts: Counts,
     /// Where the time of this frame went: LATTICE only in the one that built it, DITHER only where characters were
-    /// made, the stages from RAY to SHADE only where rays were traced. These share the time of tracing as a sample of
+    /// made, the stages from RAY to SHADE only where light was computed. These share the time of tracing as a sample of
     /// the tiles spent it.
     pub times: StageTimes,
     /// Objects in the lattice.

@@ -81,6 +81,15 @@ impl Studio {
     /// of lights, materials or world, nothing is put together or cut anew, and pictures of a view that was drawn before take
     /// over what their rays from the eye met; else all is made anew, as by [`Studio::new`], whose errors leave the studio as
     /// it was.
+    ///
+    /// ```
+    /// # use ray13::{frame::Studio, scene::{self, ReadOptions}};
+    /// let mut studio = Studio::new(scene::read("ball.csg", b"sphere(1);", &ReadOptions::default())?)?;
+    /// let mut scene = studio.scene().clone();
+    /// scene.materials[0].kr = 0.3;
+    /// studio.set_scene(scene)?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn set_scene(&mut self, scene: Scene) -> Result<(), AssemblyError> {
         if self.scene.has_solids_of(&scene) {
             self.assembly.take_materials(&scene);

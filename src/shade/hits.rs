@@ -11,7 +11,7 @@ use super::surface::{Memory, Met, Shader};
 use super::tile::TileShading;
 
 /// What the rays from the eye through a tile met. It depends on nothing but the view and the solids: not on lights, on what
-/// the solids are made of, nor on what is computed of them. It takes 20 bytes for each dot of the blocks that see anything.
+/// the solids are made of, nor on what is computed of them. It takes 21 bytes for each dot of the blocks that see anything.
 #[derive(Debug, Default)]
 pub struct TileHits {
     /// The blocks that see anything, a bit for each.

@@ -79,7 +79,7 @@ fn glyphs_palette_and_tone_need_no_rays() {
 }
 
 #[test]
-fn whatever_dots_depend_on_is_traced() {
+fn whatever_dots_depend_on_is_computed() {
     let studio = studio();
     let plain = plain(&studio);
     let changed: [fn(&mut Request); 9] = [

@@ -97,7 +97,8 @@ fn an_edited_file_keeps_its_solids_and_numbers_its_materials_anew() {
         assert!(text.contains(from));
         let mut studio = Studio::new(scene(name, text)).unwrap();
         let plain = request(studio.camera(0, 1.5), DOTS);
-        let flat = Request { options: Options { shading: Shading::Lambert, ..plain.options }, ..plain.clone() };
+        let flat =
+            Request { options: Options { shading: Shading::Lambert, ..plain.options }, ..plain.clone() };
         for request in [&flat, &plain] {
             studio.draw(request);
         }
@@ -123,7 +124,8 @@ fn other_solids_are_made_ready_anew() {
     ] {
         let mut studio = Studio::new(scene("a.scene", text)).unwrap();
         let plain = request(studio.camera(0, 1.5), DOTS);
-        let flat = Request { options: Options { shading: Shading::Lambert, ..plain.options }, ..plain.clone() };
+        let flat =
+            Request { options: Options { shading: Shading::Lambert, ..plain.options }, ..plain.clone() };
         for request in [&plain, &flat] {
             studio.draw(request);
         }

@@ -54,7 +54,9 @@ fn paint(solid: &mut Solid, next: &mut impl FnMut() -> MaterialId) {
     match solid {
         Solid::Primitive(p) => p.material = next(),
         Solid::Union(parts) | Solid::Intersection(parts) | Solid::Difference(parts) => {
-            parts.iter_mut().for_each(|part| paint(part, next));
+            for part in parts {
+                paint(part, next);
+            }
         }
     }
 }

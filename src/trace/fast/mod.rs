@@ -35,9 +35,9 @@ pub use nearest::Nearest;
 pub use shaft::{Shaft, Shone};
 pub use tint::{Clarity, Tint};
 
-/// So few rays of a tile towards a light take less time one by one than bringing them together does: what would not fill one
-/// bundle.
-const FEW_OF_TILE: u32 = BUNDLE as u32;
+/// So few rays of a tile towards a light take less time one by one than bringing them together does: what would not fill two
+/// bundles.
+const FEW_OF_TILE: u32 = 2 * BUNDLE as u32;
 
 /// The engine for tiles of rays, over an assembly and a hierarchy of its boxes.
 #[derive(Clone, Copy, Debug)]

@@ -9,8 +9,11 @@ use ray13::solid::AssemblyError;
 use crate::hits::{DOTS, FLUSH, SURFACES, all, assert_same, scene, traced};
 use crate::request::request;
 
+/// A change of a scene, by what it changes.
+type Change = (&'static str, fn(&mut Scene));
+
 /// The same solids, in another light and of other materials.
-fn changed() -> Vec<(&'static str, fn(&mut Scene))> {
+fn changed() -> Vec<Change> {
     vec![
         ("a light", |s| s.lights.push(lamp(DVec3::new(-3.0, -9.0, 7.0), DVec3::ONE))),
         ("one light, of a colour", |s| {

@@ -1,9 +1,11 @@
 //! The innermost work: a ray and a form, a ray and an expression, a ray on its way through the cells.
-//! `cargo bench --bench kernels`; each figure is the time of [`RAYS`]² rays.
+//! `cargo bench --bench kernels`; each figure is the time of the rays that [`forms::rays`] sends.
 
 #[expect(dead_code, reason = "not every scene that can be written is measured")]
 #[path = "../examples/million/scenery.rs"]
 mod scenery;
+
+mod forms;
 mod setting;
 
 use std::fmt::Write;
@@ -12,23 +14,15 @@ use std::ops::ControlFlow;
 
 use criterion::{BenchmarkId, Criterion, Throughput};
 use ray13::lattice::{Boxes, Lattice, Structure, SubLattices, Tree};
-use ray13::math::{DVec3, Ray};
+use ray13::math::Ray;
 use ray13::scene::Format;
 use ray13::solid::{Assembly, Body, Reach, Scratch, first_of_expression, first_of_span, first_of_surface};
 use ray13::stage::{Meter, Silent};
 
-/// Rays along each side of a square of them.
-const RAYS: u32 = 16;
+use forms::{CONVEX, rays};
 
-/// Forms of about radius 1, each by a text that gives it and no other.
-const FORMS: [(&str, Format, &str); 11] = [
-    ("ball", Format::Language, "sphere(1);"),
-    ("axis box", Format::Language, "cube(1.6, center = true);"),
-    ("skew box", Format::Language, "rotate([20, 30, 40]) cube(1.6, center = true);"),
-    ("ellipsoid", Format::Language, "rotate([20, 30, 40]) scale([1, 0.8, 0.6]) sphere(1);"),
-    ("cylinder", Format::Language, "rotate([20, 30, 40]) cylinder(h = 1.6, r = 0.8, center = true);"),
-    ("cone", Format::Language, "rotate([20, 30, 40]) cylinder(h = 1.6, r1 = 1, r2 = 0, center = true);"),
-    ("facets", Format::Language, "rotate([20, 30, 40]) cylinder(h = 1.6, r = 1, center = true, $fn = 6);"),
+/// Other forms of about radius 1, each by a text that gives it and no other.
+const OTHERS: [(&str, Format, &str); 4] = [
     (
         // A prism over an L, which is not convex.
         "mesh",
@@ -53,19 +47,6 @@ fn main() {
     criterion.final_summary();
 }
 
-/// Rays from a point in front, in the assembly's coordinates, across a square a little larger than its limit: about
-/// half of them meet a round solid.
-fn rays(assembly: &Assembly) -> Vec<Ray> {
-    let (center, reach) = (assembly.limit.center(), assembly.limit.half().max_element());
-    let eye = center + DVec3::new(1.0, -4.0, 2.0) * reach;
-    let share = |i: u32| 1.3 * (2.0 * (f64::from(i) + 0.5) / f64::from(RAYS) - 1.0);
-    let rays = (0..RAYS * RAYS).map(|i| {
-        let across = DVec3::new(share(i % RAYS), 0.0, share(i / RAYS));
-        Ray::new(eye, (center + across * reach - eye).normalize())
-    });
-    rays.collect()
-}
-
 /// Sends all rays against the first object.
 fn meet(criterion: &mut Criterion, group: &str, name: &str, assembly: &Assembly) {
     let rays = rays(assembly);
@@ -88,7 +69,8 @@ fn meet(criterion: &mut Criterion, group: &str, name: &str, assembly: &Assembly)
 }
 
 fn forms(criterion: &mut Criterion) {
-    for (name, format, text) in FORMS {
+    let convex = CONVEX.map(|(name, text)| (name, Format::Language, text));
+    for (name, format, text) in convex.into_iter().chain(OTHERS) {
         meet(criterion, "form", name, &assembled(name, text, format));
     }
 }
@@ -145,5 +127,5 @@ fn walks(criterion: &mut Criterion) {
 }
 
 fn assembled(name: &str, text: &str, format: Format) -> Assembly {
-    Assembly::new(&setting::scene(name, text, format)).unwrap_or_else(|e| panic!("{e}"))
+    setting::assembled(&setting::scene(name, text, format))
 }

@@ -12,26 +12,18 @@ mod scenery;
 mod setting;
 
 mod counted;
+mod forms;
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
-use ray13::math::{BUNDLE, Bundle, DVec3, Mask, Number, ROWS, Ray, Rays};
+use ray13::math::{BUNDLE, Bundle, Mask, Number, ROWS, Ray, Rays};
 use ray13::scene::Format;
 use ray13::solid::{Assembly, Form};
 
 use counted::{Counted, Operations};
-
-/// Convex forms, each by a text that gives it and no other.
-const FORMS: [(&str, &str); 6] = [
-    ("ball", "sphere(1);"),
-    ("axis box", "cube(1.6, center = true);"),
-    ("skew box", "rotate([20, 30, 40]) cube(1.6, center = true);"),
-    ("ellipsoid", "rotate([20, 30, 40]) scale([1, 0.8, 0.6]) sphere(1);"),
-    ("cylinder", "rotate([20, 30, 40]) cylinder(h = 1.6, r = 0.8, center = true);"),
-    ("cone", "rotate([20, 30, 40]) cylinder(h = 1.6, r1 = 1, r2 = 0, center = true);"),
-];
+use forms::{CONVEX, rays};
 
 /// Chains of operations side by side: more than any processor has operations of one kind on their way.
 const CHAINS: usize = 12;
@@ -62,11 +54,10 @@ fn main() {
     );
     println!("| form | simple | quotients | roots | at least | measured | times |");
     println!("|---|---|---|---|---|---|---|");
-    for (name, text) in FORMS {
-        let assembly =
-            Assembly::new(&setting::scene(name, text, Format::Language)).unwrap_or_else(|e| panic!("{e}"));
+    for (name, text) in CONVEX {
+        let assembly = setting::assembled(&setting::scene(name, text, Format::Language));
         let form = &assembly.primitives[0].form;
-        let (bundle, rays) = rays(&assembly, form);
+        let (bundle, rays) = bundled(&assembly, form);
         let Operations { simple, quotients, roots } = counted(form, &rays);
         let least = (simple * pace.simple).max(quotients * pace.quotient + roots * pace.root);
         let measured = dispatch!(level, simd => measured(simd, form, &bundle));
@@ -78,21 +69,12 @@ fn main() {
 }
 
 /// A bundle of rays that all meet a form.
-fn rays(assembly: &Assembly, form: &Form) -> (Bundle, Vec<Ray>) {
-    let (center, reach) = (assembly.limit.center(), assembly.limit.half().max_element());
-    let eye = center + DVec3::new(1.0, -4.0, 2.0) * reach;
+fn bundled(assembly: &Assembly, form: &Form) -> (Bundle, Vec<Ray>) {
+    let meeting: Vec<Ray> = rays(assembly).into_iter().filter(|ray| form.span(ray).is_some()).collect();
+    let rays: Vec<Ray> = meeting.into_iter().cycle().take(BUNDLE).collect();
     let mut bundle = Bundle::EMPTY;
-    let mut rays = Vec::new();
-    let mut place = 0_u32;
-    while rays.len() < BUNDLE {
-        // A fraction of the golden section and one of a root of 2: spread over a square, in no order.
-        let [x, z] = [0.618_034, 0.414_214].map(|step| (f64::from(place) * step).fract() - 0.5);
-        place += 1;
-        let ray = Ray::new(eye, (center + DVec3::new(x, 0.0, z) * reach - eye).normalize());
-        if form.span(&ray).is_some() {
-            bundle.set(rays.len(), &ray);
-            rays.push(ray);
-        }
+    for (lane, ray) in rays.iter().enumerate() {
+        bundle.set(lane, ray);
     }
     (bundle, rays)
 }
@@ -142,7 +124,7 @@ fn measured<S: Simd>(simd: S, form: &Form, bundle: &Bundle) -> f64 {
             }
         };
     }
-    of!(Ball, AxisBox, SkewBox, Round)
+    of!(Ball, AxisBox, SkewBox, Round, Facets)
 }
 
 #[inline(always)]

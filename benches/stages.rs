@@ -84,7 +84,7 @@ fn assembling(criterion: &mut Criterion) {
 
 fn cutting(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("cut");
-    let assembly = assembled(&inside(SCENE));
+    let assembly = setting::assembled(&inside(SCENE));
     group.bench_function(BenchmarkId::new("lattice", SCENE), |bencher| {
         bencher.iter(|| Lattice::new(black_box(&assembly)));
     });
@@ -92,7 +92,7 @@ fn cutting(criterion: &mut Criterion) {
         bencher.iter(|| SubLattices::new(black_box(&assembly)));
     });
     for (name, text) in spread() {
-        let assembly = assembled(&setting::scene(name, &text, Format::Nff));
+        let assembly = setting::assembled(&setting::scene(name, &text, Format::Nff));
         group.bench_function(BenchmarkId::new("tree", format!("{OBJECTS} {name}")), |bencher| {
             bencher.iter(|| Tree::new(black_box(&assembly)));
         });
@@ -171,10 +171,6 @@ fn composing(criterion: &mut Criterion) {
         });
     }
     group.finish();
-}
-
-fn assembled(scene: &Scene) -> Assembly {
-    Assembly::new(scene).unwrap_or_else(|e| panic!("{e}"))
 }
 
 fn request(studio: &Studio) -> Request {

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use criterion::Criterion;
 use ray13::scene::{self, Format, ReadOptions, Scene};
+use ray13::solid::Assembly;
 
 use super::scenery::{Scenery, Shape, Spread};
 
@@ -24,6 +25,14 @@ pub fn criterion() -> Criterion {
 pub fn scene(name: &str, text: &str, format: Format) -> Scene {
     let options = ReadOptions { format: Some(format), ..ReadOptions::default() };
     scene::read(name, text.as_bytes(), &options).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// The solids of a scene, put together.
+///
+/// # Panics
+/// Where they can not be.
+pub fn assembled(scene: &Scene) -> Assembly {
+    Assembly::new(scene).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// Objects evenly spread over a cube, as NFF.

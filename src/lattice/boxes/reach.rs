@@ -18,8 +18,9 @@ const OBJECT: usize = 7;
 /// Marks the number of an object whose box tells what ball it is.
 const ROUND: u32 = 1 << 31;
 
-/// A box as a node holds it, in half the digits, and as how far it reaches: along −x, −y and −z, its longest edge, and along x, y and z. Two are joined by the
-/// larger of each, the longest edge too: that of a joined one is the longest of any box in it.
+/// A box as a node holds it, in half the digits, and as how far it reaches: along −x, −y and −z, its longest edge, and
+/// along x, y and z. Two are joined by the larger of each, the longest edge too: that of a joined one is the longest of
+/// any box in it.
 ///
 /// The last number is an object's, by its bits, where the box is one's own; else it says nothing.
 #[derive(Clone, Copy)]

@@ -71,7 +71,7 @@ impl Node {
 
 #[cfg(test)]
 mod tests {
-    use crate::lattice::Boxes;
+    use crate::lattice::{Boxes, Child};
     use crate::scene::{ReadOptions, read};
     use crate::solid::Assembly;
 
@@ -86,7 +86,7 @@ mod tests {
         let [root] = boxes.nodes() else { panic!("few objects fill one node") };
         let mut round = [false; 6];
         for slot in 0..root.len() {
-            let Some(super::super::Child::Object(object)) = root.child(slot) else { panic!("no other node") };
+            let Some(Child::Object(object)) = root.child(slot) else { panic!("no other node") };
             round[assembly.objects[object as usize].number as usize] = root.ball(slot).is_some();
         }
         assert_eq!(round, [true, true, false, false, false, false]);

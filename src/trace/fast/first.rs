@@ -262,6 +262,7 @@ struct Slicing<'a, S> {
 }
 
 impl<S: Simd> Slices for Slicing<'_, S> {
+    /// What lies behind the nearest is mostly hidden: measured on solids of OpenSCAD, as [`SOME`](super::slices::SOME) is.
     const FEW: usize = 3;
 
     fn open(&self) -> u64 {

@@ -354,6 +354,24 @@ fn any_camera() -> impl Strategy<Value = Camera> {
     )
 }
 
+/// Drawn by [`any_view_of_any_scene`]: the start of each ray was moved once toward the world, which left one part in 2^52
+/// of the way, and cells were looked for from there in vain.
+#[test]
+fn from_farther_away_than_numbers_have_digits() {
+    let text = format!("{LIGHTS} translate([0, 0, 1]) sphere(semi = [1, 2, 0.5]); sphere(1); cube(1);");
+    let studio = studio(&text);
+    for exponent in [15, 17, 33, 60, 150, 300] {
+        let far = libm::pow(10.0, f64::from(exponent));
+        let camera = Camera {
+            eye: DVec3::new(1.0, far, far),
+            up: DVec3::X,
+            field: [10.0 / far; 2],
+            ..camera(DVec3::ZERO, DVec3::ZERO)
+        };
+        all_sound(&format!("from 1e{exponent}"), &text, &studio, &camera);
+    }
+}
+
 proptest! {
     #![proptest_config(cases(600))]
 

@@ -16,6 +16,10 @@ use super::{Engine, Hit};
 /// unit, is moved to that plane, so that the way to the world adds no rounding.
 const FAR: f64 = 1.0;
 
+/// How often what is left of the way to that plane is gone over again: each time leaves one part in 2^52 of it, and no
+/// way is longer than 2^1024. Rays that pass the world far away end no nearer.
+const STEPS: usize = 1024 / 52;
+
 /// The reference engine, over an assembly and how its space is cut.
 #[derive(Clone, Copy, Debug)]
 pub struct Exact<'a> {
@@ -320,8 +324,17 @@ pub(super) fn all_moved_nearer<N: Number>(rays: &Rays<N>) -> (Rays<N>, [N; 2]) {
     }
     let Rays { o, d } = *rays;
     let start = Vector { x: far.fused(d.x, o.x), y: far.fused(d.y, o.y), z: far.fused(d.z, o.z) };
-    let left = -start.dot(d) - LIMIT;
-    let start = start + d * left;
+    let mut left = -start.dot(d) - LIMIT;
+    let mut start = start + d * left;
+    for _ in 0..STEPS {
+        let more = -start.dot(d) - LIMIT;
+        let is_off = is_far & (more.is_above(zero.same(FAR)) | more.is_below(zero.same(-FAR)));
+        if !is_off.any() {
+            break;
+        }
+        start = Vector::choose(is_off, start + d * more, start);
+        left = is_off.choose(left + more, left);
+    }
     let o = Vector::choose(is_far, start, o);
     (Rays { o, d }, [is_far.choose(far, zero), is_far.choose(left, zero)])
 }

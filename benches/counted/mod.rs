@@ -141,7 +141,7 @@ impl Mask<Counted> for bool {
     fn any(self) -> bool {
         self
     }
-    fn bits(self) -> u8 {
-        u8::from(self)
+    fn bits(self) -> u64 {
+        u64::from(self)
     }
 }

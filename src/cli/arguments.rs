@@ -8,7 +8,7 @@ use clap_complete::Shell;
 use crate::math::{DVec3, Size};
 use crate::plan::{CUTOFF, DEPTH};
 
-use super::picture::{EngineName, Glyphs, PaletteName, Preset, StructureName, ToneName};
+use super::picture::{EngineName, Glyphs, PaletteName, PrecisionName, Preset, StructureName, ToneName};
 use super::values;
 
 /// Shows solid models in a terminal: ray traced, in 13 gray levels of block characters.
@@ -154,6 +154,9 @@ pub struct PictureArguments {
     /// What traces; the picture is the same
     #[arg(long, value_enum, default_value = "auto")]
     pub engine: EngineName,
+    /// Digits of what the fast engine's rays from the eye meet
+    #[arg(long, value_enum, default_value = "auto")]
+    pub precision: PrecisionName,
     /// Characters of the picture
     #[arg(long, value_enum, default_value = "blocks")]
     pub glyphs: Glyphs,

@@ -5,7 +5,7 @@ use clap::ValueEnum;
 use crate::frame::{Request, Studio, Wants, pcat};
 use crate::glyph::{CELL_ASPECT, ColorDepth, GlyphMode, Palette};
 use crate::math::Size;
-use crate::plan::{EngineChoice, Options, Shading, StructureChoice};
+use crate::plan::{EngineChoice, Options, PrecisionChoice, Shading, StructureChoice};
 use crate::scene::{Camera, FieldSpan, Scene};
 use crate::tone::Tone;
 
@@ -128,6 +128,27 @@ impl From<EngineName> for EngineChoice {
     }
 }
 
+/// The precisions by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum PrecisionName {
+    /// Half the digits where that saves time and nobody sees it: not in pfm
+    Auto,
+    /// Half the digits
+    Single,
+    /// All
+    Double,
+}
+
+impl From<PrecisionName> for PrecisionChoice {
+    fn from(name: PrecisionName) -> Self {
+        match name {
+            PrecisionName::Auto => Self::Auto,
+            PrecisionName::Single => Self::Single,
+            PrecisionName::Double => Self::Double,
+        }
+    }
+}
+
 /// The presets by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Preset {
@@ -152,6 +173,7 @@ impl PictureArguments {
             shadows: self.shadows || (preset.shadows && !self.no_shadows),
             structure: self.structure.map_or(structure, Into::into),
             engine,
+            precision: self.precision.into(),
             samples: self.samples,
             color: false,
             threads: self.threads.map_or(0, usize::from),

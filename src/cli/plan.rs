@@ -125,6 +125,7 @@ impl Printed {
         if let Some(ran) = &self.ran {
             all["ms"] = json!(ms(ran.before.iter().sum::<Duration>() + ran.frame.total));
             all["engine"] = json!(ran.frame.engine.name());
+            all["precision"] = json!(ran.frame.precision.name());
         }
         all
     }

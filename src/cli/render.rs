@@ -12,6 +12,7 @@ use crate::frame::{Frame, Request, Wants};
 use crate::glyph::Palette;
 use crate::math::Grid;
 use crate::output::{self, Pixels};
+use crate::plan::PrecisionChoice;
 use crate::tone::Tone;
 
 use super::arguments::{Channel, Format, PictureArguments, RenderArguments};
@@ -28,7 +29,11 @@ pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
     let studio = input::studio(scene)?;
     let read = reading.elapsed();
     let wants = wants(format, arguments.channel);
-    let request = arguments.picture.request(&studio, palette(&arguments.picture, format), wants)?;
+    let mut request = arguments.picture.request(&studio, palette(&arguments.picture, format), wants)?;
+    // Raw values are for whoever computes with them.
+    if format == Format::Pfm && request.options.precision == PrecisionChoice::Auto {
+        request.options.precision = PrecisionChoice::Double;
+    }
     let mut frame = studio.draw(&request);
     frame.times[crate::stage::Stage::Objects] = read;
     if let Some(over) = &frame.over_budget {

@@ -47,6 +47,7 @@ pub fn figures(frame: &Frame, built: &Built) -> Map<String, Value> {
     put("stage_ms", Value::Object(stages));
     put("threads", json!(frame.threads));
     put("engine", json!(frame.engine.name()));
+    put("precision", json!(frame.precision.name()));
     put("structure", json!(frame.space.name()));
     match frame.space {
         Space::Whole => {}

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use crate::glyph::{self, Cell, Palette};
 use crate::lattice::Structure;
 use crate::math::{Bounds, DVec3, Grid};
-use crate::plan::{Channels, EngineChoice, Plan};
+use crate::plan::{Channels, EngineChoice, Plan, Precision};
 use crate::shade::{Channel, Shader, TileHits};
 use crate::stage::{Counts, Meter, Silent, Stage, StageTimes, Stopwatch};
 use crate::trace::{Exact, Fast};
@@ -16,7 +16,7 @@ use crate::view::{Lens, Picture, TILE, Tile, tiles};
 
 use super::blocks::Blocks;
 use super::gather::{PictureDots, TileDots};
-use super::kept::Reused;
+use super::kept::{Hits, Reused};
 use super::points::{Points, Tracer};
 use super::{Frame, Request, Space, Studio, Wants};
 
@@ -64,7 +64,7 @@ impl Studio {
             _ => self.workers(request.options.threads),
         };
         let work = || {
-            let mut frame = frame.unwrap_or_else(|| self.traced(request, hits.as_deref()));
+            let mut frame = frame.unwrap_or_else(|| self.traced(request, hits.as_ref()));
             if cells_lack(&frame) {
                 let dithering = Instant::now();
                 frame.cells = Some(Arc::new(composed(&frame, request)));
@@ -82,9 +82,10 @@ impl Studio {
     }
 
     /// The dots of a picture, without characters.
-    fn traced(&self, request: &Request, hits: Option<&[OnceLock<TileHits>]>) -> Frame {
+    fn traced(&self, request: &Request, hits: Option<&Hits>) -> Frame {
         let start = Instant::now();
         let (lens, plan) = self.plan(request);
+        let hits = hits.and_then(|hits| hits.of(plan.precision));
         let viewed = Instant::now();
         let cut_before = self.built().cutting;
         let (structure, over_budget) = self.structure(plan.structure);
@@ -112,6 +113,7 @@ impl Studio {
             primitives: self.assembly.primitives.len(),
             space: Space::of(&structure),
             engine: plan.engine,
+            precision: plan.precision,
             over_budget,
             field: lens.field(),
             threads: rayon::current_num_threads(),
@@ -151,7 +153,9 @@ impl Viewed<'_> {
         let (scene, assembly) = (studio.scene(), &studio.assembly);
         let way = farthest(assembly.datum.inward_near(lens.eye), &assembly.limit);
         if let (EngineChoice::Fast, Structure::Boxes(boxes, subs)) = (plan.engine, structure) {
-            let engine = Fast::new(assembly, boxes, subs).at_level(studio.level());
+            let engine = Fast::new(assembly, boxes, subs)
+                .at_level(studio.level())
+                .in_singles(plan.precision == Precision::Single);
             let shader = &Shader::<_, C>::new(scene, assembly, plan, &engine);
             let (samples, spare) = (plan.samples, &studio.spare);
             let sampler = Blocks { assembly, shader, lens, way, samples, hits: self.hits, spare };

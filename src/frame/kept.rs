@@ -3,15 +3,33 @@
 use std::sync::{OnceLock, PoisonError};
 use std::time::Duration;
 
-use crate::plan::Options;
+use crate::plan::{Options, Precision};
 use crate::shade::TileHits;
 use crate::stage::{Counts, StageTimes};
 use crate::view::tiles;
 
 use super::{Frame, Request, Studio};
 
-/// What the rays from the eye met, by tile; nothing yet of a tile that was not traced since it is kept.
-pub(super) type Hits = Vec<OnceLock<TileHits>>;
+/// What the rays from the eye met.
+#[derive(Debug)]
+pub(super) struct Hits {
+    /// In how many digits they were asked: nothing yet before the first picture.
+    precision: OnceLock<Precision>,
+    /// By tile; nothing yet of a tile that was not traced since it is kept.
+    tiles: Vec<OnceLock<TileHits>>,
+}
+
+impl Hits {
+    fn room(tiles: usize) -> Self {
+        let tiles = std::iter::repeat_with(OnceLock::new).take(tiles).collect();
+        Self { precision: OnceLock::new(), tiles }
+    }
+
+    /// Those that were asked in so many digits, or room for them. None where others are kept.
+    pub fn of(&self, precision: Precision) -> Option<&[OnceLock<TileHits>]> {
+        (*self.precision.get_or_init(|| precision) == precision).then_some(&self.tiles)
+    }
+}
 
 /// What is left of the last picture.
 #[derive(Debug)]
@@ -47,7 +65,7 @@ impl Studio {
         let hits = hits.take();
         let serves = |frame: &&Frame| request.has_dots_of(last) && frame.has(request);
         let Some(frame) = frame.as_ref().filter(serves) else {
-            let room = || std::iter::repeat_with(OnceLock::new).take(tiles(request.dots).len()).collect();
+            let room = || Hits::room(tiles(request.dots).len());
             return Reused { frame: None, hits: Some(hits.unwrap_or_else(room)) };
         };
         let frame = Frame {

@@ -6,7 +6,7 @@ use std::time::Duration;
 use crate::glyph::{Cell, GlyphMode, Palette};
 use crate::lattice::{OverBudget, Structure};
 use crate::math::{DVec3, Grid, Size};
-use crate::plan::{EngineChoice, Options};
+use crate::plan::{EngineChoice, Options, Precision};
 use crate::scene::Camera;
 use crate::stage::{Counts, StageTimes};
 use crate::tone::{Level, Tone};
@@ -94,6 +94,8 @@ pub struct Frame {
     pub space: Space,
     /// What traced; never [`EngineChoice::Auto`].
     pub engine: EngineChoice,
+    /// In how many digits rays from the eye were asked.
+    pub precision: Precision,
     /// Why that is a tree, where a lattice was asked for.
     pub over_budget: Option<OverBudget>,
     /// The full angles of the field across and down, in degrees.
@@ -158,6 +160,7 @@ impl Frame {
             primitives: 0,
             space: Space::Whole,
             engine: EngineChoice::Exact,
+            precision: Precision::Double,
             over_budget: None,
             field: [0.0; 2],
             threads: 1,

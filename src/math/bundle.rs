@@ -1,8 +1,9 @@
 //! Rays that are traced together.
 
-use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x8, mask64x8};
+use fearless_simd::{Simd, SimdBase, SimdMask, mask64x8};
 
-use super::number::LANES;
+use super::digits::{Answers, Digits, Row, Wide};
+use super::number::{LANES, Mask};
 use super::vector::{Rays, Vector};
 use super::{DVec3, Ray};
 
@@ -12,44 +13,87 @@ pub const BUNDLE: usize = 64;
 /// Registers of numbers in a bundle.
 pub const ROWS: usize = BUNDLE / LANES;
 
+/// The most numbers of a row.
+const MOST_LANES: usize = 2 * LANES;
+
 /// One number of each ray of a bundle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
-pub struct Column(pub [f64; BUNDLE]);
+pub struct Column<T = f64>(pub [T; BUNDLE]);
 
 /// Rays side by side.
 #[derive(Clone, Debug)]
-pub struct Bundle {
+pub struct Bundle<T = f64> {
     /// Where they start, by axis.
-    pub o: [Column; 3],
+    pub o: [Column<T>; 3],
     /// Where they go, by axis.
-    pub d: [Column; 3],
+    pub d: [Column<T>; 3],
     /// Which are there, the first the lowest bit. The numbers of the others are those of one that is.
     pub live: u64,
 }
 
-impl Column {
+impl<T: Copy> Column<T> {
     /// The same for all.
-    pub const fn filled(x: f64) -> Self {
+    pub const fn filled(x: T) -> Self {
         Self([x; BUNDLE])
     }
+}
 
+impl<T: Digits> Column<T> {
+    /// Those of row `row`, below [`Digits::ROWS`], in a register.
+    #[inline(always)]
+    pub fn load<S: Simd>(&self, simd: S, row: usize) -> T::Wide<S> {
+        T::Wide::<S>::of_row(simd, &self.0[row * T::LANES..][..T::LANES])
+    }
+
+    /// As many as a row of other digits has, in these.
+    #[inline(always)]
+    pub fn load_nearest<U: Digits, S: Simd>(&self, simd: S, row: usize) -> U::Wide<S> {
+        let mut numbers = [U::ZERO; MOST_LANES];
+        let own = &self.0[row * U::LANES..][..U::LANES];
+        for (to, from) in numbers.iter_mut().zip(own) {
+            *to = U::nearest((*from).into());
+        }
+        U::Wide::<S>::of_row(simd, &numbers[..U::LANES])
+    }
+
+    /// Sets a row of them.
+    #[inline(always)]
+    pub fn store(&mut self, row: usize, x: impl Row<Digits = T>) {
+        x.put_into(&mut self.0[row * T::LANES..][..T::LANES]);
+    }
+
+    /// Sets some of a row.
+    #[inline(always)]
+    pub fn put<S: Simd>(&mut self, simd: S, row: usize, which: Answers<T, S>, x: T::Wide<S>) {
+        self.store(row, which.choose(x, self.load(simd, row)));
+    }
+
+    /// Gives those whose bit is not among `kept` the number of another, `from`.
+    #[inline(always)]
+    pub fn fill_rest<S: Simd>(&mut self, simd: S, kept: u64, from: usize) {
+        let x = T::Wide::<S>::all(simd, self.0[from].into());
+        for row in 0..T::ROWS {
+            if T::has_any(!kept, row) {
+                self.put(simd, row, T::row_of(simd, !kept, row), x);
+            }
+        }
+    }
+
+    /// Sets each to the nearest of another's.
+    #[inline(always)]
+    pub fn set_nearest<U: Digits>(&mut self, other: &Column<U>) {
+        for (to, from) in self.0.iter_mut().zip(&other.0) {
+            *to = T::nearest((*from).into());
+        }
+    }
+}
+
+impl Column {
     /// Eight of them: those of row `row`, below [`ROWS`].
     #[inline(always)]
     pub fn row(&self, row: usize) -> [f64; LANES] {
         std::array::from_fn(|lane| self.0[row * LANES + lane])
-    }
-
-    /// The same in a register.
-    #[inline(always)]
-    pub fn load<S: Simd>(&self, simd: S, row: usize) -> f64x8<S> {
-        f64x8::from_slice(simd, &self.0[row * LANES..][..LANES])
-    }
-
-    /// Sets some of eight.
-    #[inline(always)]
-    pub fn put<S: Simd>(&mut self, simd: S, row: usize, which: mask64x8<S>, x: f64x8<S>) {
-        self.store(row, which.select(x, self.load(simd, row)));
     }
 
     /// The largest; none of them may be not-a-number.
@@ -60,23 +104,6 @@ impl Column {
             most = most.max(self.load(simd, row));
         }
         most.reduce_max()
-    }
-
-    /// Gives those whose bit is not among `kept` the number of another, `from`.
-    #[inline(always)]
-    pub fn fill_rest<S: Simd>(&mut self, simd: S, kept: u64, from: usize) {
-        let x = f64x8::splat(simd, self.0[from]);
-        for row in 0..ROWS {
-            if (kept >> (row * LANES)) as u8 != u8::MAX {
-                self.put(simd, row, row_of(simd, !kept, row), x);
-            }
-        }
-    }
-
-    /// Sets eight of them.
-    #[inline(always)]
-    pub fn store<S: Simd>(&mut self, row: usize, x: f64x8<S>) {
-        x.store_slice(&mut self.0[row * LANES..][..LANES]);
     }
 }
 
@@ -113,26 +140,26 @@ pub fn row_of<S: Simd>(simd: S, bits: u64, row: usize) -> mask64x8<S> {
 }
 
 /// A vector of each ray of a bundle.
-pub trait Columns {
-    /// Eight of them: those of row `row`, below [`ROWS`].
-    fn load<S: Simd>(&self, simd: S, row: usize) -> Vector<f64x8<S>>;
-    /// Sets eight of them.
-    fn store<S: Simd>(&mut self, row: usize, v: Vector<f64x8<S>>);
+pub trait Columns<T: Digits> {
+    /// Those of row `row`, below [`Digits::ROWS`].
+    fn load<S: Simd>(&self, simd: S, row: usize) -> Vector<T::Wide<S>>;
+    /// Sets a row of them.
+    fn store(&mut self, row: usize, v: Vector<impl Row<Digits = T>>);
     /// One of them.
     fn get(&self, lane: usize) -> DVec3;
     /// Sets one of them.
     fn set(&mut self, lane: usize, v: DVec3);
 }
 
-impl Columns for [Column; 3] {
+impl<T: Digits> Columns<T> for [Column<T>; 3] {
     #[inline(always)]
-    fn load<S: Simd>(&self, simd: S, row: usize) -> Vector<f64x8<S>> {
+    fn load<S: Simd>(&self, simd: S, row: usize) -> Vector<T::Wide<S>> {
         let [x, y, z] = self;
         Vector { x: x.load(simd, row), y: y.load(simd, row), z: z.load(simd, row) }
     }
 
     #[inline(always)]
-    fn store<S: Simd>(&mut self, row: usize, v: Vector<f64x8<S>>) {
+    fn store(&mut self, row: usize, v: Vector<impl Row<Digits = T>>) {
         self[0].store(row, v.x);
         self[1].store(row, v.y);
         self[2].store(row, v.z);
@@ -140,24 +167,26 @@ impl Columns for [Column; 3] {
 
     #[inline(always)]
     fn get(&self, lane: usize) -> DVec3 {
-        DVec3::new(self[0].0[lane], self[1].0[lane], self[2].0[lane])
+        let [x, y, z] = self;
+        DVec3::new(x.0[lane].into(), y.0[lane].into(), z.0[lane].into())
     }
 
     #[inline(always)]
     fn set(&mut self, lane: usize, v: DVec3) {
         for axis in 0..3 {
-            self[axis].0[lane] = v[axis];
+            self[axis].0[lane] = T::nearest(v[axis]);
         }
     }
 }
 
-impl Bundle {
+impl<T: Digits> Bundle<T> {
     /// No rays.
-    pub const EMPTY: Self = Self { o: [Column::filled(0.0); 3], d: [Column::filled(0.0); 3], live: 0 };
+    pub const EMPTY: Self =
+        Self { o: [Column::filled(T::ZERO); 3], d: [Column::filled(T::ZERO); 3], live: 0 };
 
-    /// Eight rays: those of row `row`, below [`ROWS`].
+    /// The rays of row `row`, below [`Digits::ROWS`].
     #[inline(always)]
-    pub fn load<S: Simd>(&self, simd: S, row: usize) -> Rays<f64x8<S>> {
+    pub fn load<S: Simd>(&self, simd: S, row: usize) -> Rays<T::Wide<S>> {
         Rays { o: self.o.load(simd, row), d: self.d.load(simd, row) }
     }
 
@@ -187,9 +216,19 @@ impl Bundle {
         }
     }
 
-    /// The bits of the live rays in a row.
+    /// Sets each ray to the nearest of another bundle's.
     #[inline(always)]
-    pub fn live_in(&self, row: usize) -> u8 {
-        (self.live >> (row * LANES)) as u8
+    pub fn set_nearest<U: Digits>(&mut self, other: &Bundle<U>) {
+        for axis in 0..3 {
+            self.o[axis].set_nearest(&other.o[axis]);
+            self.d[axis].set_nearest(&other.d[axis]);
+        }
+        self.live = other.live;
+    }
+
+    /// Whether any of the live rays is in a row.
+    #[inline(always)]
+    pub fn has_live(&self, row: usize) -> bool {
+        T::has_any(self.live, row)
     }
 }

@@ -3,15 +3,18 @@
 
 mod bounds;
 mod bundle;
+mod digits;
 mod exact;
 mod grid;
 mod number;
 mod placement;
 mod ray;
+mod single;
 mod vector;
 
 pub use bounds::Bounds;
 pub use bundle::{BUNDLE, Bundle, Column, Columns, Place, ROWS, lanes, places, row_of};
+pub use digits::{Answers, Digits, Row, Wide};
 pub use exact::{product_rest, two_sum};
 pub use glam::{DAffine3, DMat3, DVec2, DVec3};
 pub use grid::{Grid, Size};

@@ -39,6 +39,11 @@ pub trait Number:
     /// Answers to a question about each.
     type Mask: Mask<Self>;
 
+    /// How many times as much is lost by a rounding as of an `f64`.
+    const COARSER: f64 = 1.0;
+    /// Below this numbers lose digits.
+    const LEAST: f64 = f64::MIN_POSITIVE;
+
     /// `x` for all: as many as there are in `self`.
     #[must_use]
     fn same(self, x: f64) -> Self;
@@ -92,7 +97,7 @@ pub trait Mask<N>: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Out
     /// Whether any answer is yes.
     fn any(self) -> bool;
     /// The answers as bits, the first the lowest.
-    fn bits(self) -> u8;
+    fn bits(self) -> u64;
 }
 
 impl Number for f64 {
@@ -160,8 +165,8 @@ impl Mask<f64> for bool {
         self
     }
     #[inline(always)]
-    fn bits(self) -> u8 {
-        u8::from(self)
+    fn bits(self) -> u64 {
+        u64::from(self)
     }
 }
 
@@ -232,7 +237,7 @@ impl<S: Simd> Mask<f64x8<S>> for mask64x8<S> {
         self.any_true()
     }
     #[inline(always)]
-    fn bits(self) -> u8 {
-        self.to_bitmask() as u8
+    fn bits(self) -> u64 {
+        self.to_bitmask()
     }
 }

@@ -6,6 +6,7 @@ use crate::solid::{Assembly, Body, Form, Tree};
 use crate::stage::Stage;
 use crate::view::Lens;
 
+use super::precision::{Digital, Precision};
 use super::{Channels, Cost, EngineChoice, Plan, Shading, StructureChoice};
 
 /// What a plan says of one stage.
@@ -38,6 +39,7 @@ pub struct Term {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reasons {
     pub(super) cut: Cut,
+    pub(super) digital: Digital,
     pub(super) shading: Shading,
     /// The depth constant.
     pub(super) depth: Result<f64, Absent>,
@@ -130,6 +132,11 @@ impl Plan {
         if !is_empty {
             shade.terms = self.terms(scene);
         }
+        let mut solid =
+            stage(Stage::Solid, !is_empty, if is_empty { nothing() } else { kinds.forms_words() });
+        if !is_empty {
+            solid.terms = vec![self.digits()];
+        }
         vec![
             stage(Stage::Objects, true, kinds.objects_words(scene)),
             stage(Stage::Lattice, is_cut, self.cut_words(&kinds)),
@@ -137,10 +144,25 @@ impl Plan {
             stage(Stage::Ray, true, self.rays(dots)),
             stage(Stage::Clip, !inside, clip.into()),
             stage(Stage::Cell, is_cut && !is_empty, walk),
-            stage(Stage::Solid, !is_empty, if is_empty { nothing() } else { kinds.forms_words() }),
+            solid,
             stage(Stage::Csg, kinds.composites() > 0, kinds.csg_words()),
             shade,
         ]
+    }
+
+    fn digits(&self) -> Term {
+        let why = match self.reasons.digital {
+            Digital::Asked(precision) => format!("{} precision is wanted", precision.name()),
+            Digital::Exact => "the exact engine has all digits → f64".into(),
+            Digital::SentOn => "rays start on what is hit → f64".into(),
+            Digital::NoGain => "of balls and surfaces it saves nothing → f64".into(),
+            Digital::Thin => "a primitive is so thin that rays might miss it → f64".into(),
+            Digital::Dots(dots) => format!("a hit would be off by up to {dots:.2} dots → f64"),
+            Digital::Unseen(dots) => {
+                format!("a hit is off by {dots:.4} dots at most → f32, and f64 where that leaves a doubt")
+            }
+        };
+        Term { name: "f32", needed: self.precision == Precision::Single, why }
     }
 
     fn cut_words(&self, kinds: &Kinds) -> String {

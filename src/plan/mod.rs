@@ -4,10 +4,14 @@
 mod cost;
 mod explain;
 mod options;
+mod precision;
 
 pub use cost::Cost;
 pub use explain::{Reasons, StagePlan, Term};
-pub use options::{CUTOFF, DEPTH, EngineChoice, Options, OptionsError, Shading, StructureChoice};
+pub use options::{
+    CUTOFF, DEPTH, EngineChoice, Options, OptionsError, PrecisionChoice, Shading, StructureChoice,
+};
+pub use precision::Precision;
 
 use crate::math::DVec3;
 use crate::scene::{Anchor, Light, Material, Scene};
@@ -15,6 +19,7 @@ use crate::solid::Assembly;
 use crate::view::Lens;
 
 use explain::{Absent, Cut};
+use precision::Digital;
 
 /// Everything that the later stages need to know.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +30,8 @@ pub struct Plan {
     /// What traces; never [`EngineChoice::Auto`]. Where it is [`EngineChoice::Fast`], the structure is
     /// [`StructureChoice::Boxes`].
     pub engine: EngineChoice,
+    /// In how many digits it asks what rays from the eye meet.
+    pub precision: Precision,
     /// The constant of the depth term, in the scene's unit; absent where the division is left out.
     pub depth: Option<f64>,
     /// Whether any surface has a highlight that this shading model shows.
@@ -114,22 +121,27 @@ impl Plan {
         let lit = if lamps.is_empty() { Err(Absent::Light) } else { Ok(()) };
         let engine = engine(options);
         let (structure, cut) = suitable(assembly, options.structure, engine);
+        let secondary = from_model(Shading::Whitted)
+            .and_then(|()| first(|m| m.kr > 0.0 || m.kt > 0.0).ok_or(Absent::MirrorOrGlass));
+        let shadows = if options.shadows { lit } else { Err(Absent::Wish) };
+        let sends_on = secondary.is_ok() || shadows.is_ok();
         let reasons = Reasons {
             cut,
+            digital: Digital::of(assembly, lens, options, (engine, sends_on)),
             shading: options.shading,
             depth: from_model(Shading::Depth).and_then(|()| scene.world.k.ok_or(Absent::DepthConstant)),
             highlight: from_model(Shading::Phong)
                 .and(lit)
                 .and_then(|()| first(|m| m.ks > 0.0).ok_or(Absent::Highlight)),
-            secondary: from_model(Shading::Whitted)
-                .and_then(|()| first(|m| m.kr > 0.0 || m.kt > 0.0).ok_or(Absent::MirrorOrGlass)),
-            shadows: if options.shadows { lit } else { Err(Absent::Wish) },
+            secondary,
+            shadows,
             colored: colored(scene, &lamps, options.color),
             color_wanted: options.color,
         };
         Self {
             structure,
             engine,
+            precision: reasons.digital.precision(),
             depth: reasons.depth.ok(),
             highlight: reasons.highlight.is_ok(),
             secondary: (reasons.secondary.ok())

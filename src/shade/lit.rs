@@ -87,7 +87,7 @@ impl Lit {
                 shaft.rays.d.store(row, d);
                 shaft.distance.store(row, distance);
             }
-            shaft.rays.live |= u64::from(asks.bits()) << (row * LANES);
+            shaft.rays.live |= asks.bits() << (row * LANES);
         }
         shaft.rays.live &= shines;
         if needs.shadows {

@@ -52,7 +52,7 @@ impl Surfaces {
         for row in 0..ROWS {
             let t = nearest.t.load(simd, row);
             let met = t.is_below(t.same(f64::INFINITY));
-            self.hits |= u64::from(met.bits()) << (row * LANES);
+            self.hits |= met.bits() << (row * LANES);
             self.p.store(row, bundle.load(simd, row).at(t));
             self.way.store(row, before[0].load(simd, row) + (before[1].load(simd, row) + t));
         }
@@ -165,7 +165,7 @@ impl Surfaces {
             let normal = self.normal.load(simd, row).normalized_or(-d);
             let away = normal.dot(d).is_above(d.x.same(0.0));
             self.normal.store(row, Vector::choose(away, -normal, normal));
-            inward |= u64::from(away.bits()) << (row * LANES);
+            inward |= away.bits() << (row * LANES);
         }
         inward
     }
@@ -180,7 +180,7 @@ fn same_face<S: Simd>(simd: S, nearest: &Nearest, lane: usize) -> u64 {
     for row in lane / LANES..ROWS {
         let same = nearest.primitive.load(simd, row).is_equal(primitive)
             & nearest.surface.load(simd, row).is_equal(surface);
-        group |= u64::from(same.bits()) << (row * LANES);
+        group |= same.bits() << (row * LANES);
     }
     group
 }

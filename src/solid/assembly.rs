@@ -53,6 +53,19 @@ pub struct Assembly {
     pub off: f64,
     /// From the scene's coordinates to those of the assembly.
     pub datum: Datum,
+    /// What there is of what.
+    pub makeup: Makeup,
+}
+
+/// What there is of what in an assembly.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Makeup {
+    /// The least [`Form::thickness`] of the primitives.
+    pub thinnest: f64,
+    /// Objects that are one ball.
+    pub balls: usize,
+    /// Objects that are one surface.
+    pub surfaces: usize,
 }
 
 /// One object of the lattice.
@@ -275,10 +288,12 @@ impl Assembly {
             }
         }
         let limit = objects.iter().fold(Bounds::EMPTY, |limit, object| limit.join(&object.bounds));
-        let off = if primitives.len() < STRETCH {
-            primitives.iter().map(|p| p.form.off()).fold(0.0, f64::max)
+        let numbers = |p: &Primitive| (p.form.off(), p.form.thickness());
+        let join = |(off, thinnest): (f64, f64), other: (f64, f64)| (off.max(other.0), thinnest.min(other.1));
+        let (off, thinnest) = if primitives.len() < STRETCH {
+            primitives.iter().map(numbers).fold((0.0, f64::INFINITY), join)
         } else {
-            primitives.par_iter().map(|p| p.form.off()).reduce(|| 0.0, f64::max)
+            primitives.par_iter().map(numbers).reduce(|| (0.0, f64::INFINITY), join)
         };
         let alone = |object: &Object| match object.body {
             Body::Single(index) | Body::Surface(index) => match primitives[index as usize].form {
@@ -288,8 +303,11 @@ impl Assembly {
             },
             Body::Composite { .. } => (MANY, Kind::Other),
         };
-        let alone = objects.iter().map(alone).collect();
-        Ok(Self { primitives, objects, alone, limit, off, datum })
+        let alone: Vec<_> = objects.iter().map(alone).collect();
+        let balls = alone.iter().filter(|(_, kind)| *kind == Kind::Ball).count();
+        let surfaces = objects.iter().filter(|o| matches!(o.body, Body::Surface(_))).count();
+        let makeup = Makeup { thinnest, balls, surfaces };
+        Ok(Self { primitives, objects, alone, limit, off, datum, makeup })
     }
 
     /// The primitive of an object that is a [`Body::Single`] or a [`Body::Surface`]. A list of its own: millions of

@@ -1,7 +1,8 @@
 //! Spheres that stayed spheres: a centre and a radius.
 
-use crate::math::{Bounds, DVec3, Mask, Number, Rays, Vector};
+use crate::math::{Bounds, DVec3, Digits, Mask, Number, Rays, Vector};
 
+use super::primitive::Cover;
 use super::span::{Ends, LIMIT, ROUNDING, Spans, WORLD, rounding_at};
 
 /// The points within `radius` of `center`.
@@ -63,7 +64,7 @@ impl<N: Number> Balls<N> {
         let l = l_squared.root();
         let half_squared = (-l + radius) * (l + radius);
         // Moving the ray sideways changes the square of the half-chord by 2·l times as much.
-        let any = near_enough & half_squared.is_above(radius * 2.0 * SEEN);
+        let any = near_enough & half_squared.is_above(radius * 2.0 * (SEEN * N::COARSER));
         let half = half_squared.root();
         // Half a chord that the map's own error could have made is off by no more than all of that.
         let sideways = half_squared.is_below(grazing).choose(grazing_root, l * off / half);
@@ -95,6 +96,7 @@ impl Ball {
     #[inline(always)]
     fn for_all<N: Number>(&self, like: N) -> Balls<N> {
         let Self { center, radius, off } = *self;
+        let off = off * N::COARSER;
         let grazing = 2.0 * radius * off;
         let Vector { x, y, z } = Vector::from(center);
         Balls {
@@ -118,8 +120,9 @@ impl Ball {
 
     /// The most that the `error` of any of its ends can be: half a chord whose square is below `2·r·off` is off by no more
     /// than the root of that, and one above it by less than half of that root.
-    pub fn most_error(&self) -> f64 {
-        self.off + (2.0 * self.radius * self.off).sqrt()
+    pub fn most_error<T: Digits>(&self) -> f64 {
+        let off = self.off * T::COARSER;
+        off + (2.0 * self.radius * off).sqrt()
     }
 
     /// The share of its errors that our own rounding may have made.
@@ -143,11 +146,13 @@ impl Ball {
         self.center.dot(v) + self.radius * v.length()
     }
 
-    /// The least and the greatest distance of a box's points from the centre, in radii.
-    pub fn distances(&self, b: &Bounds) -> (f64, f64) {
-        let from_center = (b.center() - self.center).abs();
-        let half = b.half();
-        let nearest = (from_center - half).max(DVec3::ZERO).length();
-        (nearest / self.radius, (from_center + half).length() / self.radius)
+    /// How it lies to a box.
+    pub fn cover(&self, b: &Bounds) -> Cover {
+        let (from_center, half) = ((b.center() - self.center).abs(), b.half());
+        // Radii are far from numbers whose squares are none.
+        let square = self.radius * self.radius;
+        Cover::of((from_center - half).max(DVec3::ZERO).length_squared() > square, || {
+            (from_center + half).length_squared() < square
+        })
     }
 }

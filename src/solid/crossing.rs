@@ -107,7 +107,7 @@ impl<N: Number> Starts<N> {
     /// Whether crossings lie at the starts of their rays, or before.
     #[inline(always)]
     pub(super) fn before(&self, end: &Ends<N>, form: &Form) -> N::Mask {
-        end.t.is_at_most(start_of(end.error, (form.off(), form.seeming()), self.off))
+        end.t.is_at_most(start_of(end.error, (form.off() * N::COARSER, form.seeming()), self.off))
     }
 }
 

@@ -5,9 +5,9 @@
 //! sorted list there is a bit for each ray: of a crossing that is yet to come, of a primitive that the place is inside,
 //! of an operator that is true there. So an operator is one operation on a word for all rays.
 
-use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x8, mask64x8};
+use fearless_simd::Simd;
 
-use crate::math::{Bundle, Column, LANES, Mask, Number, ROWS, row_of};
+use crate::math::{Answers, Bundle, Column, Digits, Mask, Number};
 
 use super::alone::decide_alone;
 use super::crossing::{Crossing, Reach, SAME_SLOPE, start_of};
@@ -19,13 +19,13 @@ use super::span::Departure;
 
 /// The surfaces that the rays of a bundle start on: [`super::Departure`] of each.
 #[derive(Clone, Debug)]
-pub struct Departures {
+pub struct Departures<T = f64> {
     /// The index of the primitive.
-    pub primitive: Column,
+    pub primitive: Column<T>,
     /// Which rays go to the inside of it, a bit for each.
     pub inward: u64,
     /// How far it may be off its place.
-    pub off: Column,
+    pub off: Column<T>,
 }
 
 impl Departures {
@@ -48,16 +48,18 @@ impl Departures {
             off: self.off.0[lane],
         }
     }
+}
 
+impl<T: Digits> Departures<T> {
     /// Which rays start on a primitive, and which of these go to its inside.
     pub fn here<S: Simd>(&self, simd: S, primitive: u32) -> (u64, u64) {
         let here = simd.vectorize(
             #[inline(always)]
             || {
-                let index = f64x8::splat(simd, f64::from(primitive));
+                let index = T::all(simd, f64::from(primitive));
                 let mut here = 0;
-                for row in 0..ROWS {
-                    here |= u64::from(self.primitive.load(simd, row).is_equal(index).bits()) << (row * LANES);
+                for row in 0..T::ROWS {
+                    here |= T::bits_of(simd, self.primitive.load(simd, row).is_equal(index), row);
                 }
                 here
             },
@@ -75,35 +77,37 @@ impl Departures {
 
 /// The first crossings of a bundle.
 #[derive(Clone, Debug)]
-pub struct Found {
+pub struct Found<T = f64> {
     /// Which rays have one, a bit for each: of the others the numbers mean nothing.
     pub any: u64,
-    /// Which rays are to be asked one by one: theirs is a place where no primitive alone makes the change.
+    /// Which rays are to be asked one by one: theirs is a place where no primitive alone makes the change; or by more digits.
     pub unsure: u64,
     /// Which rays go into the solid there.
     pub entering: u64,
     /// Where, and how far that may be off.
-    pub t: Column,
+    pub t: Column<T>,
     /// How far `t` may be off.
-    pub error: Column,
+    pub error: Column<T>,
     /// The primitive whose surface it is, by its index.
-    pub primitive: Column,
+    pub primitive: Column<T>,
     /// The face of that primitive.
-    pub surface: Column,
+    pub surface: Column<T>,
 }
 
-impl Found {
+impl<T: Digits> Found<T> {
     /// None.
     pub const NONE: Self = Self {
         any: 0,
         unsure: 0,
         entering: 0,
-        t: Column::filled(f64::INFINITY),
-        error: Column::filled(0.0),
-        primitive: Column::filled(0.0),
-        surface: Column::filled(0.0),
+        t: Column::filled(T::INFINITY),
+        error: Column::filled(T::ZERO),
+        primitive: Column::filled(T::ZERO),
+        surface: Column::filled(T::ZERO),
     };
+}
 
+impl Found {
     /// Sets the crossing of one ray.
     pub fn set(&mut self, lane: usize, crossing: &Crossing) {
         self.any |= 1 << lane;
@@ -117,8 +121,8 @@ impl Found {
 
 /// Memory that is used again for every bundle.
 #[derive(Clone, Debug, Default)]
-pub struct BundleScratch {
-    known: Known,
+pub struct BundleScratch<T> {
+    known: Known<T>,
     /// By leaf: the place of its spans among those that are known.
     places: Vec<u32>,
     /// By leaf: the rays that are inside; and those that the place toggles.
@@ -129,7 +133,7 @@ pub struct BundleScratch {
     behind: Vec<u64>,
 }
 
-impl BundleScratch {
+impl<T: Digits> BundleScratch<T> {
     /// Another bundle follows, or the same from other surfaces.
     pub fn start(&mut self) {
         self.known.clear();
@@ -138,13 +142,13 @@ impl BundleScratch {
 
 /// What is asked of an expression.
 #[derive(Clone, Copy, Debug)]
-pub struct Asked<'a> {
+pub struct Asked<'a, T> {
     /// The rays.
-    pub bundle: &'a Bundle,
+    pub bundle: &'a Bundle<T>,
     /// Which of them ask, a bit for each.
     pub wanted: u64,
     /// The surfaces that they leave; none for rays from the eye.
-    pub departures: Option<&'a Departures>,
+    pub departures: Option<&'a Departures<T>>,
     /// The part of each.
     pub reach: Reach,
 }
@@ -152,13 +156,13 @@ pub struct Asked<'a> {
 /// The first crossings of an expression of convex primitives.
 ///
 /// Rays whose expression has a primitive that is not convex are unsure, all of them.
-pub fn first_of_expressions<S: Simd>(
+pub fn first_of_expressions<S: Simd, T: Digits>(
     simd: S,
-    asked: &Asked,
+    asked: &Asked<T>,
     expression: Flat,
     primitives: &[Primitive],
-    scratch: &mut BundleScratch,
-    found: &mut Found,
+    scratch: &mut BundleScratch<T>,
+    found: &mut Found<T>,
 ) {
     let Asked { bundle, wanted, departures, reach } = *asked;
     (found.any, found.unsure, found.entering) = (0, 0, 0);
@@ -195,31 +199,31 @@ pub fn first_of_expressions<S: Simd>(
 }
 
 /// The spans of an expression's leaves.
-struct Leaves<'a> {
-    spans: &'a mut [KnownSpans],
+struct Leaves<'a, T> {
+    spans: &'a mut [KnownSpans<T>],
     places: &'a [u32],
 }
 
-impl Leaves<'_> {
+impl<T> Leaves<'_, T> {
     #[inline(always)]
-    fn of(&self, leaf: usize) -> &KnownSpans {
+    fn of(&self, leaf: usize) -> &KnownSpans<T> {
         &self.spans[self.places[leaf] as usize]
     }
 
     #[inline(always)]
-    fn of_mut(&mut self, leaf: usize) -> &mut KnownSpans {
+    fn of_mut(&mut self, leaf: usize) -> &mut KnownSpans<T> {
         &mut self.spans[self.places[leaf] as usize]
     }
 }
 
 #[inline(always)]
-fn decide<S: Simd>(
+fn decide<S: Simd, T: Digits>(
     simd: S,
-    asked: &Asked,
+    asked: &Asked<T>,
     mut open: u64,
     expression: Flat,
-    scratch: &mut BundleScratch,
-    found: &mut Found,
+    scratch: &mut BundleScratch<T>,
+    found: &mut Found<T>,
 ) {
     let Asked { departures, reach, .. } = *asked;
     let leaves = expression.leaves.len();
@@ -232,11 +236,12 @@ fn decide<S: Simd>(
     while open != 0 {
         let mut done = 0;
         let mut early = 0;
-        for row in 0..ROWS {
-            if (open >> (row * LANES)) as u8 != 0 {
-                let [ended, earlier] = next_place((simd, row, open), &mut sides, departures, reach);
-                done |= ended;
+        for row in 0..T::ROWS {
+            if T::has_any(open, row) {
+                let [ended, earlier, doubtful] = next_place((simd, row, open), &mut sides, departures, reach);
+                done |= ended | doubtful;
                 early |= earlier;
+                found.unsure |= doubtful;
             }
         }
         open &= !done;
@@ -275,70 +280,76 @@ fn decide<S: Simd>(
 }
 
 /// The first crossing that is yet to come on each ray of a row, and all that are one place with it. Answers which rays
-/// have none within reach, and whose place is passed over: it lies at the start of the ray, or before the reach.
+/// have none within reach, and whose place is passed over: it lies at the start of the ray, or before the reach; and of which
+/// more digits are to decide what is one place.
 #[inline(always)]
-fn next_place<S: Simd>(
+fn next_place<S: Simd, T: Digits>(
     (simd, row, open): (S, usize, u64),
-    sides: &mut Leaves,
-    departures: Option<&Departures>,
+    sides: &mut Leaves<T>,
+    departures: Option<&Departures<T>>,
     reach: Reach,
-) -> [u64; 2] {
-    let shift = row * LANES;
-    let (infinite, zero) = (f64x8::splat(simd, f64::INFINITY), f64x8::splat(simd, 0.0));
+) -> [u64; 3] {
+    let shift = row * T::LANES;
+    let (infinite, zero) = (T::all(simd, f64::INFINITY), T::all(simd, 0.0));
     let (mut t, mut error, mut off, mut seeming) = (infinite, zero, zero, zero);
     for leaf in 0..sides.places.len() {
         let known = sides.of(leaf);
         for side in known.sides() {
-            if (side.ahead >> shift) as u8 == 0 {
+            if !T::has_any(side.ahead, row) {
                 continue;
             }
             let their_t = side.t.load(simd, row);
-            let sooner = row_of(simd, side.ahead, row) & their_t.is_below(t);
-            t = sooner.select(their_t, t);
-            error = sooner.select(side.error.load(simd, row), error);
-            off = sooner.select(f64x8::splat(simd, known.off), off);
-            seeming = sooner.select(f64x8::splat(simd, known.seeming), seeming);
+            let sooner = T::row_of(simd, side.ahead, row) & their_t.is_below(t);
+            t = sooner.choose(their_t, t);
+            error = sooner.choose(side.error.load(simd, row), error);
+            off = sooner.choose(T::all(simd, known.off), off);
+            seeming = sooner.choose(T::all(simd, known.seeming), seeming);
         }
     }
     let start = start_of(error, (off, seeming), departures.map(|d| d.off.load(simd, row)));
-    let open = row_of(simd, open, row);
-    let ended = open & (t.is_equal(infinite) | t.is_above(f64x8::splat(simd, reach.to)));
+    let open = T::row_of(simd, open, row);
+    let ended = open & (t.is_equal(infinite) | t.is_above(T::all(simd, reach.to)));
     let (asking, limit) = (open & !ended, t + error);
     // The first itself reaches back to its place; mostly no other does.
-    let (mut some, mut more) = (mask64x8::splat(simd, false), mask64x8::splat(simd, false));
+    let none = T::row_of(simd, 0, row);
+    let (mut some, mut more) = (none, none);
     for leaf in 0..sides.places.len() {
         for side in sides.of_mut(leaf).sides_mut() {
-            if (side.ahead >> shift) as u8 == 0 {
-                side.now &= !(0xFF << shift);
+            if !T::has_any(side.ahead, row) {
+                side.now &= !(T::ROW << shift);
                 continue;
             }
             let earliest = side.t.load(simd, row) - side.error.load(simd, row);
-            let reaches = row_of(simd, side.ahead, row) & asking & earliest.is_at_most(limit);
-            more |= some & reaches;
-            some |= reaches;
-            side.now = side.now & !(0xFF << shift) | u64::from(reaches.bits()) << shift;
+            let reaches = T::row_of(simd, side.ahead, row) & asking & earliest.is_at_most(limit);
+            more = more | (some & reaches);
+            some = some | reaches;
+            side.now = side.now & !(T::ROW << shift) | reaches.bits() << shift;
         }
     }
-    let all_before = if more.any() {
+    let mut doubtful = 0;
+    let all_before = if !T::DECIDES {
+        doubtful = T::bits_of(simd, more, row);
+        t.is_below(T::all(simd, reach.from))
+    } else if more.any() {
         one_place((simd, row, asking), sides, [t, error, off], reach)
     } else {
-        t.is_below(f64x8::splat(simd, reach.from))
+        t.is_below(T::all(simd, reach.from))
     };
     let early = asking & (t.is_at_most(start) | all_before);
-    [ended, early].map(|mask| u64::from(mask.bits()) << shift)
+    [T::bits_of(simd, ended, row), T::bits_of(simd, early, row), doubtful]
 }
 
 /// Which crossings of those that reach back to the first of a row, where several do, are one place with it. Answers
 /// where all of these are before the reach.
 #[inline(always)]
-fn one_place<S: Simd>(
-    (simd, row, asking): (S, usize, mask64x8<S>),
-    sides: &mut Leaves,
-    [t, error, off]: [f64x8<S>; 3],
+fn one_place<S: Simd, T: Digits>(
+    (simd, row, asking): (S, usize, Answers<T, S>),
+    sides: &mut Leaves<T>,
+    [t, error, off]: [T::Wide<S>; 3],
     reach: Reach,
-) -> mask64x8<S> {
-    let shift = row * LANES;
-    let (infinite, zero) = (f64x8::splat(simd, f64::INFINITY), f64x8::splat(simd, 0.0));
+) -> Answers<T, S> {
+    let shift = row * T::LANES;
+    let (infinite, zero) = (T::all(simd, f64::INFINITY), T::all(simd, 0.0));
     let limit = t + error;
     // In the order of their distances the place ends before the first that does not reach back to it.
     let mut end = infinite;
@@ -346,25 +357,25 @@ fn one_place<S: Simd>(
         for side in sides.of(leaf).sides() {
             let their_t = side.t.load(simd, row);
             let apart =
-                row_of(simd, side.ahead, row) & (their_t - side.error.load(simd, row)).is_above(limit);
-            end = (apart & their_t.is_below(end)).select(their_t, end);
+                T::row_of(simd, side.ahead, row) & (their_t - side.error.load(simd, row)).is_above(limit);
+            end = (apart & their_t.is_below(end)).choose(their_t, end);
         }
     }
     let mut all_before = asking;
     for leaf in 0..sides.places.len() {
         let known = sides.of_mut(leaf);
-        let own = f64x8::splat(simd, known.off);
+        let own = T::all(simd, known.off);
         for side in known.sides_mut() {
-            if (side.now >> shift) as u8 == 0 {
+            if !T::has_any(side.now, row) {
                 continue;
             }
             let (their_t, their_error) = (side.t.load(simd, row), side.error.load(simd, row));
             let exact = error.is_equal(zero) | their_error.is_equal(zero);
-            let now = row_of(simd, side.now, row)
+            let now = T::row_of(simd, side.now, row)
                 & their_t.is_below(end)
                 & (have_one_slope(off / error, own / their_error) | exact);
-            all_before &= !now | their_t.is_below(f64x8::splat(simd, reach.from));
-            side.now = side.now & !(0xFF << shift) | u64::from(now.bits()) << shift;
+            all_before = all_before & (!now | their_t.is_below(T::all(simd, reach.from)));
+            side.now = side.now & !(T::ROW << shift) | now.bits() << shift;
         }
     }
     all_before
@@ -372,7 +383,7 @@ fn one_place<S: Simd>(
 
 /// Whether the sines of the angles at which rays meet two surfaces are as near as those of one place are.
 #[inline(always)]
-pub(super) fn have_one_slope<S: Simd>(a: f64x8<S>, b: f64x8<S>) -> mask64x8<S> {
+pub(super) fn have_one_slope<N: Number>(a: N, b: N) -> N::Mask {
     a.larger(b).is_at_most(a.smaller(b) * SAME_SLOPE)
 }
 
@@ -426,24 +437,20 @@ fn decides(
 
 /// The crossing of some rays with one side is the one that is asked for.
 #[inline(always)]
-fn take<S: Simd>(simd: S, side: &Side, lanes: u64, primitive: u32, found: &mut Found) {
+fn take<S: Simd, T: Digits>(simd: S, side: &Side<T>, lanes: u64, primitive: u32, found: &mut Found<T>) {
     if lanes == 0 {
         return;
     }
-    for row in 0..ROWS {
-        let bits = lanes >> (row * LANES) & 0xFF;
-        if bits == 0 {
+    for row in 0..T::ROWS {
+        if !T::has_any(lanes, row) {
             continue;
         }
-        let mask: mask64x8<S> = mask64x8::from_bitmask(simd, bits);
+        let which = T::row_of(simd, lanes, row);
         let pairs =
             [(&side.t, &mut found.t), (&side.error, &mut found.error), (&side.surface, &mut found.surface)];
         for (from, to) in pairs {
-            let chosen = mask.select(from.load(simd, row), to.load(simd, row));
-            to.store(row, chosen);
+            to.put(simd, row, which, from.load(simd, row));
         }
-        let primitive =
-            mask.select(f64x8::splat(simd, f64::from(primitive)), found.primitive.load(simd, row));
-        found.primitive.store(row, primitive);
+        found.primitive.put(simd, row, which, T::all(simd, f64::from(primitive)));
     }
 }

@@ -73,7 +73,7 @@ impl Eight {
     fn balls<S: Simd>(&mut self, simd: S) {
         let Spans { enter, leave, any } = Balls::new(self.numbers(simd)).spans(&self.rays(simd));
         self.store(enter, leave);
-        self.any[0] = any.bits();
+        self.any[0] = any.bits() as u8;
     }
 
     /// Computes where the rays meet tubes.
@@ -86,7 +86,7 @@ impl Eight {
         let found = Tubes::new(self.numbers(simd)).crossings(&self.rays(simd));
         let SideCrossings { enter, enters, leave, leaves, one_way } = found;
         self.store(enter, leave);
-        self.any = [enters.bits(), leaves.bits(), one_way.bits()];
+        self.any = [enters, leaves, one_way].map(|mask| mask.bits() as u8);
     }
 
     /// The numbers of a form that has so many.

@@ -3,7 +3,9 @@
 use crate::math::{Bounds, DVec3, Mask, Number, Placement, Rays};
 use crate::scene;
 
+use super::primitive::Cover;
 use super::span::{Ends, Spans, rounding_at};
+use super::unit_space::norm;
 
 /// An intersection of half-spaces, in the world.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +22,7 @@ pub struct Facets {
     displacement: f64,
     /// The least share of it that is our own rounding.
     seeming: f64,
+    thickness: f64,
 }
 
 /// What rounding may make of the 0 of a direction in the plane of a face: a dot product of three terms, and the normal
@@ -47,13 +50,25 @@ impl Facets {
         let off: Box<[f64]> = faces.iter().map(|face| seen + face.normal.abs().dot(map_error)).collect();
         let seeming = off.iter().map(|off| seen / off).fold(1.0, f64::min);
         let displacement = off.iter().fold(0.0, |most: f64, &off| most.max(off));
-        Self { faces, center: place.center, bounds, corners: Box::default(), off, displacement, seeming }
+        // The narrowest unit solid, a prism of three sides, is 1.5 thick, a pyramid over it more than a third of that.
+        let thickness = 0.5 / norm(&place.inverse);
+        let (center, corners) = (place.center, Box::default());
+        Self { faces, center, bounds, corners, off, displacement, seeming, thickness }
     }
 
     /// The same solid, with its corners.
     #[must_use]
     pub fn with_corners(self, corners: Box<[DVec3]>) -> Self {
-        Self { bounds: Bounds::around(corners.iter().copied()), corners, ..self }
+        // Two planes that are as near as can be touch a face, or two edges: those are as far apart as two faces at least by a
+        // third, about.
+        let across = |face: &scene::HalfSpace| {
+            let along = corners.iter().map(|p| p.dot(face.normal));
+            let (lo, hi) =
+                along.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), x| (lo.min(x), hi.max(x)));
+            hi - lo
+        };
+        let thickness = self.faces.iter().map(across).fold(f64::INFINITY, f64::min) / 3.0;
+        Self { bounds: Bounds::around(corners.iter().copied()), corners, thickness, ..self }
     }
 
     /// Where each ray is inside. A ray in the plane of a face is decided half open, as for slabs: inside where
@@ -64,12 +79,13 @@ impl Facets {
         let from_center = rays.o - self.center;
         let mut spans = Spans::line(like);
         let (before, behind) = (like.same(f64::NEG_INFINITY), like.same(f64::INFINITY));
+        let still = STILL * N::COARSER;
         for (surface, (face, off)) in self.faces.iter().zip(&self.off).enumerate() {
             let above = from_center.dot_one(face.normal) - face.offset;
             let d = rays.d.dot_one(face.normal);
             let (t, error, surface) =
-                (-above / d, like.same(*off) / d.magnitude(), like.same(surface as f64));
-            let (against, along) = (d.is_below(like.same(-STILL)), d.is_above(like.same(STILL)));
+                (-above / d, like.same(*off * N::COARSER) / d.magnitude(), like.same(surface as f64));
+            let (against, along) = (d.is_below(like.same(-still)), d.is_above(like.same(still)));
             let enter = Ends { t: against.choose(t, before), error, surface };
             let leave = Ends { t: along.choose(t, behind), error, surface };
             spans.clip(enter, leave);
@@ -95,6 +111,11 @@ impl Facets {
         self.seeming
     }
 
+    /// How far two parallel planes around it are apart at least, or less.
+    pub fn thickness(&self) -> f64 {
+        self.thickness
+    }
+
     /// The outward normal of a face, of length 1.
     pub fn normal(&self, surface: u32) -> DVec3 {
         self.faces[surface as usize].normal
@@ -117,17 +138,21 @@ impl Facets {
         self.bounds
     }
 
-    /// Whether the box is certainly outside.
-    pub fn misses(&self, b: &Bounds) -> bool {
+    /// How it lies to a box.
+    pub fn cover(&self, b: &Bounds) -> Cover {
+        if self.bounds.meet(b).is_empty() {
+            return Cover::None;
+        }
         let (center, half) = (b.center() - self.center, b.half());
-        self.bounds.meet(b).is_empty()
-            || self.faces.iter().any(|f| f.normal.dot(center) - f.normal.abs().dot(half) > f.offset)
-    }
-
-    /// Whether the box is certainly inside.
-    pub fn covers(&self, b: &Bounds) -> bool {
-        let (center, half) = (b.center() - self.center, b.half());
-        self.faces.iter().all(|f| f.normal.dot(center) + f.normal.abs().dot(half) < f.offset)
+        let mut all = true;
+        for face in &self.faces {
+            let (middle, reach) = (face.normal.dot(center), face.normal.abs().dot(half));
+            if middle - reach > face.offset {
+                return Cover::None;
+            }
+            all &= middle + reach < face.offset;
+        }
+        if all { Cover::All } else { Cover::Some }
     }
 }
 

@@ -1,9 +1,9 @@
 //! The spans of a bundle in the primitives that it was asked about: each is computed once, however many slices of the
 //! way, and expressions in them, name the primitive.
 
-use fearless_simd::{Simd, SimdBase, f64x8};
+use fearless_simd::Simd;
 
-use crate::math::{Bundle, Column, LANES, Mask, Number, ROWS, Rays, row_of};
+use crate::math::{Bundle, Column, Digits, Mask, Number, Rays};
 
 use super::crossing::Reach;
 use super::crossings::Departures;
@@ -33,10 +33,10 @@ pub(crate) use with_spans;
 
 /// One end of the spans in one primitive.
 #[derive(Clone, Debug)]
-pub(super) struct Side {
-    pub t: Column,
-    pub error: Column,
-    pub surface: Column,
+pub(super) struct Side<T> {
+    pub t: Column<T>,
+    pub error: Column<T>,
+    pub surface: Column<T>,
     /// The rays that are yet to cross here.
     pub ahead: u64,
     /// The rays that cross here in the place that is looked at.
@@ -45,29 +45,29 @@ pub(super) struct Side {
 
 /// The spans in one primitive.
 #[derive(Clone, Debug)]
-pub(super) struct KnownSpans {
+pub(super) struct KnownSpans<T> {
     primitive: u32,
     /// How far its crossings may be off: [`Form::off`]; and the share of that which is our own rounding.
     pub off: f64,
     pub seeming: f64,
     /// Which rays have one.
     any: u64,
-    pub enter: Side,
-    pub leave: Side,
+    pub enter: Side<T>,
+    pub leave: Side<T>,
 }
 
-impl Side {
+impl<T: Digits> Side<T> {
     const NONE: Self = Self {
-        t: Column::filled(0.0),
-        error: Column::filled(0.0),
-        surface: Column::filled(0.0),
+        t: Column::filled(T::ZERO),
+        error: Column::filled(T::ZERO),
+        surface: Column::filled(T::ZERO),
         ahead: 0,
         now: 0,
     };
 
     /// Those of a row.
     #[inline(always)]
-    pub fn row<S: Simd>(&self, simd: S, row: usize) -> Ends<f64x8<S>> {
+    pub fn row<S: Simd>(&self, simd: S, row: usize) -> Ends<T::Wide<S>> {
         Ends {
             t: self.t.load(simd, row),
             error: self.error.load(simd, row),
@@ -76,19 +76,19 @@ impl Side {
     }
 }
 
-impl KnownSpans {
+impl<T: Digits> KnownSpans<T> {
     const NONE: Self =
         Self { primitive: 0, off: 0.0, seeming: 0.0, any: 0, enter: Side::NONE, leave: Side::NONE };
 
     /// The two ends.
     #[inline(always)]
-    pub fn sides(&self) -> [&Side; 2] {
+    pub fn sides(&self) -> [&Side<T>; 2] {
         [&self.enter, &self.leave]
     }
 
     /// The two ends.
     #[inline(always)]
-    pub fn sides_mut(&mut self) -> [&mut Side; 2] {
+    pub fn sides_mut(&mut self) -> [&mut Side<T>; 2] {
         [&mut self.enter, &mut self.leave]
     }
 
@@ -98,15 +98,15 @@ impl KnownSpans {
     fn look<S: Simd>(&mut self, simd: S, wanted: u64, reach: Reach) -> u64 {
         let mut ahead = 0;
         let rays = wanted & self.any;
-        let (from, to) = (f64x8::splat(simd, reach.from), f64x8::splat(simd, reach.to));
-        for row in 0..ROWS {
-            if (rays >> (row * LANES)) as u8 == 0 {
+        let (from, to) = (T::all(simd, reach.from), T::all(simd, reach.to));
+        for row in 0..T::ROWS {
+            if !T::has_any(rays, row) {
                 continue;
             }
             let (leave, enter) = (self.leave.t.load(simd, row), self.enter.t.load(simd, row));
             let ends_before = (leave + self.leave.error.load(simd, row)).is_below(from);
             let starts_behind = (enter - self.enter.error.load(simd, row)).is_above(to);
-            ahead |= u64::from((!(ends_before | starts_behind)).bits()) << (row * LANES);
+            ahead |= T::bits_of(simd, !(ends_before | starts_behind), row);
         }
         ahead &= rays;
         (self.enter.ahead, self.leave.ahead) = (ahead, ahead);
@@ -117,20 +117,20 @@ impl KnownSpans {
 
 /// What is known of one bundle.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Known {
+pub(super) struct Known<T> {
     /// Those that are in use come first.
-    spans: Vec<KnownSpans>,
+    spans: Vec<KnownSpans<T>>,
     count: usize,
 }
 
-impl Known {
+impl<T: Digits> Known<T> {
     /// Forgets all: another bundle follows.
     pub fn clear(&mut self) {
         self.count = 0;
     }
 
     /// All spans, by their places.
-    pub fn spans(&mut self) -> &mut [KnownSpans] {
+    pub fn spans(&mut self) -> &mut [KnownSpans<T>] {
         &mut self.spans[..self.count]
     }
 
@@ -139,7 +139,7 @@ impl Known {
     pub fn look<S: Simd>(
         &mut self,
         simd: S,
-        (bundle, departures): (&Bundle, Option<&Departures>),
+        (bundle, departures): (&Bundle<T>, Option<&Departures<T>>),
         (primitive, form): (u32, &Form),
         wanted: u64,
         reach: Reach,
@@ -152,7 +152,7 @@ impl Known {
             self.count += 1;
             let known = &mut self.spans[self.count - 1];
             (known.primitive, known.any) = (primitive, 0);
-            (known.off, known.seeming) = (form.off(), form.seeming());
+            (known.off, known.seeming) = (form.off() * T::COARSER, form.seeming());
             let here = departures.map_or((0, 0), |d| d.here(simd, primitive));
             with_spans!(simd, form, learn, (bundle, wanted, here), known);
             self.count - 1
@@ -167,29 +167,29 @@ impl Known {
 }
 
 #[inline(always)]
-fn learn<S: Simd>(
+fn learn<S: Simd, T: Digits>(
     simd: S,
-    (bundle, wanted, (here, inward)): (&Bundle, u64, (u64, u64)),
-    known: &mut KnownSpans,
-    spans: impl Fn(&Rays<f64x8<S>>) -> Spans<f64x8<S>>,
+    (bundle, wanted, (here, inward)): (&Bundle<T>, u64, (u64, u64)),
+    known: &mut KnownSpans<T>,
+    spans: impl Fn(&Rays<T::Wide<S>>) -> Spans<T::Wide<S>>,
 ) {
-    for row in 0..ROWS {
-        if (wanted >> (row * LANES)) as u8 == 0 {
+    for row in 0..T::ROWS {
+        if !T::has_any(wanted, row) {
             continue;
         }
         let mut spans = spans(&bundle.load(simd, row));
-        let any = spans.any & !row_of(simd, here & !inward, row);
+        let any = spans.any & !T::row_of(simd, here & !inward, row);
         if !any.any() {
             continue;
         }
         if here != 0 {
             // A start on a surface is 0 by construction.
-            let zero = f64x8::splat(simd, 0.0);
+            let zero = T::all(simd, 0.0);
             let start = Ends { t: zero, error: zero, surface: zero };
-            spans.enter = Ends::choose(row_of(simd, inward, row), start, spans.enter);
+            spans.enter = Ends::choose(T::row_of(simd, inward, row), start, spans.enter);
         }
         let any = any & spans.enter.t.is_below(spans.leave.t);
-        known.any |= u64::from(any.bits()) << (row * LANES);
+        known.any |= T::bits_of(simd, any, row);
         for (side, end) in [(&mut known.enter, spans.enter), (&mut known.leave, spans.leave)] {
             side.t.store(row, end.t);
             side.error.store(row, end.error);

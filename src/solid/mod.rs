@@ -31,7 +31,7 @@ mod tests;
 mod tube;
 mod unit_space;
 
-pub use assembly::{Assembly, AssemblyError, Body, Datum, Kind, Object};
+pub use assembly::{Assembly, AssemblyError, Body, Datum, Kind, Makeup, Object};
 pub use ball::Ball;
 pub use crossing::{
     Crossing, Firsts, Reach, Scratch, Starts, first_of_expression, first_of_span, firsts_of_spans,

@@ -134,6 +134,19 @@ impl Form {
         }
     }
 
+    /// How far two parallel planes around a convex solid are apart at least, or less than that. Of what is not one nothing is
+    /// said: infinite.
+    pub fn thickness(&self) -> f64 {
+        match self {
+            Self::Ball(ball) => 2.0 * ball.radius,
+            Self::AxisBox(slabs) => 2.0 * slabs.bounds().half().min_element(),
+            Self::SkewBox(slabs) => slabs.thickness(),
+            Self::Round(round) => round.thickness(),
+            Self::Facets(facets) => facets.thickness(),
+            Self::Mesh(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => f64::INFINITY,
+        }
+    }
+
     /// The share of its crossings' errors that our own rounding may have made; the rest its map lost when it was composed.
     /// What is made of corners knows no such share.
     #[inline]
@@ -241,28 +254,33 @@ impl Form {
 
     /// How it lies to a box.
     pub fn cover(&self, b: &Bounds) -> Cover {
-        let (misses, covers) = match self {
-            Self::Ball(ball) => {
-                let (nearest, farthest) = ball.distances(b);
-                (nearest > 1.0, farthest < 1.0)
-            }
+        match self {
+            Self::Ball(ball) => ball.cover(b),
             Self::AxisBox(slabs) => {
                 let own = slabs.bounds();
-                let inside = own.lo.cmplt(b.lo).all() && b.hi.cmplt(own.hi).all();
-                (own.meet(b).is_empty(), inside)
+                Cover::of(own.meet(b).is_empty(), || own.lo.cmplt(b.lo).all() && b.hi.cmplt(own.hi).all())
             }
-            Self::SkewBox(slabs) => (slabs.misses(b), slabs.covers(b)),
-            Self::Round(round) => (round.misses(b), round.covers(b)),
-            Self::Facets(facets) => (facets.misses(b), facets.covers(b)),
-            Self::Mesh(mesh) => (mesh.misses(b), false),
-            Self::Face(face) => (face.misses(b), false),
-            Self::Patch(patch) => (patch.face.misses(b), false),
-            Self::Tube(tube) => (tube.misses(b), false),
-        };
-        match (misses, covers) {
-            (true, _) => Cover::None,
-            (_, true) => Cover::All,
-            _ => Cover::Some,
+            Self::SkewBox(slabs) => slabs.cover(b),
+            Self::Round(round) => round.cover(b),
+            Self::Facets(facets) => facets.cover(b),
+            Self::Mesh(mesh) => Cover::of(mesh.misses(b), || false),
+            Self::Face(face) => Cover::of(face.misses(b), || false),
+            Self::Patch(patch) => Cover::of(patch.face.misses(b), || false),
+            Self::Tube(tube) => Cover::of(tube.misses(b), || false),
+        }
+    }
+}
+
+impl Cover {
+    /// Where a box is certainly outside, or certainly inside.
+    #[inline(always)]
+    pub(super) fn of(misses: bool, covers: impl FnOnce() -> bool) -> Self {
+        if misses {
+            Self::None
+        } else if covers() {
+            Self::All
+        } else {
+            Self::Some
         }
     }
 }

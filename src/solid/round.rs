@@ -2,6 +2,7 @@
 
 use crate::math::{Bounds, DMat3, DVec3, Mask, Number, Placement, Rays, Vector};
 
+use super::primitive::Cover;
 use super::span::{Ends, Spans};
 use super::taper::Taper;
 use super::unit_space::{Centred, UnitSpace};
@@ -70,6 +71,12 @@ impl Round {
         })
     }
 
+    /// How far two parallel planes around it are apart at least, or less: every profile holds a ball of diameter 1, but for
+    /// what a cone's tip lacks, and a map shrinks no way by more than the norm of its inverse.
+    pub fn thickness(&self) -> f64 {
+        1.0 / self.space.norm()
+    }
+
     /// The box around it.
     pub fn bounds(&self) -> Bounds {
         let center = self.space.center;
@@ -92,21 +99,14 @@ impl Round {
         self.space.center.dot(v) + reach
     }
 
-    /// Whether the box is certainly outside.
-    pub fn misses(&self, b: &Bounds) -> bool {
+    /// How it lies to a box.
+    pub fn cover(&self, b: &Bounds) -> Cover {
         let u = self.space.bounds(b);
         match self.profile {
-            Profile::Sphere => DVec3::ZERO.clamp(u.lo, u.hi).length_squared() > 1.0,
-            Profile::Frustum(taper) => taper.misses(&u),
-        }
-    }
-
-    /// Whether the box is certainly inside.
-    pub fn covers(&self, b: &Bounds) -> bool {
-        let u = self.space.bounds(b);
-        match self.profile {
-            Profile::Sphere => u.farthest().length_squared() < 1.0,
-            Profile::Frustum(taper) => taper.covers(&u),
+            Profile::Sphere => Cover::of(DVec3::ZERO.clamp(u.lo, u.hi).length_squared() > 1.0, || {
+                u.farthest().length_squared() < 1.0
+            }),
+            Profile::Frustum(taper) => Cover::of(taper.misses(&u), || taper.covers(&u)),
         }
     }
 }

@@ -60,7 +60,7 @@ impl Sheared {
             let y = !x & size.y.is_at_least(size.z);
             let z = !x & !y;
             for (main, mask) in [x, y, z].into_iter().enumerate() {
-                self.main[main] |= u64::from(mask.bits()) << (row * LANES);
+                self.main[main] |= mask.bits() << (row * LANES);
             }
             let main = x.choose(d.x, y.choose(d.y, d.z));
             self.shear[0].store(row, x.choose(d.y, y.choose(d.z, d.x)) / main);

@@ -5,6 +5,7 @@
 
 use crate::math::{Bounds, DMat3, DVec3, Mask, Number, Placement, Rays, two_sum};
 
+use super::primitive::Cover;
 use super::span::{Ends, ROUNDING, Spans, WORLD, rounding_at};
 
 /// A box along the axes of the world.
@@ -43,8 +44,7 @@ impl AxisBox {
     pub fn spans<N: Number>(&self, rays: &Rays<N>) -> Spans<N> {
         let mut spans = Spans::line(rays.o.x);
         for axis in 0..3 {
-            let slab =
-                Slab { lo: self.bounds.lo[axis], hi: self.bounds.hi[axis], off: self.off, still: STILL };
+            let slab = Slab { lo: self.bounds.lo[axis], hi: self.bounds.hi[axis], off: self.off, still: 0.0 };
             slab.clip(&mut spans, rays.o.along(axis), rays.d.along(axis), axis);
             if !spans.any.any() {
                 return spans;
@@ -105,7 +105,7 @@ impl SkewBox {
         let seeming = (0..3).map(|i| seen * lengths[i] / off[i]).fold(1.0, f64::min);
         let displacement = seen + map_error.length();
         // A dot product of three terms and the row itself: 4 half-ulps.
-        let still = lengths.map(|length| (2.0 * f64::EPSILON * length).max(STILL));
+        let still = lengths.map(|length| 2.0 * f64::EPSILON * length);
         Self { place, rows, off, displacement, seeming, still }
     }
 
@@ -163,6 +163,11 @@ impl SkewBox {
         self.place.center.dot(v) + unit.abs().element_sum()
     }
 
+    /// How far the nearest two parallel faces are apart.
+    pub fn thickness(&self) -> f64 {
+        2.0 / self.rows.iter().map(|row| row.length()).fold(0.0, f64::max)
+    }
+
     /// The interval of each face normal over a box.
     fn extents(&self, b: &Bounds) -> [(f64, f64); 3] {
         self.rows.map(|row| {
@@ -172,14 +177,12 @@ impl SkewBox {
         })
     }
 
-    /// Whether the box is certainly outside.
-    pub fn misses(&self, b: &Bounds) -> bool {
-        self.extents(b).iter().any(|&(lo, hi)| lo > 1.0 || hi < -1.0)
-    }
-
-    /// Whether the box is certainly inside.
-    pub fn covers(&self, b: &Bounds) -> bool {
-        self.extents(b).iter().all(|&(lo, hi)| lo > -1.0 && hi < 1.0)
+    /// How it lies to a box.
+    pub fn cover(&self, b: &Bounds) -> Cover {
+        let extents = self.extents(b);
+        Cover::of(extents.iter().any(|&(lo, hi)| lo > 1.0 || hi < -1.0), || {
+            extents.iter().all(|&(lo, hi)| lo > -1.0 && hi < 1.0)
+        })
     }
 }
 
@@ -188,9 +191,9 @@ fn side(surface: u32) -> f64 {
     if surface & 1 == 0 { -1.0 } else { 1.0 }
 }
 
-/// Below this the reciprocal of a direction overflows, or nearly so. On its whole way through the world such a ray comes
-/// no closer to the face.
-const STILL: f64 = 4.0 * f64::MIN_POSITIVE;
+/// Below so many of the least numbers with all digits the reciprocal of a direction overflows, or nearly so. On its whole way
+/// through the world such a ray comes no closer to the face.
+const STILL: f64 = 4.0;
 
 /// A pair of parallel planes.
 #[derive(Clone, Copy, Debug)]
@@ -199,7 +202,7 @@ struct Slab {
     hi: f64,
     /// How far a ray's start and the faces may be off.
     off: f64,
-    /// A ray slower than this across the slab runs in the plane of its faces.
+    /// A ray slower than this across the slab runs in the plane of its faces, as far as the map lets it be known.
     still: f64,
 }
 
@@ -208,7 +211,7 @@ impl Slab {
     /// [`with_sides`] says which of the two it is.
     #[inline(always)]
     fn clip<N: Number>(&self, spans: &mut Spans<N>, o: N, d: N, axis: usize) {
-        let still = d.magnitude().is_below(o.same(self.still));
+        let still = d.magnitude().is_below(o.same((self.still * N::COARSER).max(STILL * N::LEAST)));
         let inside = o.is_at_least(o.same(self.lo)) & o.is_below(o.same(self.hi));
         spans.any = spans.any & (!still | inside);
         let inverse = d.same(1.0) / d;
@@ -217,7 +220,7 @@ impl Slab {
         // A ray along the slab crosses neither face.
         let enter = still.choose(o.same(f64::NEG_INFINITY), forward.choose(low, high));
         let leave = still.choose(o.same(f64::INFINITY), forward.choose(high, low));
-        let (error, surface) = (inverse.magnitude() * self.off, o.same(axis as f64));
+        let (error, surface) = (inverse.magnitude() * (self.off * N::COARSER), o.same(axis as f64));
         spans.clip(Ends { t: enter, error, surface }, Ends { t: leave, error, surface });
     }
 }

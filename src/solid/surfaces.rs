@@ -120,7 +120,7 @@ impl Asking<'_> {
                 let any = odd & steep & !before;
                 self.put(simd, row, &Firsts { end, entering: against, any }, found);
             }
-            found.unsure |= u64::from(unsure.bits()) << (row * LANES);
+            found.unsure |= unsure.bits() << (row * LANES);
         }
     }
 
@@ -149,7 +149,7 @@ impl Asking<'_> {
     /// Notes the first crossings of a row.
     #[inline(always)]
     fn put<S: Simd>(&self, simd: S, row: usize, firsts: &Firsts<f64x8<S>>, found: &mut Found) {
-        let any = u64::from(firsts.any.bits()) << (row * LANES);
+        let any = firsts.any.bits() << (row * LANES);
         if any == 0 {
             return;
         }
@@ -158,7 +158,7 @@ impl Asking<'_> {
         found.surface.store(row, firsts.end.surface);
         found.primitive.store(row, f64x8::splat(simd, f64::from(self.index)));
         found.any |= any;
-        found.entering |= any & u64::from(firsts.entering.bits()) << (row * LANES);
+        found.entering |= any & firsts.entering.bits() << (row * LANES);
     }
 }
 

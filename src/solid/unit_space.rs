@@ -46,6 +46,11 @@ impl UnitSpace {
         Self { center, inverse, off: DVec3::from_array(off), displacement, seeming }
     }
 
+    /// The inverse map makes no way longer by more than this: the root of the sum of its squares.
+    pub fn norm(&self) -> f64 {
+        norm(&self.inverse)
+    }
+
     /// Rays there.
     #[inline(always)]
     pub fn centred<N: Number>(&self, rays: &Rays<N>) -> Centred<N> {
@@ -63,7 +68,7 @@ impl UnitSpace {
     #[inline(always)]
     pub fn recentred<N: Number>(&self, rays: &Rays<N>) -> Centred<N> {
         let (Rays { o, d }, d_squared, t) = at_closest(rays);
-        Centred { o, d, d_squared, t, off: self.off, seeming: self.seeming }
+        Centred { o, d, d_squared, t, off: self.off * N::COARSER, seeming: self.seeming }
     }
 
     /// Points of the world there.
@@ -119,6 +124,12 @@ pub(super) fn at_closest<N: Number>(rays: &Rays<N>) -> (Rays<N>, N, N) {
 pub(super) fn pass_by<N: Number>(o: Vector<N>, off: N) -> N::Mask {
     // (√2 + off)² with 4 for 2√2.
     o.length_squared().is_above(off * (off + 4.0) + 2.0)
+}
+
+/// No way becomes longer by more than this under a linear map.
+pub(super) fn norm(map: &DMat3) -> f64 {
+    let columns = [map.x_axis, map.y_axis, map.z_axis];
+    columns.iter().map(|column| column.length_squared()).sum::<f64>().sqrt()
 }
 
 /// Whether there is such a place: those that there are not are infinitely far away.

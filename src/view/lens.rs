@@ -107,6 +107,15 @@ impl Lens {
         d * (height.same(1.0) / d.length())
     }
 
+    /// How wide or high a dot is at a distance of 1 from the eye at least, whichever is less.
+    pub fn least_dot(&self) -> f64 {
+        let Size { width, height } = self.dots;
+        let [x, y] = self.tangents;
+        // A plane across the line of sight is nearest in the middle.
+        let slant = (1.0 + x * x + y * y).sqrt();
+        (2.0 * x / f64::from(width)).min(2.0 * y / f64::from(height)) / slant
+    }
+
     /// The full angles of the field across and down, in degrees.
     pub fn field(&self) -> [f64; 2] {
         self.tangents.map(|t| 2.0 * libm::atan(t).to_degrees())

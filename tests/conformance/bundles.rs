@@ -3,7 +3,7 @@
 use fearless_simd::dispatch;
 use ray13::frame::Frame;
 use ray13::math::{BUNDLE, Bundle, Column, DVec3, Ray, Size};
-use ray13::plan::{EngineChoice, Options};
+use ray13::plan::{EngineChoice, Options, PrecisionChoice};
 use ray13::scene::{Camera, Primitive, Scene};
 use ray13::solid::{Departure, Departures};
 use ray13::stage::{Meter, Silent};
@@ -141,6 +141,11 @@ impl Subject for FastEngine {
     }
 
     fn draw(scene: &Scene, camera: &Camera, dots: Size, _: Cut) -> Frame {
-        drawn(scene, camera, dots, Options { engine: EngineChoice::Fast, ..Options::default() })
+        drawn(
+            scene,
+            camera,
+            dots,
+            Options { engine: EngineChoice::Fast, precision: PrecisionChoice::Double, ..Options::default() },
+        )
     }
 }

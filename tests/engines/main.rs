@@ -12,4 +12,5 @@ mod same;
 #[path = "../scenery/mod.rs"]
 mod scenery;
 mod scenes;
+mod singles;
 mod widths;

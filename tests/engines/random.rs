@@ -11,7 +11,7 @@ use crate::anything::{any_rotation, any_solid};
 use crate::request::request;
 use crate::same::{difference, exact, fast};
 
-const DOTS: Size = Size::new(43, 37);
+pub const DOTS: Size = Size::new(43, 37);
 
 /// The same solid in its place, of another material.
 fn placed(solid: &Solid, by: &DAffine3, material: MaterialId) -> Solid {
@@ -25,7 +25,7 @@ fn placed(solid: &Solid, by: &DAffine3, material: MaterialId) -> Solid {
 }
 
 /// Solids on the grid, some of them mirrors and some of glass, each with its neighbours flush.
-fn any_scene() -> impl Strategy<Value = Scene> {
+pub fn any_scene() -> impl Strategy<Value = Scene> {
     let place = (-3_i32..=3, -3_i32..=3, -3_i32..=3);
     let object = (any_solid(), place, 0_u16..3);
     let lights = prop::collection::vec((-9_i32..=9, -9_i32..=9, 2_i32..=9), 0..3);

@@ -15,7 +15,7 @@ use crate::scenery::embedded_scenes;
 const DOTS: Size = Size::new(131, 97);
 
 /// The first view, one from above the other side, and one from within, backwards.
-fn views(studio: &Studio) -> [(&'static str, Camera); 3] {
+pub fn views(studio: &Studio) -> [(&'static str, Camera); 3] {
     let own = studio.camera(0, f64::from(DOTS.width) / f64::from(DOTS.height));
     let away = own.eye - own.target;
     let round = DVec3::new(-away.y, away.x, away.z.abs() + 0.5 * away.length());
@@ -58,7 +58,7 @@ fn all_same(name: &str, scene: Scene, structures: &[StructureChoice]) {
 }
 
 /// The files of a folder that may stand beside this repository, by name.
-fn beside(folder: &str) -> Vec<(String, Scene)> {
+pub fn beside(folder: &str) -> Vec<(String, Scene)> {
     let place = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/scenes").join(folder);
     let Ok(entries) = place.read_dir() else {
         println!("skipped: ../shared/scenes/{folder} is not here");

@@ -3,7 +3,7 @@
 use fearless_simd::{Level, Simd};
 use ray13::frame::{Request, Studio};
 use ray13::math::Size;
-use ray13::plan::Options;
+use ray13::plan::{Options, PrecisionChoice};
 use ray13::scene::{Scene, read};
 
 use crate::request::request;
@@ -97,6 +97,18 @@ fn samples_and_colours_are_the_same() {
         same_at_all("all kinds", &scene, |studio| {
             let plain = plain(studio, Size::new(41, 35));
             Request { options: Options { samples, color, ..plain.options }, ..plain }
+        });
+    }
+}
+
+#[test]
+fn half_the_digits_are_the_same() {
+    let scene = all_kinds();
+    for (width, height) in [(7, 9), (96, 64)] {
+        same_at_all("all kinds", &scene, |studio| {
+            let plain = plain(studio, Size::new(width, height));
+            let precision = PrecisionChoice::Single;
+            Request { options: Options { precision, shadows: false, ..plain.options }, ..plain }
         });
     }
 }

@@ -48,7 +48,7 @@ impl Round {
         let Body::Single(index) = assembly.objects[object as usize].body else { return false };
         let Form::Ball(ball) = &assembly.primitives[index as usize].form else { return false };
         let off_center = DVec3::from_array(self.center.map(f64::from)).distance(ball.center);
-        let error = ball.most_error() * (1.0 + assembly.off / ball.off());
+        let error = ball.most_error::<f64>() * (1.0 + assembly.off / ball.off());
         error <= ROOM
             && ball.radius + off_center <= f64::from(self.outer)
             && f64::from(self.inner) + off_center + ball.off() <= ball.radius

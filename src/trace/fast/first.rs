@@ -4,17 +4,17 @@
 //! asks with a frustum of its own, and the objects that are left are asked by eight rays at a time. What lies behind
 //! the farthest hit of all rays is never looked at.
 
-use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
+use fearless_simd::Simd;
 
 use crate::lattice::{Child, FAN, SLACK};
-use crate::math::{Bounds, LANES, Mask, Number, ROWS, Rays, row_of};
+use crate::math::{Bounds, Bundle, Digits, Mask, Number, Rays};
 use crate::solid::{
     Asked, Ball, Body, Ends, Firsts, Flat, Form, Found, Reach, Spans, first_of_expressions, firsts_of_spans,
     firsts_of_surface, with_spans,
 };
 
 use super::Fast;
-use super::memory::TileMemory;
+use super::memory::{Asks, Numbers, TileMemory};
 use super::nearest::{Nearest, Offer};
 use super::outset::{Outset, Outsets};
 use super::slices::{Slices, slices};
@@ -30,13 +30,14 @@ impl Fast<'_> {
     /// anything, and how many were given up. Of those that were still to be made the others are not: that none of their rays
     /// is unsure or without company is all that is known of them.
     #[inline(always)]
-    pub(super) fn first_of_tile<S: Simd>(
+    pub(super) fn first_of_tile<S: Simd, T: Asks>(
         &self,
         simd: S,
         outsets: &mut Outsets,
-        nearest: &mut [Nearest],
+        (own, nearest): (&mut [Bundle<T>], &mut [Nearest<T>]),
         memory: &mut TileMemory,
     ) -> (u16, usize) {
+        let slack = self.slack_of::<T>();
         let whole = outsets.whole(simd);
         let seen = matches!(outsets, Outsets::Seen { .. });
         memory.forget_sheared();
@@ -57,7 +58,7 @@ impl Fast<'_> {
         let mut left_to_ask = [0; FAN];
         while let Some(Waits { near, node, frustums }) = memory.stack.pop() {
             let farthest = memory.far.iter().fold(f64::NEG_INFINITY, |most, &far| f64::max(most, far));
-            if near > farthest + self.slack {
+            if near > farthest + slack {
                 continue;
             }
             let node = &self.boxes.nodes()[node as usize];
@@ -86,12 +87,12 @@ impl Fast<'_> {
                 if left == 0 {
                     continue;
                 }
-                let slabs = Slabs::around(simd, wide(lo), wide(hi), self.slack);
+                let slabs = Slabs::around(simd, wide(lo), wide(hi), slack);
                 while left != 0 {
                     let k = left.trailing_zeros() as usize;
                     left &= left - 1;
                     // What is not a number is not known to be farther.
-                    let behind = f64::from(met.near[k]) > memory.far[k] + self.slack;
+                    let behind = f64::from(met.near[k]) > memory.far[k] + slack;
                     if !behind {
                         let nearest = &mut nearest[k];
                         if touched >> k & 1 == 0 {
@@ -101,11 +102,12 @@ impl Fast<'_> {
                                 nearest.clear();
                             }
                             let bundle = outsets.get(k).rays;
+                            T::take(simd, bundle, own, k);
                             left_to_ask[k] = CROWD * bundle.live.count_ones();
                             memory.thin[k].set(simd, bundle);
                         }
-                        let outset = outsets.get(k);
-                        let bundle = outset.rays;
+                        let outset = T::outset(outsets.get(k), own, k);
+                        let bundle = outset.full_rays;
                         let Some(left_to_ask_now) = left_to_ask[k].checked_sub(1) else {
                             given_up += 1;
                             nearest.apart = bundle.live;
@@ -114,7 +116,7 @@ impl Fast<'_> {
                         };
                         left_to_ask[k] = left_to_ask_now;
                         let passing = if let Some(round) = &round {
-                            memory.thin[k].ball(simd, round, self.slack, bundle.live).0
+                            memory.thin[k].ball(simd, round, slack, bundle.live).0
                         } else {
                             memory.thin[k].set_lines(simd, bundle);
                             memory.thin[k].passing(simd, &slabs, bundle.live)
@@ -122,10 +124,10 @@ impl Fast<'_> {
                         if passing != 0
                             && self.object_of_bundle(simd, (object, passing), outset, nearest, memory, k)
                         {
-                            memory.far[k] = nearest.farthest(simd, bundle);
+                            memory.far[k] = nearest.farthest(simd, outset.rays);
                             memory.thin[k].look(
                                 #[inline(always)]
-                                |lane| nearest.t.0[lane] + self.slack,
+                                |lane| nearest.t.0[lane].into() + slack,
                             );
                         }
                     }
@@ -138,15 +140,16 @@ impl Fast<'_> {
     }
 
     /// The first hits of a bundle with one object, whose box some of its rays may pass. Answers whether any ray came near it.
-    pub(super) fn object_of_bundle<S: Simd>(
+    pub(super) fn object_of_bundle<S: Simd, T: Asks>(
         &self,
         simd: S,
         (object, passing): (u32, u64),
-        outset: Outset,
-        nearest: &mut Nearest,
+        outset: Outset<T>,
+        nearest: &mut Nearest<T>,
         memory: &mut TileMemory,
         k: usize,
     ) -> bool {
+        let slack = self.slack_of::<T>();
         let primitives = &self.assembly.primitives;
         let own = &self.assembly.objects[object as usize];
         match &own.body {
@@ -158,8 +161,8 @@ impl Fast<'_> {
                         #[inline(always)]
                         || {
                             let start = match outset.departures {
-                                None => 2.0 * ball.most_error(),
-                                Some(_) => ball.most_error() * (1.0 + self.assembly.off / ball.off()),
+                                None => 2.0 * ball.most_error::<T>(),
+                                Some(_) => ball.most_error::<T>() * (1.0 + self.assembly.off / ball.off()),
                             };
                             let about = (ball, form, start);
                             ball_of_bundle(simd, about, passing, outset, nearest, [object, *index]);
@@ -173,13 +176,13 @@ impl Fast<'_> {
             Body::Surface(index) => {
                 memory.counts.primitive_tests += 1;
                 let primitive = &primitives[*index as usize];
-                let TileMemory { thin, sheared, found, .. } = memory;
+                let TileMemory { thin, sheared, numbers: Numbers { found, .. }, .. } = memory;
                 let sheared = &mut sheared[k];
-                let wanted = asking(simd, &thin[k], &primitive.form, self.slack, passing);
+                let wanted = asking(simd, &thin[k], &primitive.form, slack, passing);
                 if wanted == 0 {
                     return false;
                 }
-                let Outset { rays, departures } = outset;
+                let (rays, departures) = (outset.full_rays, outset.full_departures);
                 firsts_of_surface(simd, rays, wanted, (primitive, *index), departures, sheared, found);
                 if found.any != 0 {
                     offer_found(simd, found, object, nearest);
@@ -187,8 +190,8 @@ impl Fast<'_> {
                 found.any != 0
             }
             Body::Composite { whole, .. } => {
-                let (from, to) = reach(simd, &memory.thin[k], &own.bounds, self.slack, passing);
-                let way = (passing, from, to.min(memory.far[k] + self.slack));
+                let (from, to) = reach(simd, &memory.thin[k], &own.bounds, slack, passing);
+                let way = (passing, from, to.min(memory.far[k] + slack));
                 self.composite(simd, (object, Flat::from(&**whole)), outset, way, nearest, memory);
                 true
             }
@@ -197,16 +200,16 @@ impl Fast<'_> {
 
     /// The first hits of a bundle with a composite object: its way through the object's box in slices, each with what the
     /// expression is there.
-    fn composite<S: Simd>(
+    fn composite<S: Simd, T: Asks>(
         &self,
         simd: S,
         (object, expression): (u32, Flat),
-        outset: Outset,
+        outset: Outset<T>,
         (open, from, to): (u64, f64, f64),
-        nearest: &mut Nearest,
+        nearest: &mut Nearest<T>,
         memory: &mut TileMemory,
     ) {
-        memory.scratch.start();
+        T::numbers(memory).scratch.start();
         let whole = self.subs.loose(object).map(|loose| (loose, expression));
         let mut slicing = Slicing { fast: self, simd, outset, object, open, nearest };
         slices(self, whole, &mut slicing, expression, (from, to), memory);
@@ -215,20 +218,19 @@ impl Fast<'_> {
 
 /// The first hits of the rays of a bundle that are near a ball. A crossing beyond `start` lies at the start of no ray.
 #[inline(always)]
-fn ball_of_bundle<S: Simd>(
+fn ball_of_bundle<S: Simd, T: Asks>(
     simd: S,
     (ball, form, start): (&Ball, &Form, f64),
     near: u64,
-    outset: Outset,
-    nearest: &mut Nearest,
+    outset: Outset<T>,
+    nearest: &mut Nearest<T>,
     [object, index]: [u32; 2],
 ) {
-    let yes = mask64x8::splat(simd, true);
-    let surface = f64x8::splat(simd, 0.0);
-    let primitive = f64x8::splat(simd, f64::from(index));
-    let start = f64x8::splat(simd, start);
-    for row in 0..ROWS {
-        if (near >> (row * LANES)) as u8 == 0 {
+    let yes = T::row_of(simd, u64::MAX, 0);
+    let (surface, primitive) = (T::all(simd, 0.0), T::all(simd, f64::from(index)));
+    let start = T::all(simd, start);
+    for row in 0..T::ROWS {
+        if !T::has_any(near, row) {
             continue;
         }
         let spans = ball.spans(&outset.rays.load(simd, row));
@@ -251,17 +253,17 @@ fn ball_of_bundle<S: Simd>(
 }
 
 /// Whose way is cut into slices.
-struct Slicing<'a, S> {
+struct Slicing<'a, S, T> {
     fast: &'a Fast<'a>,
     simd: S,
-    outset: Outset<'a>,
+    outset: Outset<'a, T>,
     object: u32,
     /// The rays that have not met the object yet.
     open: u64,
-    nearest: &'a mut Nearest,
+    nearest: &'a mut Nearest<T>,
 }
 
-impl<S: Simd> Slices for Slicing<'_, S> {
+impl<S: Simd, T: Asks> Slices for Slicing<'_, S, T> {
     /// What lies behind the nearest is mostly hidden: measured on solids of OpenSCAD, as [`SOME`](super::slices::SOME) is.
     const FEW: usize = 3;
 
@@ -269,44 +271,68 @@ impl<S: Simd> Slices for Slicing<'_, S> {
         self.open
     }
 
+    fn slack(&self) -> f64 {
+        self.fast.slack_of::<T>()
+    }
+
     fn bounds(&self, from: f64, to: f64) -> Bounds {
         bounds_between(self.simd, self.outset.rays, self.open, from, to)
     }
 
     fn ask(&mut self, expression: Flat, (from, to): (f64, f64), memory: &mut TileMemory) {
-        let (simd, Outset { rays: bundle, departures }) = (self.simd, self.outset);
-        let reach = Reach { from: from - SLACK, to: to + SLACK };
+        let (simd, Outset { rays: bundle, departures, .. }) = (self.simd, self.outset);
+        let slack = SLACK * T::COARSER;
+        let reach = Reach { from: from - slack, to: to + slack };
         let primitives = &self.fast.assembly.primitives;
         memory.counts.primitive_tests += expression.leaves.len() as u64;
         memory.counts.csg_evaluations += 1;
-        let TileMemory { scratch, found, .. } = memory;
+        let Numbers { scratch, found, .. } = T::numbers(memory);
         let asked = Asked { bundle, wanted: self.open, departures, reach };
         first_of_expressions(simd, &asked, expression, primitives, scratch, found);
-        self.nearest.unsure |= found.unsure;
-        self.open &= !(found.unsure | found.any);
         if found.any != 0 {
+            self.open &= !found.any;
             offer_found(simd, found, self.object, self.nearest);
         }
+        let mut unsure = found.unsure;
+        if unsure != 0 && !T::DECIDES {
+            let Numbers { scratch, found, .. } = f64::numbers(memory);
+            scratch.start();
+            let Outset { full_rays: bundle, full_departures: departures, .. } = self.outset;
+            let asked = Asked { bundle, wanted: unsure, departures, reach };
+            first_of_expressions(simd, &asked, expression, primitives, scratch, found);
+            if found.any != 0 {
+                self.open &= !found.any;
+                offer_found(simd, found, self.object, self.nearest);
+            }
+            unsure = found.unsure;
+        }
+        self.nearest.unsure |= unsure;
+        self.open &= !unsure;
     }
 }
 
 /// Offers what an expression's crossings are.
-fn offer_found<S: Simd>(simd: S, found: &Found, object: u32, nearest: &mut Nearest) {
+fn offer_found<S: Simd, T: Digits, U: Digits>(
+    simd: S,
+    found: &Found<U>,
+    object: u32,
+    nearest: &mut Nearest<T>,
+) {
     simd.vectorize(
         #[inline(always)]
         || {
-            for row in 0..ROWS {
-                if (found.any >> (row * LANES)) as u8 == 0 {
+            for row in 0..T::ROWS {
+                if !T::has_any(found.any, row) {
                     continue;
                 }
                 let met = Offer {
-                    any: row_of(simd, found.any, row),
-                    t: found.t.load(simd, row),
-                    error: found.error.load(simd, row),
-                    entering: row_of(simd, found.entering, row),
+                    any: T::row_of(simd, found.any, row),
+                    t: found.t.load_nearest::<T, S>(simd, row),
+                    error: found.error.load_nearest::<T, S>(simd, row),
+                    entering: T::row_of(simd, found.entering, row),
                     object,
-                    primitive: found.primitive.load(simd, row),
-                    surface: found.surface.load(simd, row),
+                    primitive: found.primitive.load_nearest::<T, S>(simd, row),
+                    surface: found.surface.load_nearest::<T, S>(simd, row),
                 };
                 nearest.offer(simd, row, &met);
             }
@@ -315,23 +341,23 @@ fn offer_found<S: Simd>(simd: S, found: &Found, object: u32, nearest: &mut Neare
 }
 
 /// One convex primitive that is an object.
-fn single<S: Simd>(
+fn single<S: Simd, T: Asks>(
     simd: S,
     form: &Form,
-    (outset, wanted): (Outset, u64),
-    nearest: &mut Nearest,
+    (outset, wanted): (Outset<T>, u64),
+    nearest: &mut Nearest<T>,
     [object, index]: [u32; 2],
 ) {
     #[inline(always)]
-    fn rows<S: Simd>(
+    fn rows<S: Simd, T: Asks>(
         simd: S,
-        (form, outset, wanted, object, index): (&Form, Outset, u64, u32, u32),
-        nearest: &mut Nearest,
-        spans: impl Fn(&Rays<f64x8<S>>) -> Spans<f64x8<S>>,
+        (form, outset, wanted, object, index): (&Form, Outset<T>, u64, u32, u32),
+        nearest: &mut Nearest<T>,
+        spans: impl Fn(&Rays<T::Wide<S>>) -> Spans<T::Wide<S>>,
     ) {
-        let primitive = f64x8::splat(simd, f64::from(index));
-        for row in 0..ROWS {
-            if (wanted >> (row * LANES)) as u8 == 0 {
+        let primitive = T::all(simd, f64::from(index));
+        for row in 0..T::ROWS {
+            if !T::has_any(wanted, row) {
                 continue;
             }
             let spans = spans(&outset.rays.load(simd, row));

@@ -1,11 +1,15 @@
 //! Memory of one worker.
 
+use fearless_simd::Simd;
+
 use crate::lattice::{Beam, FAN, Fan};
+use crate::math::{Bundle, Digits};
 use crate::solid::{BundleScratch, Found, Pruning, Remains, Sheared};
 use crate::stage::Counts;
 
 use super::company::Company;
 use super::nearest::Nearest;
+use super::outset::Outset;
 use super::stream::Apart;
 use super::thin::Thin;
 use super::walk::Waits;
@@ -25,14 +29,83 @@ pub struct TileMemory {
     pub(super) sheared: Vec<Sheared>,
     /// Nodes to be walked.
     pub(super) stack: Vec<Waits>,
-    pub(super) scratch: BundleScratch,
-    pub(super) found: Box<Found>,
+    pub(super) numbers: Numbers<f64>,
+    pub(super) singles: Numbers<f32>,
     /// What rays meet of one object.
     pub(super) met: Box<Nearest>,
     pub(super) pruning: Pruning,
     /// Pruned expressions that are not in use.
     pub(super) remains: Vec<Remains>,
     pub(super) counts: Counts,
+}
+
+/// Memory for what is asked of a bundle, in numbers of so many digits.
+#[derive(Debug)]
+pub(super) struct Numbers<T> {
+    pub scratch: BundleScratch<T>,
+    pub found: Box<Found<T>>,
+    /// By bundle: its rays, and what they met, where those of the tile are others.
+    pub rays: Vec<Bundle<T>>,
+    pub nearest: Vec<Nearest<T>>,
+}
+
+impl<T: Digits> Default for Numbers<T> {
+    fn default() -> Self {
+        Self {
+            scratch: BundleScratch::default(),
+            found: Box::new(Found::NONE),
+            rays: Vec::new(),
+            nearest: Vec::new(),
+        }
+    }
+}
+
+/// Digits in which rays are asked.
+pub(super) trait Asks: Digits {
+    /// Their part of the memory.
+    fn numbers(memory: &mut TileMemory) -> &mut Numbers<Self>;
+
+    /// Makes a bundle known in these digits, where they are not its own.
+    fn take<S: Simd>(simd: S, full: &Bundle, own: &mut [Bundle<Self>], k: usize);
+
+    /// A bundle that was made known.
+    fn outset<'a>(full: Outset<'a>, own: &'a [Bundle<Self>], k: usize) -> Outset<'a, Self>;
+}
+
+impl Asks for f64 {
+    #[inline(always)]
+    fn numbers(memory: &mut TileMemory) -> &mut Numbers<Self> {
+        &mut memory.numbers
+    }
+
+    #[inline(always)]
+    fn take<S: Simd>(_: S, _: &Bundle, _: &mut [Bundle], _: usize) {}
+
+    #[inline(always)]
+    fn outset<'a>(full: Outset<'a>, _: &'a [Bundle], _: usize) -> Outset<'a> {
+        full
+    }
+}
+
+impl Asks for f32 {
+    #[inline(always)]
+    fn numbers(memory: &mut TileMemory) -> &mut Numbers<Self> {
+        &mut memory.singles
+    }
+
+    #[inline(always)]
+    fn take<S: Simd>(simd: S, full: &Bundle, own: &mut [Bundle<Self>], k: usize) {
+        simd.vectorize(
+            #[inline(always)]
+            || own[k].set_nearest(full),
+        );
+    }
+
+    #[inline(always)]
+    fn outset<'a>(full: Outset<'a>, own: &'a [Bundle<Self>], k: usize) -> Outset<'a, Self> {
+        // Only rays from the eye are asked so, which leave nothing.
+        Outset { rays: &own[k], departures: None, full_rays: full.rays, full_departures: full.departures }
+    }
 }
 
 impl TileMemory {
@@ -58,8 +131,8 @@ impl Default for TileMemory {
             apart: Apart::default(),
             sheared: vec![Sheared::UNKNOWN; FAN],
             stack: Vec::new(),
-            scratch: BundleScratch::default(),
-            found: Box::new(Found::NONE),
+            numbers: Numbers::default(),
+            singles: Numbers::default(),
             met: Box::default(),
             pruning: Pruning::default(),
             remains: Vec::new(),

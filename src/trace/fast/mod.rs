@@ -20,7 +20,7 @@ mod walk;
 use fearless_simd::{Level, Simd, dispatch};
 
 use crate::lattice::{Boxes, FAN, Structure, SubLattices, slack};
-use crate::math::{BUNDLE, Bundle, Column, Columns, ROWS, Ray};
+use crate::math::{BUNDLE, Bundle, Column, Columns, Digits, ROWS, Ray};
 use crate::solid::{Assembly, Crossing, Departure, Departures};
 use crate::stage::{Meter, Probe};
 use crate::view::Sight;
@@ -28,6 +28,7 @@ use crate::view::Sight;
 use super::exact::all_moved_nearer;
 use super::{Engine, Exact, Hit, Memory};
 
+use memory::Asks;
 use outset::Outsets;
 
 pub use memory::TileMemory;
@@ -49,19 +50,33 @@ pub struct Fast<'a> {
     /// How far apart two hits may seem that are one place.
     slack: f64,
     level: Level,
+    /// Whether rays from the eye are asked with half the digits.
+    singles: bool,
 }
 
 impl<'a> Fast<'a> {
     /// An engine over an assembly, at the SIMD width of this processor.
     pub fn new(assembly: &'a Assembly, boxes: &'a Boxes, subs: &'a SubLattices) -> Self {
         let exact = Exact::new(assembly, Structure::Boxes(boxes, subs));
-        Self { exact, assembly, boxes, subs, slack: slack(assembly.off), level: Level::new() }
+        Self { exact, assembly, boxes, subs, slack: slack(assembly.off), level: Level::new(), singles: false }
     }
 
     /// The same engine at another SIMD width. It finds the same bits.
     #[must_use]
     pub fn at_level(self, level: Level) -> Self {
         Self { level, ..self }
+    }
+
+    /// The same engine that asks rays from the eye with half the digits: what they meet first is off its place by up to
+    /// [`Digits::COARSER`] times as much. Where these leave a doubt which of two things is met first, all digits are asked.
+    #[must_use]
+    pub fn in_singles(self, singles: bool) -> Self {
+        Self { singles, ..self }
+    }
+
+    /// How far apart two hits may seem that are one place, in numbers of so many digits.
+    fn slack_of<T: Digits>(&self) -> f64 {
+        self.slack * T::COARSER
     }
 
     /// The SIMD width.
@@ -86,7 +101,7 @@ impl<'a> Fast<'a> {
         nearest: &mut [Nearest],
         memory: &mut TileMemory,
     ) -> usize {
-        self.first_of_outsets(&mut Outsets::Made { bundles, departures }, nearest, memory).1
+        self.first_of_outsets::<f64>(&mut Outsets::Made { bundles, departures }, (&mut [], nearest), memory).1
     }
 
     /// The first hits of the rays from the eye through a tile, as [`Fast::first_of`] finds them. `bundles` and `nearest` have
@@ -100,19 +115,38 @@ impl<'a> Fast<'a> {
         nearest: &mut [Nearest],
         memory: &mut TileMemory,
     ) -> u16 {
-        self.first_of_outsets(&mut Outsets::Seen { sight, bundles, make }, nearest, memory).0
+        let outsets = &mut Outsets::Seen { sight, bundles, make };
+        if !self.singles {
+            return self.first_of_outsets::<f64>(outsets, (&mut [], nearest), memory).0;
+        }
+        let (mut own, mut met) =
+            (std::mem::take(&mut memory.singles.rays), std::mem::take(&mut memory.singles.nearest));
+        own.resize(nearest.len(), Bundle::EMPTY);
+        met.resize(nearest.len(), Nearest::NOTHING);
+        let touched = self.first_of_outsets::<f32>(outsets, (&mut own, &mut met), memory).0;
+        dispatch!(self.level, simd => for (k, found) in nearest.iter_mut().enumerate() {
+            found.forget_rays();
+            if touched >> k & 1 == 1 {
+                simd.vectorize(
+                    #[inline(always)]
+                    || found.set_nearest(&met[k]),
+                );
+            }
+        });
+        (memory.singles.rays, memory.singles.nearest) = (own, met);
+        touched
     }
 
-    fn first_of_outsets(
+    fn first_of_outsets<T: Asks>(
         &self,
         outsets: &mut Outsets,
-        nearest: &mut [Nearest],
+        (own, nearest): (&mut [Bundle<T>], &mut [Nearest<T>]),
         memory: &mut TileMemory,
     ) -> (u16, usize) {
         dispatch!(self.level, simd => {
-            let (touched, given_up) = self.first_of_tile(simd, outsets, nearest, memory);
+            let (touched, given_up) = self.first_of_tile(simd, outsets, (own, nearest), memory);
             for (k, found) in nearest.iter_mut().enumerate().filter(|(k, _)| touched >> k & 1 == 1) {
-                found.doubt(simd, self.slack);
+                found.doubt(simd, self.slack_of::<T>());
                 found.unsure &= outsets.get(k).rays.live & !found.apart;
             }
             (touched, given_up)

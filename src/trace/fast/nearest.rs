@@ -1,27 +1,27 @@
 //! The nearest hits of a bundle, as far as they are known.
 
-use fearless_simd::{Select, Simd, SimdBase, f64x8, mask64x8};
+use fearless_simd::Simd;
 
-use crate::math::{Bundle, Column, LANES, Mask, Number, ROWS, row_of};
+use crate::math::{Answers, Bundle, Column, Digits, Mask, Number, Row};
 use crate::solid::Crossing;
 
 use super::super::Hit;
 
 /// What each ray of a bundle met first.
 #[derive(Clone, Debug)]
-pub struct Nearest {
+pub struct Nearest<T = f64> {
     /// Where; infinite where nothing was met.
-    pub t: Column,
+    pub t: Column<T>,
     /// How far that may be off.
-    pub error: Column,
+    pub error: Column<T>,
     /// Where it met what comes next, another object's surface.
-    pub second: Column,
+    pub second: Column<T>,
     /// The object, by its index in the assembly.
-    pub object: Column,
+    pub object: Column<T>,
     /// The primitive, by its index in the assembly.
-    pub primitive: Column,
+    pub primitive: Column<T>,
     /// The face of the primitive.
-    pub surface: Column,
+    pub surface: Column<T>,
     /// Which rays go into the object there, a bit for each.
     pub entering: u64,
     /// Which rays are to be asked one by one.
@@ -30,21 +30,21 @@ pub struct Nearest {
     pub apart: u64,
 }
 
-impl Default for Nearest {
+impl<T: Digits> Default for Nearest<T> {
     fn default() -> Self {
         Self::NOTHING
     }
 }
 
-impl Nearest {
+impl<T: Digits> Nearest<T> {
     /// Nothing was met yet.
     pub const NOTHING: Self = Self {
-        t: Column::filled(f64::INFINITY),
-        error: Column::filled(0.0),
-        second: Column::filled(f64::INFINITY),
-        object: Column::filled(0.0),
-        primitive: Column::filled(0.0),
-        surface: Column::filled(0.0),
+        t: Column::filled(T::INFINITY),
+        error: Column::filled(T::ZERO),
+        second: Column::filled(T::INFINITY),
+        object: Column::filled(T::ZERO),
+        primitive: Column::filled(T::ZERO),
+        surface: Column::filled(T::ZERO),
         entering: 0,
         unsure: 0,
         apart: 0,
@@ -53,8 +53,8 @@ impl Nearest {
     /// Forgets all.
     #[inline(always)]
     pub fn clear(&mut self) {
-        self.t = Column::filled(f64::INFINITY);
-        self.second = Column::filled(f64::INFINITY);
+        self.t = Column::filled(T::INFINITY);
+        self.second = Column::filled(T::INFINITY);
         self.forget_rays();
     }
 
@@ -62,7 +62,9 @@ impl Nearest {
     pub(super) fn forget_rays(&mut self) {
         (self.entering, self.unsure, self.apart) = (0, 0, 0);
     }
+}
 
+impl Nearest {
     /// Forgets what one ray met.
     #[inline]
     pub(super) fn forget(&mut self, lane: usize) {
@@ -99,11 +101,24 @@ impl Nearest {
         self.entering = self.entering & !(1 << lane) | u64::from(hit.entering) << lane;
     }
 
+    /// Sets what all met to the nearest of others' numbers.
+    #[inline(always)]
+    pub(super) fn set_nearest<T: Digits>(&mut self, other: &Nearest<T>) {
+        self.t.set_nearest(&other.t);
+        self.error.set_nearest(&other.error);
+        self.object.set_nearest(&other.object);
+        self.primitive.set_nearest(&other.primitive);
+        self.surface.set_nearest(&other.surface);
+        (self.entering, self.unsure, self.apart) = (other.entering, other.unsure, other.apart);
+    }
+}
+
+impl<T: Digits> Nearest<T> {
     /// Crossings of some rays of a row with an object.
     #[inline(always)]
-    pub fn offer<S: Simd>(&mut self, simd: S, row: usize, met: &Offer<S>) {
+    pub fn offer<S: Simd>(&mut self, simd: S, row: usize, met: &Offer<T, S>) {
         let (best, second) = (self.t.load(simd, row), self.second.load(simd, row));
-        let t = met.any.select(met.t, f64x8::splat(simd, f64::INFINITY));
+        let t = met.any.choose(met.t, T::all(simd, f64::INFINITY));
         self.second.store(row, t.larger(best).smaller(second));
         let nearer = t.is_below(best);
         if !nearer.any() {
@@ -111,56 +126,55 @@ impl Nearest {
         }
         self.t.put(simd, row, nearer, t);
         self.error.put(simd, row, nearer, met.error);
-        self.object.put(simd, row, nearer, f64x8::splat(simd, f64::from(met.object)));
+        self.object.put(simd, row, nearer, T::all(simd, f64::from(met.object)));
         self.primitive.put(simd, row, nearer, met.primitive);
         self.surface.put(simd, row, nearer, met.surface);
-        let shift = row * LANES;
-        let (nearer, entering) = (u64::from(nearer.bits()) << shift, u64::from(met.entering.bits()) << shift);
+        let (nearer, entering) = (T::bits_of(simd, nearer, row), T::bits_of(simd, met.entering, row));
         self.entering = self.entering & !nearer | entering & nearer;
     }
 
     /// Is unsure of all rays that met two objects within `slack`.
     #[inline(always)]
     pub fn doubt<S: Simd>(&mut self, simd: S, slack: f64) {
-        for row in 0..ROWS {
+        for row in 0..T::ROWS {
             let t = self.t.load(simd, row);
-            let close = self.second.load(simd, row).is_at_most(t + slack)
-                & t.is_below(f64x8::splat(simd, f64::INFINITY));
-            self.unsure |= u64::from(close.bits()) << (row * LANES);
+            let close =
+                self.second.load(simd, row).is_at_most(t + slack) & t.is_below(T::all(simd, f64::INFINITY));
+            self.unsure |= T::bits_of(simd, close, row);
         }
     }
 
     /// The greatest distance at which any of the rays may still meet something.
     #[inline(always)]
-    pub fn farthest<S: Simd>(&self, simd: S, bundle: &Bundle) -> f64 {
+    pub fn farthest<S: Simd>(&self, simd: S, bundle: &Bundle<T>) -> f64 {
         // Nobody knows what those met that are not there: what they leave is not set.
-        let nowhere = f64x8::splat(simd, f64::NEG_INFINITY);
+        let nowhere = T::all(simd, f64::NEG_INFINITY);
         let mut most = nowhere;
-        for row in 0..ROWS {
-            if bundle.live_in(row) != 0 {
-                let t = row_of(simd, bundle.live, row).select(self.t.load(simd, row), nowhere);
+        for row in 0..T::ROWS {
+            if bundle.has_live(row) {
+                let t = T::row_of(simd, bundle.live, row).choose(self.t.load(simd, row), nowhere);
                 most = t.larger(most);
             }
         }
-        most.reduce_max()
+        most.greatest()
     }
 }
 
 /// Crossings of a row with one object.
-#[derive(Clone, Copy, Debug)]
-pub struct Offer<S: Simd> {
+#[derive(Clone, Copy)]
+pub struct Offer<T: Digits, S: Simd> {
     /// Which rays have one.
-    pub any: mask64x8<S>,
+    pub any: Answers<T, S>,
     /// Where.
-    pub t: f64x8<S>,
+    pub t: T::Wide<S>,
     /// How far that may be off.
-    pub error: f64x8<S>,
+    pub error: T::Wide<S>,
     /// Whether the ray goes into the object there.
-    pub entering: mask64x8<S>,
+    pub entering: Answers<T, S>,
     /// The object.
     pub object: u32,
     /// The primitive.
-    pub primitive: f64x8<S>,
+    pub primitive: T::Wide<S>,
     /// The face.
-    pub surface: f64x8<S>,
+    pub surface: T::Wide<S>,
 }

@@ -1,31 +1,40 @@
 //! The rays of a tile: those that surfaces sent on are there, those from the eye are made where anything may lie in their
 //! way.
 
-use fearless_simd::{Level, Simd, SimdMask, f64x8, mask64x8};
+use fearless_simd::{Level, Simd};
 
 use crate::lattice::{Basis, Beam, FAN, Fan, Spread};
-use crate::math::{Bundle, Column, Columns, Number, row_of};
+use crate::math::{Bundle, Column, Columns, Digits, Number};
 use crate::solid::{Departures, Starts};
 use crate::view::Sight;
 
 use super::super::exact::most_moved;
 
-/// A bundle, and the surfaces that its rays leave: none from the eye.
+/// A bundle, and the surfaces that its rays leave: none from the eye. In the digits in which it is asked, and with all.
 #[derive(Clone, Copy)]
-pub(super) struct Outset<'a> {
-    pub rays: &'a Bundle,
-    pub departures: Option<&'a Departures>,
+pub(super) struct Outset<'a, T = f64> {
+    pub rays: &'a Bundle<T>,
+    pub departures: Option<&'a Departures<T>>,
+    pub full_rays: &'a Bundle,
+    pub full_departures: Option<&'a Departures>,
 }
 
-impl Outset<'_> {
+impl<'a> Outset<'a> {
+    /// One with all digits.
+    pub fn new(rays: &'a Bundle, departures: Option<&'a Departures>) -> Self {
+        Self { rays, departures, full_rays: rays, full_departures: departures }
+    }
+}
+
+impl<T: Digits> Outset<'_, T> {
     /// The surfaces that the rays of a row start on, as seen from a primitive.
     #[inline(always)]
-    pub fn starts<S: Simd>(&self, simd: S, row: usize, primitive: f64x8<S>) -> Starts<f64x8<S>> {
-        let no = mask64x8::splat(simd, false);
+    pub fn starts<S: Simd>(&self, simd: S, row: usize, primitive: T::Wide<S>) -> Starts<T::Wide<S>> {
+        let no = T::row_of(simd, 0, row);
         let Some(departures) = self.departures else { return Starts { here: no, inward: no, off: None } };
         Starts {
             here: departures.primitive.load(simd, row).is_equal(primitive),
-            inward: row_of(simd, departures.inward, row),
+            inward: T::row_of(simd, departures.inward, row),
             off: Some(departures.off.load(simd, row)),
         }
     }
@@ -56,10 +65,8 @@ impl Outsets<'_> {
     #[inline(always)]
     pub fn get(&self, k: usize) -> Outset<'_> {
         match self {
-            Self::Made { bundles, departures } => {
-                Outset { rays: &bundles[k], departures: departures.map(|all| &all[k]) }
-            }
-            Self::Seen { bundles, .. } => Outset { rays: &bundles[k], departures: None },
+            Self::Made { bundles, departures } => Outset::new(&bundles[k], departures.map(|all| &all[k])),
+            Self::Seen { bundles, .. } => Outset::new(&bundles[k], None),
         }
     }
 

@@ -14,7 +14,7 @@ use crate::solid::{
 };
 
 use super::Fast;
-use super::memory::TileMemory;
+use super::memory::{Numbers, TileMemory};
 use super::slices::{SOME, Slices, slices};
 use super::thin::{Slabs, Thin};
 use super::tint::{Clarity, Tint};
@@ -259,7 +259,7 @@ impl Fast<'_> {
         index: u32,
     ) {
         let near = near & !departures.leaving(simd, index);
-        let error = ball.most_error();
+        let error = ball.most_error::<f64>();
         let start = f64x8::splat(simd, error * (1.0 + self.assembly.off / ball.off()));
         let index = f64x8::splat(simd, f64::from(index));
         for row in 0..ROWS {
@@ -285,7 +285,7 @@ impl Fast<'_> {
                 let Firsts { end, any, .. } = firsts_of_spans(spans, form, &Starts { here, inward, off });
                 blocked = any & (end.t + end.error).is_below(distance);
             }
-            shaft.blocked |= (u64::from(blocked.bits()) << (row * LANES)) & near;
+            shaft.blocked |= (blocked.bits() << (row * LANES)) & near;
         }
     }
 
@@ -319,7 +319,7 @@ impl Fast<'_> {
             Body::Surface(index) => {
                 memory.counts.primitive_tests += 1;
                 let primitive = &primitives[*index as usize];
-                let TileMemory { thin, sheared, found, .. } = memory;
+                let TileMemory { thin, sheared, numbers: Numbers { found, .. }, .. } = memory;
                 let sheared = &mut sheared[k];
                 let wanted = asking(simd, &thin[k], &primitive.form, self.slack, passing);
                 if wanted == 0 {
@@ -334,7 +334,7 @@ impl Fast<'_> {
             }
             Body::Composite { whole, .. } => {
                 let (from, to) = reach(simd, &memory.thin[k], &own.bounds, self.slack, passing);
-                memory.scratch.start();
+                memory.numbers.scratch.start();
                 let expression = Flat::from(&**whole);
                 let whole = self.subs.loose(object).map(|loose| (loose, expression));
                 let mut slicing = Slicing { fast: self, simd, shaft, departures, open: passing };
@@ -362,6 +362,10 @@ impl<S: Simd> Slices for Slicing<'_, S> {
         self.open
     }
 
+    fn slack(&self) -> f64 {
+        self.fast.slack
+    }
+
     fn bounds(&self, from: f64, to: f64) -> Bounds {
         bounds_between(self.simd, &self.shaft.rays, self.open, from, to)
     }
@@ -372,7 +376,7 @@ impl<S: Simd> Slices for Slicing<'_, S> {
         let primitives = &self.fast.assembly.primitives;
         memory.counts.primitive_tests += expression.leaves.len() as u64;
         memory.counts.csg_evaluations += 1;
-        let TileMemory { scratch, found, .. } = memory;
+        let Numbers { scratch, found, .. } = &mut memory.numbers;
         let departures = Some(self.departures);
         let asked = Asked { bundle: &shaft.rays, wanted: self.open, departures, reach };
         first_of_expressions(simd, &asked, expression, primitives, scratch, found);
@@ -410,7 +414,7 @@ fn single<S: Simd>(
             let starts = Starts { here, inward: row_of(simd, departures.inward, row), off };
             let Firsts { end, any, .. } = firsts_of_spans(spans, form, &starts);
             let blocked = any & (end.t + end.error).is_below(shaft.distance.load(simd, row));
-            shaft.blocked |= u64::from(blocked.bits()) << (row * LANES) & wanted;
+            shaft.blocked |= blocked.bits() << (row * LANES) & wanted;
         }
     }
     let about = (form, departures, index, wanted);

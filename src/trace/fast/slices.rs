@@ -26,6 +26,9 @@ pub trait Slices {
     /// The rays that have not met the object yet.
     fn open(&self) -> u64;
 
+    /// How far outside its slice a crossing may be computed.
+    fn slack(&self) -> f64;
+
     /// The box around the way of all rays between two distances.
     fn bounds(&self, from: f64, to: f64) -> Bounds;
 
@@ -59,7 +62,7 @@ fn slice<R: Slices>(
     }
     let primitives = &fast.assembly.primitives;
     // A crossing may be computed `slack` outside its slice; twice that keeps its whole cluster.
-    let b = rays.bounds(from, to).padded(DVec3::splat(2.0 * fast.slack));
+    let b = rays.bounds(from, to).padded(DVec3::splat(2.0 * rays.slack()));
     let Some(expression) = begin(whole, expression, primitives, &b) else { return };
     let halves = [(from, 0.5 * (from + to)), (0.5 * (from + to), to)];
     // The way is cut before much is pruned: shorter slices begin with less.

@@ -102,7 +102,7 @@ impl Fast<'_> {
         met.clear();
         memory.far.resize(FAN, 0.0);
         memory.far[k] = shaft.distance.largest(simd);
-        let outset = Outset { rays: &shaft.rays, departures: Some(departures) };
+        let outset = Outset::new(&shaft.rays, Some(departures));
         self.object_of_bundle(simd, about, outset, &mut met, memory, k);
         shaft.unsure |= met.unsure & shaft.rays.live;
         let dark = match lamp.dark_of(about.0, self.slack) {

@@ -1,9 +1,9 @@
 //! What every walk of a tile does.
 
-use fearless_simd::{Simd, SimdBase, f64x8};
+use fearless_simd::Simd;
 
-use crate::lattice::{Child, Fan, Met, Node, highest, lowest};
-use crate::math::{Bounds, Bundle, DVec3, LANES, Mask, Number, ROWS, Rays, row_of};
+use crate::lattice::{Child, Fan, Met, Node};
+use crate::math::{Bounds, Bundle, DVec3, Digits, Mask, Number, Rays, Row};
 use crate::solid::Form;
 
 use super::thin::{Slabs, Thin};
@@ -75,17 +75,23 @@ pub fn reach<S: Simd>(simd: S, thin: &Thin, b: &Bounds, slack: f64, passing: u64
 }
 
 /// The box around the way of some rays of a bundle between two distances.
-pub fn bounds_between<S: Simd>(simd: S, bundle: &Bundle, rays: u64, from: f64, to: f64) -> Bounds {
+pub fn bounds_between<S: Simd, T: Digits>(
+    simd: S,
+    bundle: &Bundle<T>,
+    rays: u64,
+    from: f64,
+    to: f64,
+) -> Bounds {
     simd.vectorize(
         #[inline(always)]
         || {
-            let infinite = f64x8::splat(simd, f64::INFINITY);
+            let infinite = T::all(simd, f64::INFINITY);
             let (mut lo, mut hi) = ([infinite; 3], [-infinite; 3]);
-            for row in 0..ROWS {
-                if (rays >> (row * LANES)) as u8 == 0 {
+            for row in 0..T::ROWS {
+                if !T::has_any(rays, row) {
                     continue;
                 }
-                let asks = row_of(simd, rays, row);
+                let asks = T::row_of(simd, rays, row);
                 let Rays { o, d } = bundle.load(simd, row);
                 for axis in 0..3 {
                     let (o, d) = (o.along(axis), d.along(axis));
@@ -96,8 +102,8 @@ pub fn bounds_between<S: Simd>(simd: S, bundle: &Bundle, rays: u64, from: f64, t
                 }
             }
             let (lo, hi) = (
-                [lowest(lo[0]), lowest(lo[1]), lowest(lo[2])],
-                [highest(hi[0]), highest(hi[1]), highest(hi[2])],
+                [lo[0].least(), lo[1].least(), lo[2].least()],
+                [hi[0].greatest(), hi[1].greatest(), hi[2].greatest()],
             );
             Bounds::new(DVec3::from_array(lo), DVec3::from_array(hi))
         },

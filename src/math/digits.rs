@@ -1,0 +1,145 @@
+//! How many digits the numbers of a bundle have: those of `f64`, or those of `f32`, of which a register holds twice as many.
+
+use std::fmt::Debug;
+
+use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
+
+use super::bundle::BUNDLE;
+use super::number::{LANES, Mask, Number};
+use super::single::Singles;
+
+/// A number of a ray in a bundle.
+pub trait Digits: Copy + Debug + Default + Into<f64> + Send + Sync + 'static {
+    /// As many as a register holds, of 512 bits.
+    type Wide<S: Simd>: Wide<S> + Row<Digits = Self>;
+
+    /// How many rays are computed side by side.
+    const LANES: usize;
+    /// Registers of numbers in a bundle.
+    const ROWS: usize = BUNDLE / Self::LANES;
+    /// A bit for each ray of the first row.
+    const ROW: u64 = (1 << Self::LANES) - 1;
+    /// How many times as much is lost by a rounding as of an `f64`.
+    const COARSER: f64;
+    /// Whether these are all digits that there are: else more are asked for where two crossings may be one place.
+    const DECIDES: bool;
+    /// 0.
+    const ZERO: Self;
+    /// What is beyond all numbers.
+    const INFINITY: Self;
+
+    /// The nearest.
+    fn nearest(x: f64) -> Self;
+
+    /// The same number for all rays of a row.
+    #[inline(always)]
+    fn all<S: Simd>(simd: S, x: f64) -> Self::Wide<S> {
+        Self::Wide::<S>::all(simd, x)
+    }
+
+    /// The answers of a row, below [`Digits::ROWS`], out of a bit for each ray of a bundle.
+    #[inline(always)]
+    fn row_of<S: Simd>(simd: S, bits: u64, row: usize) -> Answers<Self, S> {
+        Self::Wide::<S>::answers(simd, bits >> (row * Self::LANES) & Self::ROW)
+    }
+
+    /// A bit for each ray of a bundle, out of the answers of a row.
+    #[inline(always)]
+    fn bits_of<M: Mask<Self::Wide<S>>, S: Simd>(_: S, answers: M, row: usize) -> u64 {
+        answers.bits() << (row * Self::LANES)
+    }
+
+    /// Whether any ray of a row is among these.
+    #[inline(always)]
+    fn has_any(bits: u64, row: usize) -> bool {
+        bits >> (row * Self::LANES) & Self::ROW != 0
+    }
+}
+
+/// Answers to a question about the rays of a row.
+pub type Answers<T, S> = <<T as Digits>::Wide<S> as Number>::Mask;
+
+/// Numbers that fill a row.
+pub trait Row {
+    /// One of them.
+    type Digits;
+
+    /// Puts them into a row, all of it.
+    fn put_into(self, row: &mut [Self::Digits]);
+    /// The least; none may be not-a-number.
+    fn least(self) -> f64;
+    /// The greatest; none may be not-a-number.
+    fn greatest(self) -> f64;
+}
+
+/// The numbers of a row, in a register.
+pub trait Wide<S: Simd>: Number + Row {
+    /// The same for all.
+    fn all(simd: S, x: f64) -> Self;
+    /// Those of a row, all of it.
+    fn of_row(simd: S, row: &[Self::Digits]) -> Self;
+    /// Answers out of a bit for each.
+    fn answers(simd: S, bits: u64) -> Self::Mask;
+}
+
+impl Digits for f64 {
+    type Wide<S: Simd> = f64x8<S>;
+
+    const LANES: usize = LANES;
+    const COARSER: f64 = 1.0;
+    const DECIDES: bool = true;
+    const ZERO: Self = 0.0;
+    const INFINITY: Self = Self::INFINITY;
+
+    #[inline(always)]
+    fn nearest(x: f64) -> Self {
+        x
+    }
+}
+
+impl Digits for f32 {
+    type Wide<S: Simd> = Singles<S>;
+
+    const LANES: usize = 2 * LANES;
+    const COARSER: f64 = (Self::EPSILON as f64) / f64::EPSILON;
+    const DECIDES: bool = false;
+    const ZERO: Self = 0.0;
+    const INFINITY: Self = Self::INFINITY;
+
+    #[inline(always)]
+    fn nearest(x: f64) -> Self {
+        x as Self
+    }
+}
+
+impl<S: Simd> Row for f64x8<S> {
+    type Digits = f64;
+
+    #[inline(always)]
+    fn put_into(self, row: &mut [f64]) {
+        self.store_slice(row);
+    }
+    #[inline(always)]
+    fn least(self) -> f64 {
+        self.reduce_min()
+    }
+    #[inline(always)]
+    fn greatest(self) -> f64 {
+        self.reduce_max()
+    }
+}
+
+impl<S: Simd> Wide<S> for f64x8<S> {
+    #[inline(always)]
+    fn all(simd: S, x: f64) -> Self {
+        Self::splat(simd, x)
+    }
+    #[inline(always)]
+    fn of_row(simd: S, row: &[f64]) -> Self {
+        Self::from_slice(simd, row)
+    }
+    #[inline(always)]
+    fn answers(simd: S, bits: u64) -> mask64x8<S> {
+        mask64x8::from_bitmask(simd, bits)
+    }
+}

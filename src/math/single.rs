@@ -1,0 +1,189 @@
+//! Sixteen numbers of 24 bits side by side.
+
+use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+
+use fearless_simd::{Bytes, Select, Simd, SimdBase, SimdFloat, SimdMask, f32x16, mask32x16, u32x16};
+
+use super::digits::{Row, Wide};
+use super::number::{Mask, Number};
+
+/// Digits of a fraction behind its leading 1, the fraction's bits of 1, and 2²³, beside which a number stands in the last
+/// bits as a whole one.
+const FRACTION: u32 = f32::MANTISSA_DIGITS - 1;
+const ONE: u32 = 1.0_f32.to_bits();
+const WHOLE: f32 = (1_u32 << FRACTION) as f32;
+
+/// What is added to an exponent that is stored.
+const BIAS: f32 = (f32::MAX_EXP - 1) as f32;
+
+/// Numbers of 24 bits; what they are computed with is rounded to that first.
+#[derive(Clone, Copy, Debug)]
+pub struct Singles<S: Simd>(f32x16<S>);
+
+/// Answers to a question about each.
+#[derive(Clone, Copy, Debug)]
+pub struct SingleAnswers<S: Simd>(mask32x16<S>);
+
+impl<S: Simd> Neg for Singles<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(-self.0)
+    }
+}
+
+macro_rules! operators {
+    ($($trait:ident $name:ident $op:tt;)*) => {$(
+        impl<S: Simd> $trait for Singles<S> {
+            type Output = Self;
+            #[inline(always)]
+            fn $name(self, other: Self) -> Self {
+                Self(self.0 $op other.0)
+            }
+        }
+        impl<S: Simd> $trait<f64> for Singles<S> {
+            type Output = Self;
+            #[inline(always)]
+            fn $name(self, other: f64) -> Self {
+                Self(self.0 $op other as f32)
+            }
+        }
+    )*};
+}
+operators! {
+    Add add +;
+    Sub sub -;
+    Mul mul *;
+    Div div /;
+}
+
+impl<S: Simd> Number for Singles<S> {
+    type Mask = SingleAnswers<S>;
+
+    const COARSER: f64 = <f32 as super::Digits>::COARSER;
+    const LEAST: f64 = f32::MIN_POSITIVE as f64;
+
+    #[inline(always)]
+    fn same(self, x: f64) -> Self {
+        Self(f32x16::splat(self.0.simd, x as f32))
+    }
+    #[inline(always)]
+    fn root(self) -> Self {
+        Self(self.0.sqrt())
+    }
+    #[inline(always)]
+    fn magnitude(self) -> Self {
+        Self(self.0.abs())
+    }
+    #[inline(always)]
+    fn signed_as(self, sign: Self) -> Self {
+        Self(self.0.copysign(sign.0))
+    }
+    #[inline(always)]
+    fn fused(self, factor: Self, term: Self) -> Self {
+        Self(self.0.mul_add_precise(factor.0, term.0))
+    }
+    #[inline(always)]
+    fn parts(self) -> (Self, Self) {
+        let bits: u32x16<S> = self.0.bitcast();
+        let exponent: f32x16<S> = ((bits >> FRACTION) | WHOLE.to_bits()).bitcast();
+        let fraction: f32x16<S> = ((bits & !(u32::MAX << FRACTION)) | ONE).bitcast();
+        (Self(exponent - (WHOLE + BIAS)), Self(fraction))
+    }
+    #[inline(always)]
+    fn exponential(self) -> Self {
+        let bits: u32x16<S> = (self.0 + (WHOLE + BIAS)).bitcast();
+        Self((bits << FRACTION).bitcast())
+    }
+    #[inline(always)]
+    fn is_below(self, other: Self) -> SingleAnswers<S> {
+        SingleAnswers(self.0.simd_lt(other.0))
+    }
+    #[inline(always)]
+    fn is_at_most(self, other: Self) -> SingleAnswers<S> {
+        SingleAnswers(self.0.simd_le(other.0))
+    }
+    #[inline(always)]
+    fn is_above(self, other: Self) -> SingleAnswers<S> {
+        SingleAnswers(self.0.simd_gt(other.0))
+    }
+    #[inline(always)]
+    fn is_at_least(self, other: Self) -> SingleAnswers<S> {
+        SingleAnswers(self.0.simd_ge(other.0))
+    }
+    #[inline(always)]
+    fn is_equal(self, other: Self) -> SingleAnswers<S> {
+        SingleAnswers(self.0.simd_eq(other.0))
+    }
+}
+
+impl<S: Simd> Row for Singles<S> {
+    type Digits = f32;
+
+    #[inline(always)]
+    fn put_into(self, row: &mut [f32]) {
+        self.0.store_slice(row);
+    }
+    #[inline(always)]
+    fn least(self) -> f64 {
+        f64::from(self.0.reduce_min())
+    }
+    #[inline(always)]
+    fn greatest(self) -> f64 {
+        f64::from(self.0.reduce_max())
+    }
+}
+
+impl<S: Simd> Wide<S> for Singles<S> {
+    #[inline(always)]
+    fn all(simd: S, x: f64) -> Self {
+        Self(f32x16::splat(simd, x as f32))
+    }
+    #[inline(always)]
+    fn of_row(simd: S, row: &[f32]) -> Self {
+        Self(f32x16::from_slice(simd, row))
+    }
+    #[inline(always)]
+    fn answers(simd: S, bits: u64) -> SingleAnswers<S> {
+        SingleAnswers(mask32x16::from_bitmask(simd, bits))
+    }
+}
+
+impl<S: Simd> Mask<Singles<S>> for SingleAnswers<S> {
+    #[inline(always)]
+    fn choose(self, yes: Singles<S>, no: Singles<S>) -> Singles<S> {
+        Singles(self.0.select(yes.0, no.0))
+    }
+    #[inline(always)]
+    fn any(self) -> bool {
+        self.0.any_true()
+    }
+    #[inline(always)]
+    fn bits(self) -> u64 {
+        self.0.to_bitmask()
+    }
+}
+
+impl<S: Simd> BitAnd for SingleAnswers<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn bitand(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+}
+
+impl<S: Simd> BitOr for SingleAnswers<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn bitor(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+}
+
+impl<S: Simd> Not for SingleAnswers<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn not(self) -> Self {
+        Self(!self.0)
+    }
+}

@@ -1,6 +1,6 @@
 //! The frustums of a tile's bundles, sixteen side by side: which of them may meet one box.
 
-use fearless_simd::{Simd, SimdBase, SimdMask, f32x16};
+use fearless_simd::{Simd, SimdBase, SimdFloat, SimdMask, f32x16};
 
 use super::beam::{Beam, lost};
 
@@ -54,7 +54,8 @@ impl Default for Fan {
 
 impl Fan {
     /// Sets the frustums, up to [`FAN`] of them; those that are absent, or left over, meet nothing.
-    pub fn set(&mut self, beams: &[Option<Beam>]) {
+    #[inline(always)]
+    pub fn set<S: Simd>(&mut self, simd: S, beams: &[Option<Beam>]) {
         self.present = 0;
         for (lane, beam) in beams.iter().enumerate().take(FAN) {
             let Some(beam) = beam else { continue };
@@ -67,9 +68,15 @@ impl Fan {
                     to.normal[axis][lane] = normal[axis] as f32;
                 }
                 to.offset[lane] = (offset - lost(normal)) as f32;
-                to.length[lane] = (normal.length() as f32).next_up();
             }
             self.start[lane] = (start + lost(backward)) as f32;
+        }
+        // Three products, two sums, the root, and the normal itself: 5 roundings, and one of the last product.
+        let up = f32x16::splat(simd, 1.0 + 4.0 * f32::EPSILON);
+        for planes in &mut self.planes {
+            let [x, y, z] = planes.normals(simd);
+            let length = (x * x + y * y + z * z).sqrt() * up;
+            length.store_slice(&mut planes.length);
         }
     }
 

@@ -104,7 +104,7 @@ impl Fast<'_> {
                             let bundle = outsets.get(k).rays;
                             T::take(simd, bundle, own, k);
                             left_to_ask[k] = CROWD * bundle.live.count_ones();
-                            memory.thin[k].set(simd, bundle);
+                            memory.thin[k].set(bundle);
                         }
                         let outset = T::outset(outsets.get(k), own, k);
                         let bundle = outset.full_rays;
@@ -116,6 +116,7 @@ impl Fast<'_> {
                         };
                         left_to_ask[k] = left_to_ask_now;
                         let passing = if let Some(round) = &round {
+                            memory.thin[k].set_points(simd, bundle);
                             memory.thin[k].ball(simd, round, slack, bundle.live).0
                         } else {
                             memory.thin[k].set_lines(simd, bundle);
@@ -178,7 +179,7 @@ impl Fast<'_> {
                 let primitive = &primitives[*index as usize];
                 let TileMemory { thin, sheared, numbers: Numbers { found, .. }, .. } = memory;
                 let sheared = &mut sheared[k];
-                let wanted = asking(simd, &thin[k], &primitive.form, slack, passing);
+                let wanted = asking(simd, &mut thin[k], outset.full_rays, &primitive.form, slack, passing);
                 if wanted == 0 {
                     return false;
                 }

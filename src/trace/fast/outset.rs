@@ -95,17 +95,19 @@ impl Outsets<'_> {
             }
             Self::Seen { sight, .. } => {
                 // The sides of all blocks run along those of the tile.
-                let basis = Basis::of_corners(sight.ends());
+                let ends = sight.ends();
+                let basis = Basis::of_corners(ends);
+                // Rays of one tile differ little in how far they are moved.
+                let moved = most_moved(sight.eye, &ends);
                 let mut corners = [Column::filled(0.0); 3];
                 sight.corners(level, &mut corners);
                 for k in 0..sight.blocks().min(FAN) {
                     let ends = [0, 1, 2, 3].map(|corner| corners.get(4 * k + corner));
-                    let moved = most_moved(sight.eye, &ends);
                     beams.push(Some(Beam::between(sight.eye, ends, moved, &basis)));
                 }
             }
         }
-        fan.set(beams);
+        fan.set(simd, beams);
     }
 }
 

@@ -146,7 +146,7 @@ impl Fast<'_> {
         }
         let asking = shafts.iter().map(|shaft| (shaft.open() != 0).then_some((&shaft.rays, &shaft.distance)));
         let whole = Beam::towards(simd, &asking, lamp.at, &mut memory.beams);
-        memory.fan.set(&memory.beams);
+        memory.fan.set(simd, &memory.beams);
         let mut given_up = 0;
         memory.thin.iter_mut().for_each(Thin::forget);
         memory.forget_sheared();
@@ -222,13 +222,14 @@ impl Fast<'_> {
         k: usize,
     ) {
         if !memory.thin[k].is_known() {
-            memory.thin[k].set(simd, &shaft.rays);
+            memory.thin[k].set(&shaft.rays);
             memory.thin[k].look(
                 #[inline(always)]
                 |lane| shaft.distance.0[lane] + self.slack,
             );
         }
         let passing = if let Some(round) = round {
+            memory.thin[k].set_points(simd, &shaft.rays);
             let (near, inside) = memory.thin[k].ball(simd, round, self.slack, shaft.open());
             shaft.blocked |= inside;
             memory.counts.primitive_tests += u64::from(near != 0 && near == inside);
@@ -321,7 +322,7 @@ impl Fast<'_> {
                 let primitive = &primitives[*index as usize];
                 let TileMemory { thin, sheared, numbers: Numbers { found, .. }, .. } = memory;
                 let sheared = &mut sheared[k];
-                let wanted = asking(simd, &thin[k], &primitive.form, self.slack, passing);
+                let wanted = asking(simd, &mut thin[k], &shaft.rays, &primitive.form, self.slack, passing);
                 if wanted == 0 {
                     return;
                 }

@@ -68,9 +68,11 @@ pub struct Thin {
     extent: f64,
     /// The rays that are to be asked in full, whatever they are asked about.
     odd: u64,
-    /// Whether these are the rays of a bundle, not yet forgotten; and whether what boxes and bars ask for is.
+    /// Whether these are the rays of a bundle, not yet forgotten; and whether what balls, boxes and bars ask for is known.
     known: bool,
+    points_known: bool,
     lines_known: bool,
+    moments_known: bool,
 }
 
 /// A box as its middle and half its size, and what is lost of it.
@@ -102,7 +104,9 @@ impl Thin {
         extent: 0.0,
         odd: 0,
         known: false,
+        points_known: false,
         lines_known: false,
+        moments_known: false,
     };
 
     /// Whether they have been set since they were forgotten.
@@ -117,15 +121,29 @@ impl Thin {
 
     /// The rays of a closed bundle, which look as far as they can.
     #[inline(always)]
-    pub fn set<S: Simd>(&mut self, simd: S, bundle: &Bundle) {
-        (self.extent, self.known, self.lines_known) = (0.0, true, false);
+    pub fn set(&mut self, bundle: &Bundle) {
+        self.known = true;
+        (self.points_known, self.lines_known, self.moments_known) = (false, false, false);
         self.limit = [f32::INFINITY; BUNDLE];
+        for axis in 0..3 {
+            for lane in 0..BUNDLE {
+                self.d[axis][lane] = bundle.d[axis].0[lane] as f32;
+            }
+        }
+    }
+
+    /// Makes the same rays known for what only balls and bars ask for.
+    #[inline(always)]
+    pub fn set_points<S: Simd>(&mut self, simd: S, bundle: &Bundle) {
+        if std::mem::replace(&mut self.points_known, true) {
+            return;
+        }
+        self.extent = 0.0;
         for axis in 0..3 {
             let base = bundle.o[axis].0[0];
             self.base[axis] = base;
             for lane in 0..BUNDLE {
                 self.o[axis][lane] = (bundle.o[axis].0[lane] - base) as f32;
-                self.d[axis][lane] = bundle.d[axis].0[lane] as f32;
             }
             let mut most = f32x16::splat(simd, 0.0);
             for row in 0..THIN_ROWS {
@@ -145,7 +163,7 @@ impl Thin {
         }
     }
 
-    /// Makes the same rays known for what only boxes and bars ask for.
+    /// Makes the same rays known for what only boxes ask for.
     #[inline(always)]
     pub fn set_lines<S: Simd>(&mut self, simd: S, bundle: &Bundle) {
         if std::mem::replace(&mut self.lines_known, true) {
@@ -160,16 +178,29 @@ impl Thin {
         let (one, still) = (f32x16::splat(simd, 1.0), f32x16::splat(simd, STILL));
         let within = f32x16::splat(simd, WITHIN);
         for row in 0..THIN_ROWS {
+            for axis in 0..3 {
+                let (start, d) = (row_of(simd, &self.start[axis], row), row_of(simd, &self.d[axis], row));
+                let plain = start.abs().simd_lt(within) & d.abs().simd_lt(within);
+                self.odd |= (!plain).to_bitmask() << (row * WIDTH);
+                let inverse = d.abs().simd_lt(still).select(one / still, one / d);
+                inverse.store_slice(&mut self.inverse[axis][row * WIDTH..][..WIDTH]);
+            }
+        }
+    }
+
+    /// Makes the same rays, which are known to balls and boxes, known for what only bars ask for.
+    #[inline(always)]
+    fn set_moments<S: Simd>(&mut self, simd: S, bundle: &Bundle) {
+        if std::mem::replace(&mut self.moments_known, true) {
+            return;
+        }
+        self.set_points(simd, bundle);
+        for row in 0..THIN_ROWS {
             let [o, d] = [
                 [row_of(simd, &self.o[0], row), row_of(simd, &self.o[1], row), row_of(simd, &self.o[2], row)],
                 [row_of(simd, &self.d[0], row), row_of(simd, &self.d[1], row), row_of(simd, &self.d[2], row)],
             ];
             for axis in 0..3 {
-                let start = row_of(simd, &self.start[axis], row);
-                let plain = start.abs().simd_lt(within) & d[axis].abs().simd_lt(within);
-                self.odd |= (!plain).to_bitmask() << (row * WIDTH);
-                let inverse = d[axis].abs().simd_lt(still).select(one / still, one / d[axis]);
-                inverse.store_slice(&mut self.inverse[axis][row * WIDTH..][..WIDTH]);
                 let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
                 let moment = o[next] * d[last] - o[last] * d[next];
                 moment.store_slice(&mut self.moment[axis][row * WIDTH..][..WIDTH]);
@@ -178,7 +209,8 @@ impl Thin {
     }
 
     /// Which of some rays may meet a ball between the two of `round`, ahead of their starts and no farther than they look: all
-    /// others do not. And which certainly go into it ahead of their starts, and before the end of what they look at.
+    /// others do not. And which certainly go into it ahead of their starts, and before the end of what they look at. The rays are
+    /// [known](Self::set_points) as points.
     #[inline(always)]
     pub fn ball<S: Simd>(&self, simd: S, round: &Round, slack: f64, wanted: u64) -> (u64, u64) {
         let from_base = wide(round.center) - self.base;
@@ -267,7 +299,8 @@ impl Thin {
     /// Those of some rays whose lines may come within a bar's radius of its axis, be it as long as it will; all others do
     /// not.
     #[inline(always)]
-    pub fn beside<S: Simd>(&self, simd: S, bar: &Bar, slack: f64, wanted: u64) -> u64 {
+    pub fn beside<S: Simd>(&mut self, simd: S, bundle: &Bundle, bar: &Bar, slack: f64, wanted: u64) -> u64 {
+        self.set_moments(simd, bundle);
         let (from_base, along, radius) = (bar.middle - self.base, bar.along, bar.radius + slack);
         // The product of two lines, by their moments, is their distance times the sine of the angle between them.
         let moment = along.cross(from_base);
@@ -359,12 +392,13 @@ mod tests {
             for level in [Level::new(), Level::baseline()] {
                 let mut thin = Thin::EMPTY;
                 let (asked, inside) = dispatch!(level, simd => {
-                    thin.set(simd, &bundle);
+                    thin.set(&bundle);
+                    thin.set_points(simd, &bundle);
                     thin.set_lines(simd, &bundle);
                     let slabs = Slabs::around(simd, lo, hi, 0.0);
                     let all = u64::MAX;
                     let (near, inside) = thin.ball(simd, &round, 0.0, all);
-                    ([thin.passing(simd, &slabs, all), thin.beside(simd, &bar, 0.0, all), near], inside)
+                    ([thin.passing(simd, &slabs, all), thin.beside(simd, &bundle, &bar, 0.0, all), near], inside)
                 });
                 for lane in crate::math::lanes(inside) {
                     let Ray { o, d } = bundle.ray(lane);
@@ -403,7 +437,8 @@ mod tests {
         let mut thin = Thin::EMPTY;
         let mut asked = |limit: f64| {
             dispatch!(Level::new(), simd => {
-                thin.set(simd, &bundle);
+                thin.set(&bundle);
+                    thin.set_points(simd, &bundle);
                 thin.look(|_| limit);
                 thin.ball(simd, &round, 0.0, u64::MAX)
             })
@@ -427,7 +462,8 @@ mod tests {
         let mut thin = Thin::EMPTY;
         let mut asked = |limit: f64| {
             dispatch!(Level::new(), simd => {
-                thin.set(simd, &bundle);
+                thin.set(&bundle);
+                    thin.set_points(simd, &bundle);
                 thin.set_lines(simd, &bundle);
                 thin.look(|_| limit);
                 thin.passing(simd, &Slabs::around(simd, lo, hi, 0.0), u64::MAX).count_ones()
@@ -439,7 +475,8 @@ mod tests {
         bundle.d[0].0[5] = f64::NAN;
         let mut thin = Thin::EMPTY;
         let asked = dispatch!(Level::new(), simd => {
-            thin.set(simd, &bundle);
+            thin.set(&bundle);
+                    thin.set_points(simd, &bundle);
             thin.set_lines(simd, &bundle);
             thin.passing(simd, &Slabs::around(simd, lo, hi, 0.0), u64::MAX)
         });

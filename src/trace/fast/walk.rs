@@ -58,11 +58,18 @@ pub fn push_nearest_last<S: Simd>(
 }
 
 /// Those of some rays of a bundle that may meet a surface, as far as its own form says.
-pub fn asking<S: Simd>(simd: S, thin: &Thin, form: &Form, slack: f64, wanted: u64) -> u64 {
+pub fn asking<S: Simd>(
+    simd: S,
+    thin: &mut Thin,
+    bundle: &Bundle,
+    form: &Form,
+    slack: f64,
+    wanted: u64,
+) -> u64 {
     let Form::Tube(tube) = form else { return wanted };
     simd.vectorize(
         #[inline(always)]
-        || thin.beside(simd, &tube.bar(), slack, wanted),
+        || thin.beside(simd, bundle, &tube.bar(), slack, wanted),
     )
 }
 

@@ -21,7 +21,7 @@ pub trait Digits: Copy + Debug + Default + Into<f64> + Send + Sync + 'static {
     const ROW: u64 = (1 << Self::LANES) - 1;
     /// How many times as much is lost by a rounding as of an `f64`.
     const COARSER: f64;
-    /// Whether these are all digits that there are: else more are asked for where two crossings may be one place.
+    /// [`Number::DECIDES`].
     const DECIDES: bool;
     /// 0.
     const ZERO: Self;

@@ -61,6 +61,7 @@ impl<S: Simd> Number for Singles<S> {
     type Mask = SingleAnswers<S>;
 
     const COARSER: f64 = <f32 as super::Digits>::COARSER;
+    const DECIDES: bool = false;
     const LEAST: f64 = f32::MIN_POSITIVE as f64;
 
     #[inline(always)]

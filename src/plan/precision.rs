@@ -1,13 +1,13 @@
 //! In how many digits rays from the eye are asked what they meet.
 //!
-//! Of solids that are cut, and of convex ones but balls, numbers of 24 bits say it in less time than those of 53. A hit is then
-//! off its place by up to [`Digits::COARSER`] times as much, some 2·10⁻⁵ in the unit in which the world reaches to ±2. That is
-//! allowed where it is less than a fiftieth of a dot, of what is nearest to the eye. Silhouettes and edges move by no more; and
-//! light changes by no more than a fiftieth of what it differs by from one dot to the next.
+//! Of solids that are cut, and of convex ones but balls, numbers of 24 bits say it in less time than those of 53. Which surface
+//! is met stays certain: where half the digits leave a doubt, at silhouettes and edges and where two surfaces are near each
+//! other, all are asked. But where it is met is off by up to [`Digits::COARSER`] times as much, some 2·10⁻⁵ in the unit in which
+//! the world reaches to ±2. That is allowed where it is so small a part of a dot, of what is nearest to the eye, that light is off
+//! by less than a quarter of a level.
 //!
 //! Rays that start on surfaces need all digits: between two curved mirrors what is off grows with each generation, and the edge
-//! of a shadow shows where a point is. Where two surfaces are so near each other that half the digits do not tell which is
-//! first, all are asked, so thin walls stay; but a solid that is thin itself might be missed.
+//! of a shadow shows where a point is.
 
 use crate::math::{DVec3, Digits};
 use crate::solid::Assembly;
@@ -34,13 +34,15 @@ impl Precision {
     }
 }
 
-/// The part of a dot that a hit may be off. Where one dot in twenty lies on an edge, as in most pictures, so one in a thousand
-/// may see another side of it.
-const UNSEEN: f64 = 1.0 / 50.0;
+/// The part of a dot that a hit may be off. From one dot to the next light differs by as many levels as there are at most, and by
+/// so small a part of that way by a quarter of a level.
+const UNSEEN: f64 = 0.25 / LEVELS;
 
-/// A chord counts where it is longer than what its two ends may be off, which is what their faces are, over the sine of the
-/// angle between face and ray. A solid thicker than so many times that is met by every ray within a sine of an eighth; by
-/// others, where it is seen so aslant that it is no wider than this either.
+/// Steps from black to white.
+const LEVELS: f64 = 12.0;
+
+/// Whether a chord is there is certain where it is longer than what its two ends may be off, which is what their faces are, over
+/// the sine of the angle between face and ray: in a solid so many times as thick, for rays within a sine of an eighth.
 const THICK: f64 = 16.0;
 
 /// Of more objects around the eye none is asked how near it is.

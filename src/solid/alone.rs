@@ -10,11 +10,11 @@ use super::crossings::{Asked, Found, have_one_slope};
 use super::known::KnownSpans;
 use super::span::Ends;
 
-/// The first crossings with the spans in one primitive, which may be `negated`, among those that are ahead.
+/// The first crossings of the rays that are `open` with their spans in one primitive, which may be `negated`.
 #[inline(always)]
 pub(super) fn decide_alone<S: Simd, T: Digits>(
     simd: S,
-    asked: &Asked<T>,
+    (asked, open): (&Asked<T>, u64),
     known: &KnownSpans<T>,
     (primitive, negated): (u32, bool),
     found: &mut Found<T>,
@@ -26,11 +26,11 @@ pub(super) fn decide_alone<S: Simd, T: Digits>(
     let mut inward = 0;
     for row in 0..T::ROWS {
         // Both ends of a span are ahead, or none.
-        if !T::has_any(known.enter.ahead, row) {
+        if !T::has_any(open, row) {
             continue;
         }
         let (enter, leave) = (known.enter.row(simd, row), known.leave.row(simd, row));
-        let mut open = T::row_of(simd, known.enter.ahead, row) & !enter.t.is_above(to);
+        let mut open = T::row_of(simd, open, row) & !enter.t.is_above(to);
         let one_place = open & (leave.t - leave.error).is_at_most(enter.t + enter.error);
         if one_place.any() && !T::DECIDES {
             found.unsure |= T::bits_of(simd, one_place, row);

@@ -57,14 +57,19 @@ impl<N: Number> Balls<N> {
         let second = -near.dot(rays.d);
         let near = near + rays.d * second;
         let l_squared = near.length_squared();
-        let near_enough = l_squared.is_at_most(radius * radius);
+        let near_enough = l_squared.is_at_most(if N::DECIDES {
+            radius * radius
+        } else {
+            radius * radius + grazing + off * off
+        });
         if !near_enough.any() {
             return Spans::none(like);
         }
         let l = l_squared.root();
         let half_squared = (-l + radius) * (l + radius);
         // Moving the ray sideways changes the square of the half-chord by 2·l times as much.
-        let any = near_enough & half_squared.is_above(radius * 2.0 * (SEEN * N::COARSER));
+        let least = if N::DECIDES { radius * 2.0 * SEEN } else { grazing };
+        let any = near_enough & half_squared.is_above(least);
         let half = half_squared.root();
         // Half a chord that the map's own error could have made is off by no more than all of that.
         let sideways = half_squared.is_below(grazing).choose(grazing_root, l * off / half);
@@ -75,6 +80,7 @@ impl<N: Number> Balls<N> {
             enter: Ends { t: middle - half, error, surface },
             leave: Ends { t: middle + half, error, surface },
             any,
+            may: if N::DECIDES { any } else { near_enough },
         }
     }
 }

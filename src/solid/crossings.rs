@@ -172,14 +172,17 @@ pub fn first_of_expressions<S: Simd, T: Digits>(
         found.unsure = wanted;
         return;
     }
-    let mut some = 0;
+    let (mut some, mut doubtful) = (0, 0);
     scratch.places.clear();
     for (leaf, place) in expression.leaves.iter().enumerate() {
         let about = (place.primitive, form(leaf));
-        let (place, ahead) = scratch.known.look(simd, (bundle, departures), about, wanted, reach);
+        let (place, [ahead, may]) = scratch.known.look(simd, (bundle, departures), about, wanted, reach);
         scratch.places.push(place);
         some |= ahead;
+        doubtful |= may;
     }
+    found.unsure = doubtful;
+    some &= !doubtful;
     if some == 0 {
         return;
     }
@@ -188,7 +191,7 @@ pub fn first_of_expressions<S: Simd, T: Digits>(
         let negated = expression.is_negated();
         simd.vectorize(
             #[inline(always)]
-            || decide_alone(simd, asked, known, (leaf.primitive, negated), found),
+            || decide_alone(simd, (asked, some), known, (leaf.primitive, negated), found),
         );
         return;
     }

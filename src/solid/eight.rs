@@ -71,7 +71,7 @@ impl Eight {
 
     #[inline(always)]
     fn balls<S: Simd>(&mut self, simd: S) {
-        let Spans { enter, leave, any } = Balls::new(self.numbers(simd)).spans(&self.rays(simd));
+        let Spans { enter, leave, any, .. } = Balls::new(self.numbers(simd)).spans(&self.rays(simd));
         self.store(enter, leave);
         self.any[0] = any.bits() as u8;
     }
@@ -151,7 +151,8 @@ impl Eight {
             let [enters, leaves, one_way] = [is(self.any[0]), is(self.any[1]), is(self.any[2])];
             firsts_of_sides(SideCrossings { enter, enters, leave, leaves, one_way }, form, &starts)
         } else {
-            firsts_of_spans(Spans { enter, leave, any: is(self.any[0]) }, form, &starts)
+            let any = is(self.any[0]);
+            firsts_of_spans(Spans { enter, leave, any, may: any }, form, &starts)
         };
         let Ends { t, error, .. } = end;
         any.then_some(Crossing { t, error, primitive: index, surface: 0, entering })

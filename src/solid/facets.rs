@@ -83,8 +83,9 @@ impl Facets {
         for (surface, (face, off)) in self.faces.iter().zip(&self.off).enumerate() {
             let above = from_center.dot_one(face.normal) - face.offset;
             let d = rays.d.dot_one(face.normal);
+            let inverse = like.same(1.0) / d;
             let (t, error, surface) =
-                (-above / d, like.same(*off * N::COARSER) / d.magnitude(), like.same(surface as f64));
+                (-above * inverse, inverse.magnitude() * (*off * N::COARSER), like.same(surface as f64));
             let (against, along) = (d.is_below(like.same(-still)), d.is_above(like.same(still)));
             let enter = Ends { t: against.choose(t, before), error, surface };
             let leave = Ends { t: along.choose(t, behind), error, surface };
@@ -92,7 +93,11 @@ impl Facets {
             let zero = like.same(0.0);
             let outside =
                 if points_down(face.normal) { above.is_above(zero) } else { above.is_at_least(zero) };
-            spans.any = spans.any & (against | along | !outside);
+            spans.keep(
+                against | along | !outside,
+                #[inline(always)]
+                || !(against | along) & above.magnitude().is_at_most(like.same(*off * N::COARSER)),
+            );
         }
         spans.if_any(
             self.seeming,

@@ -50,8 +50,9 @@ pub(super) struct KnownSpans<T> {
     /// How far its crossings may be off: [`Form::off`]; and the share of that which is our own rounding.
     pub off: f64,
     pub seeming: f64,
-    /// Which rays have one.
+    /// Which rays have one; and which may have one, as far as more digits might say.
     any: u64,
+    doubtful: u64,
     pub enter: Side<T>,
     pub leave: Side<T>,
 }
@@ -77,8 +78,15 @@ impl<T: Digits> Side<T> {
 }
 
 impl<T: Digits> KnownSpans<T> {
-    const NONE: Self =
-        Self { primitive: 0, off: 0.0, seeming: 0.0, any: 0, enter: Side::NONE, leave: Side::NONE };
+    const NONE: Self = Self {
+        primitive: 0,
+        off: 0.0,
+        seeming: 0.0,
+        any: 0,
+        doubtful: 0,
+        enter: Side::NONE,
+        leave: Side::NONE,
+    };
 
     /// The two ends.
     #[inline(always)]
@@ -134,8 +142,8 @@ impl<T: Digits> Known<T> {
         &mut self.spans[..self.count]
     }
 
-    /// Looks ahead at the spans in a primitive, and gives their place and which rays have one that can matter. Until it is
-    /// cleared no ray is wanted that was not wanted before.
+    /// Looks ahead at the spans in a primitive, and gives their place, which rays have one that can matter, and of which more
+    /// digits are to say whether they have one. Until it is cleared no ray is wanted that was not wanted before.
     pub fn look<S: Simd>(
         &mut self,
         simd: S,
@@ -143,7 +151,7 @@ impl<T: Digits> Known<T> {
         (primitive, form): (u32, &Form),
         wanted: u64,
         reach: Reach,
-    ) -> (u32, u64) {
+    ) -> (u32, [u64; 2]) {
         let known = self.spans[..self.count].iter().position(|known| known.primitive == primitive);
         let place = known.unwrap_or_else(|| {
             if self.count == self.spans.len() {
@@ -151,7 +159,7 @@ impl<T: Digits> Known<T> {
             }
             self.count += 1;
             let known = &mut self.spans[self.count - 1];
-            (known.primitive, known.any) = (primitive, 0);
+            (known.primitive, known.any, known.doubtful) = (primitive, 0, 0);
             (known.off, known.seeming) = (form.off() * T::COARSER, form.seeming());
             let here = departures.map_or((0, 0), |d| d.here(simd, primitive));
             with_spans!(simd, form, learn, (bundle, wanted, here), known);
@@ -162,7 +170,7 @@ impl<T: Digits> Known<T> {
             #[inline(always)]
             || spans.look(simd, wanted, reach),
         );
-        (place as u32, ahead)
+        (place as u32, [ahead, spans.doubtful & wanted])
     }
 }
 
@@ -179,6 +187,9 @@ fn learn<S: Simd, T: Digits>(
         }
         let mut spans = spans(&bundle.load(simd, row));
         let any = spans.any & !T::row_of(simd, here & !inward, row);
+        if !T::DECIDES {
+            known.doubtful |= T::bits_of(simd, spans.may & !spans.any, row);
+        }
         if !any.any() {
             continue;
         }

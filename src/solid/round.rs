@@ -3,7 +3,7 @@
 use crate::math::{Bounds, DMat3, DVec3, Mask, Number, Placement, Rays, Vector};
 
 use super::primitive::Cover;
-use super::span::{Ends, Spans};
+use super::span::{Ends, STILL, Spans};
 use super::taper::Taper;
 use super::unit_space::{Centred, UnitSpace};
 
@@ -114,27 +114,30 @@ impl Round {
 #[inline(always)]
 fn sphere_spans<N: Number>(rays: &Centred<N>) -> Spans<N> {
     let l_squared = rays.o.length_squared();
-    let near_enough = l_squared.is_at_most(rays.t.same(1.0));
+    // Moving the ray by at most `off` changes the square of the half-chord by 2·o·off.
+    let across = rays.o.magnitude().dot_one(rays.off);
+    let one = rays.t.same(1.0);
+    let near_enough = l_squared.is_at_most(if N::DECIDES { one } else { one + across * 2.0 });
     if !near_enough.any() {
         return Spans::none(rays.t);
     }
     let l = l_squared.root();
     let half_squared = (-l + 1.0) * (l + 1.0);
-    // Moving the ray by at most `off` changes the square of the half-chord by 2·o·off.
-    let across = rays.o.magnitude().dot_one(rays.off);
-    let any = near_enough & half_squared.is_above(across * 2.0 * rays.seeming);
+    let least = if N::DECIDES { across * 2.0 * rays.seeming } else { across * 2.0 };
+    let any = near_enough & half_squared.is_above(least);
     let root = half_squared.root();
-    let speed = rays.d_squared.root();
-    let half = root / speed;
+    let slowness = rays.t.same(1.0) / rays.d_squared.root();
+    let half = root * slowness;
     // The crossing q = o ± half·d, moved by `off`, moves along the ray by |q|·off over q·d, and |q·d| = speed · root.
     // Half a chord that the map's own error could have made is off by no more than all of that.
     let sideways = half_squared.is_below(across * 2.0).choose((across * 2.0).root(), across / root);
-    let error = (sideways + rays.d.magnitude().dot_one(rays.off) / speed) / speed;
+    let error = (sideways + rays.d.magnitude().dot_one(rays.off) * slowness) * slowness;
     let surface = rays.t.same(0.0);
     Spans {
         enter: Ends { t: rays.t - half, error, surface },
         leave: Ends { t: rays.t + half, error, surface },
         any,
+        may: if N::DECIDES { any } else { near_enough },
     }
 }
 
@@ -144,14 +147,21 @@ fn frustum_spans<N: Number>(rays: &Centred<N>, taper: &Taper) -> Spans<N> {
     let (o, d) = (rays.o, rays.d);
     let mut spans = Spans::line(rays.t);
     let zero = rays.t.same(0.0);
-    let still = d.z.is_equal(zero);
+    let still = d.z.magnitude().is_below(zero.same(STILL * N::LEAST));
     let inside = o.z.is_at_least(rays.t.same(-1.0)) & o.z.is_below(rays.t.same(1.0));
-    spans.any = !rays.pass_by() & (!still | inside);
-    if !spans.any.any() {
+    spans.any = !rays.pass_by();
+    spans.may = spans.any;
+    spans.keep(
+        !still | inside,
+        #[inline(always)]
+        || still & (o.z.magnitude() - 1.0).magnitude().is_at_most(zero.same(rays.off.z)),
+    );
+    if !spans.may.any() {
         return spans;
     }
-    let (low, high) = ((-o.z - 1.0) / d.z, (-o.z + 1.0) / d.z);
-    let (error, forward) = (zero.same(rays.off.z) / d.z.magnitude(), d.z.is_above(zero));
+    let inverse = zero.same(1.0) / d.z;
+    let (low, high) = ((-o.z - 1.0) * inverse, (-o.z + 1.0) * inverse);
+    let (error, forward) = (inverse.magnitude() * rays.off.z, d.z.is_above(zero));
     let (bottom, top) = (zero.same(f64::from(BOTTOM)), zero.same(f64::from(TOP)));
     let enter = still.choose(zero.same(f64::NEG_INFINITY), forward.choose(low, high));
     let leave = still.choose(zero.same(f64::INFINITY), forward.choose(high, low));
@@ -161,6 +171,7 @@ fn frustum_spans<N: Number>(rays: &Centred<N>, taper: &Taper) -> Spans<N> {
     );
     let side = taper.sides(rays);
     spans.any = spans.any & side.any;
+    spans.may = spans.may & side.may;
     spans.clip(
         Ends { t: rays.t + side.enter.t, ..side.enter },
         Ends { t: rays.t + side.leave.t, ..side.leave },

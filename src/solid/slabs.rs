@@ -6,7 +6,7 @@
 use crate::math::{Bounds, DMat3, DVec3, Mask, Number, Placement, Rays, two_sum};
 
 use super::primitive::Cover;
-use super::span::{Ends, ROUNDING, Spans, WORLD, rounding_at};
+use super::span::{Ends, ROUNDING, STILL, Spans, WORLD, rounding_at};
 
 /// A box along the axes of the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,7 +46,7 @@ impl AxisBox {
         for axis in 0..3 {
             let slab = Slab { lo: self.bounds.lo[axis], hi: self.bounds.hi[axis], off: self.off, still: 0.0 };
             slab.clip(&mut spans, rays.o.along(axis), rays.d.along(axis), axis);
-            if !spans.any.any() {
+            if !spans.may.any() {
                 return spans;
             }
         }
@@ -119,7 +119,7 @@ impl SkewBox {
         for axis in 0..3 {
             let slab = Slab { lo: -1.0, hi: 1.0, off: self.off[axis], still: self.still[axis] };
             slab.clip(&mut spans, from_center.dot_one(self.rows[axis]), speeds[axis], axis);
-            if !spans.any.any() {
+            if !spans.may.any() {
                 return spans;
             }
         }
@@ -191,10 +191,6 @@ fn side(surface: u32) -> f64 {
     if surface & 1 == 0 { -1.0 } else { 1.0 }
 }
 
-/// Below so many of the least numbers with all digits the reciprocal of a direction overflows, or nearly so. On its whole way
-/// through the world such a ray comes no closer to the face.
-const STILL: f64 = 4.0;
-
 /// A pair of parallel planes.
 #[derive(Clone, Copy, Debug)]
 struct Slab {
@@ -213,7 +209,15 @@ impl Slab {
     fn clip<N: Number>(&self, spans: &mut Spans<N>, o: N, d: N, axis: usize) {
         let still = d.magnitude().is_below(o.same((self.still * N::COARSER).max(STILL * N::LEAST)));
         let inside = o.is_at_least(o.same(self.lo)) & o.is_below(o.same(self.hi));
-        spans.any = spans.any & (!still | inside);
+        spans.keep(
+            !still | inside,
+            #[inline(always)]
+            || {
+                let off = o.same(self.off * N::COARSER);
+                still
+                    & ((o - self.lo).magnitude().is_at_most(off) | (o - self.hi).magnitude().is_at_most(off))
+            },
+        );
         let inverse = d.same(1.0) / d;
         let (low, high) = ((-o + self.lo) * inverse, (-o + self.hi) * inverse);
         let forward = d.is_above(d.same(0.0));

@@ -27,6 +27,10 @@ pub fn rounding_at(from_origin: f64) -> f64 {
     ROUNDING * (WORLD + from_origin)
 }
 
+/// Below so many of the least numbers with all digits the reciprocal of a direction overflows, or nearly so. On its whole way
+/// through the world such a ray comes no closer to a face that it runs along.
+pub(super) const STILL: f64 = 4.0;
+
 /// One end of a span.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct End {
@@ -67,6 +71,9 @@ pub struct Spans<N: Number> {
     pub leave: Ends<N>,
     /// Which have a span at all: of the others the numbers mean nothing.
     pub any: N::Mask,
+    /// Which may have one: these, and where numbers do not [decide](Number::DECIDES) also those of which more digits might say
+    /// otherwise.
+    pub may: N::Mask,
 }
 
 impl<N: Number> Ends<N> {
@@ -94,6 +101,7 @@ impl<N: Number> Spans<N> {
             enter: Ends::infinite(like, f64::NEG_INFINITY),
             leave: Ends::infinite(like, f64::INFINITY),
             any: like.is_equal(like),
+            may: like.is_equal(like),
         }
     }
 
@@ -101,7 +109,7 @@ impl<N: Number> Spans<N> {
     #[inline(always)]
     pub(super) fn none(like: N) -> Self {
         let line = Self::line(like);
-        Self { any: !line.any, ..line }
+        Self { any: !line.any, may: !line.any, ..line }
     }
 
     /// Cuts each span to `enter..leave`. Of two faces crossed at the same `t` the one clipped first stays.
@@ -118,9 +126,24 @@ impl<N: Number> Spans<N> {
     pub(super) fn if_any(mut self, seeming: f64, pair: impl Fn(N) -> N) -> Self {
         let length = self.leave.t - self.enter.t;
         let same_pair = pair(self.enter.surface).is_equal(pair(self.leave.surface));
-        let long = length.is_above((self.enter.error + self.leave.error) * seeming);
+        let off = self.enter.error + self.leave.error;
+        let long = length.is_above(if N::DECIDES { off * seeming } else { off });
         self.any = self.any & length.is_above(length.same(0.0)) & (same_pair | long);
+        self.may = if N::DECIDES { self.any } else { self.may & length.is_above(-off) };
         self
+    }
+
+    /// Leaves no span to those that are not `inside`, which some may only seem to be, or not to be: those that are `near`.
+    #[inline(always)]
+    pub(super) fn keep(&mut self, inside: N::Mask, near: impl FnOnce() -> N::Mask) {
+        if N::DECIDES {
+            self.any = self.any & inside;
+            self.may = self.any;
+        } else {
+            let near = near();
+            self.any = self.any & inside & !near;
+            self.may = self.may & (inside | near);
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::math::{Bounds, DMat3, DVec3, Mask, Number, Rays, Vector};
 
-use super::span::{Ends, Spans};
+use super::span::{Ends, STILL, Spans};
 use super::unit_space::Centred;
 
 /// The face number of the side of a frustum.
@@ -127,13 +127,18 @@ impl<N: Number> Tapers<N> {
         let discriminant = (along - across.magnitude()) * (along + across.magnitude());
         let off = if STRAIGHT { off } else { Vector { z: slope.magnitude() * off.z, ..off } };
         let form = SideForm::<N, STRAIGHT> { o: Vector { z: rho, ..o }, d: Vector { z: d_rho, ..d } };
-        let (crosses, steeper) = (a.is_above(zero), a.is_below(zero));
+        // Where 1 / a overflows the line is parallel to the side.
+        let still = zero.same(STILL * N::LEAST);
+        let (crosses, steeper) = (a.is_above(still), a.is_below(-still));
+        let inverse = zero.same(1.0) / a;
         // A chord is none where the form at its middle, −discriminant / a at t = −b / a, may be 0.
-        let is_chord =
-            discriminant.is_above(zero) & discriminant.is_above(a * form.off(-b / a, off * seeming));
+        let known = if N::DECIDES { off * seeming } else { off };
+        let least = a * form.off(-b * inverse, known);
+        let is_chord = discriminant.is_above(zero) & discriminant.is_above(least);
         let is_number = discriminant.is_equal(discriminant);
         let met = is_number & (!crosses | is_chord);
-        if !met.any() {
+        let may_meet = if N::DECIDES { met } else { is_number & (!crosses | discriminant.is_above(-least)) };
+        if !may_meet.any() {
             return Spans::none(middle);
         }
         // A line along or inside the cone always crosses it: below 0 there is rounding only.
@@ -141,14 +146,20 @@ impl<N: Number> Tapers<N> {
         // The root whose terms do not cancel, and the other from the product c / a.
         let q = -(b + root.signed_as(b));
         let none = q.is_equal(zero);
-        let (t1, t2) = (none.choose(zero, q / a), none.choose(zero, c / q));
+        let (t1, t2) = (none.choose(zero, q * inverse), none.choose(zero, c / q));
         let ordered = t1.is_below(t2);
         let (low, high) = (ordered.choose(t1, t2), ordered.choose(t2, t1));
         let surface = middle.same(f64::from(SIDE));
-        let low = Ends { t: low, error: form.root_error(low, off, discriminant, root, a), surface };
-        let high = Ends { t: high, error: form.root_error(high, off, discriminant, root, a), surface };
-        if !(met & !crosses).any() {
-            return Spans { enter: low, leave: high, any: met };
+        let roots = Roots {
+            discriminant,
+            half_inverse: zero.same(0.5) / root,
+            a: a.magnitude(),
+            inverse: inverse.magnitude(),
+        };
+        let low = Ends { t: low, error: form.root_error(low, off, &roots), surface };
+        let high = Ends { t: high, error: form.root_error(high, off, &roots), surface };
+        if !(may_meet & !crosses).any() {
+            return Spans { enter: low, leave: high, any: met, may: may_meet };
         }
         // Parallel to the side, or to the axis of a cylinder: 2bt + c ≤ 0.
         let t = c * -0.5 / b;
@@ -164,11 +175,19 @@ impl<N: Number> Tapers<N> {
             enter = Ends::choose(steeper, Ends::choose(widens, high, line.enter), enter);
             leave = Ends::choose(steeper, Ends::choose(widens, line.leave, low), leave);
         }
-        Spans {
+        let mut spans = Spans {
             enter: Ends::choose(crosses, low, enter),
             leave: Ends::choose(crosses, high, leave),
-            any: met & (crosses | steeper | slanted | c.is_below(zero)),
-        }
+            any: met,
+            may: may_meet,
+        };
+        let runs_beside = !(crosses | steeper | slanted);
+        spans.keep(
+            !runs_beside | c.is_below(zero),
+            #[inline(always)]
+            || runs_beside & c.magnitude().is_at_most(form.off(zero, off)),
+        );
+        spans
     }
 }
 
@@ -194,11 +213,22 @@ impl<N: Number, const STRAIGHT: bool> SideForm<N, STRAIGHT> {
     /// How far a root at `t` may be off. The root of a number that is off by `form_off · |a|` is off by that over twice
     /// the root, and never by more than the root of that: all there is to say at the apex, where the root is 0.
     #[inline(always)]
-    fn root_error(&self, t: N, off: Vector<N>, discriminant: N, root: N, a: N) -> N {
-        let (form_off, a) = (self.off(t, off), a.magnitude());
-        let (grazing, error) = (discriminant.is_below(form_off * a), form_off * 0.5 / root);
-        if grazing.any() { grazing.choose((form_off / a).root(), error) } else { error }
+    fn root_error(&self, t: N, off: Vector<N>, roots: &Roots<N>) -> N {
+        let Roots { discriminant, half_inverse, a, inverse } = *roots;
+        let form_off = self.off(t, off);
+        let (grazing, error) = (discriminant.is_below(form_off * a), form_off * half_inverse);
+        if grazing.any() { grazing.choose((form_off * inverse).root(), error) } else { error }
     }
+}
+
+/// What both roots of a form have in common.
+struct Roots<N> {
+    discriminant: N,
+    /// Half of 1 over its root.
+    half_inverse: N,
+    /// |a|, and 1 over that.
+    a: N,
+    inverse: N,
 }
 
 #[inline(always)]

@@ -47,7 +47,7 @@ pub struct SideCrossings<N: Number> {
 impl<N: Number> SideCrossings<N> {
     #[inline(always)]
     fn none(like: N) -> Self {
-        let Spans { enter, leave, any } = Spans::none(like);
+        let Spans { enter, leave, any, .. } = Spans::none(like);
         Self { enter, enters: any, leave, leaves: any, one_way: any }
     }
 }

@@ -111,9 +111,10 @@ impl<N: Number> Centred<N> {
 pub(super) fn at_closest<N: Number>(rays: &Rays<N>) -> (Rays<N>, N, N) {
     let Rays { o, d } = *rays;
     let d_squared = d.length_squared();
-    let first = -o.dot(d) / d_squared;
+    let inverse = d_squared.same(1.0) / d_squared;
+    let first = -o.dot(d) * inverse;
     let o = o + d * first;
-    let second = -o.dot(d) / d_squared;
+    let second = -o.dot(d) * inverse;
     let o = o + d * second;
     (Rays { o, d }, d_squared, first + second)
 }

@@ -111,8 +111,8 @@ impl Lens {
     pub fn least_dot(&self) -> f64 {
         let Size { width, height } = self.dots;
         let [x, y] = self.tangents;
-        // A plane across the line of sight is nearest in the middle.
-        let slant = (1.0 + x * x + y * y).sqrt();
+        // Dots are even on a plane across the line of sight: in a corner it is farther away, and seen aslant.
+        let slant = 1.0 + x * x + y * y;
         (2.0 * x / f64::from(width)).min(2.0 * y / f64::from(height)) / slant
     }
 

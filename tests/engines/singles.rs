@@ -1,4 +1,4 @@
-//! Half the digits against all of them: the same picture, but for dots on edges that the plan allows for.
+//! Half the digits against all of them: every ray meets the same object in nearly the same place.
 
 use proptest::prelude::*;
 use ray13::frame::{Frame, Request, Studio};
@@ -25,34 +25,33 @@ fn plain(camera: Camera, dots: Size, precision: PrecisionChoice) -> Request {
 #[derive(Debug, Default)]
 struct Differing {
     dots: usize,
-    /// Dots of another level; and those among them of one that is not the next, and that see no edge in `full`.
+    /// Dots that see another object, or a depth that is off by more than a thousandth.
+    others: usize,
+    /// Dots of another level; and those of one that is not the next.
     levels: usize,
     far: usize,
 }
 
-/// Whether a dot or one of its neighbours sees something that the dot does not: another object, or another face of it.
-fn is_at_edge(frame: &Frame, (column, row): (u32, u32)) -> bool {
-    let (objects, normals) = (frame.object.as_ref().unwrap(), frame.normal.as_ref().unwrap());
-    let depths = frame.depth.as_ref().unwrap();
-    let size = objects.size();
-    let around = |x: u32, most: u32| x.saturating_sub(1)..(x + 2).min(most);
-    let here = (column, row);
-    around(row, size.height).flat_map(|j| around(column, size.width).map(move |i| (i, j))).any(|there| {
-        objects[there] != objects[here]
-            || normals[there].dot(normals[here]) < 0.9
-            || (depths[there] - depths[here]).abs() > 0.01 * depths[here]
-    })
+impl Differing {
+    /// One dot in ten thousand lies so near the step from one level to the next, or of a few dots none.
+    fn is_small(&self) -> bool {
+        self.others == 0 && self.far == 0 && self.levels * 10_000 <= self.dots
+    }
 }
 
 fn differing(half: &Frame, full: &Frame) -> Differing {
     let tone = Tone::default();
-    let (one, other) = (half.levels(tone), full.levels(tone));
-    let size = one.size();
-    let mut differing = Differing { dots: size.area(), ..Differing::default() };
-    for (j, i) in (0..size.height).flat_map(|j| (0..size.width).map(move |i| (j, i))) {
-        let steps = one[(i, j)].get().abs_diff(other[(i, j)].get());
+    let levels = [half, full].map(|frame| frame.levels(tone));
+    let mut differing = Differing { dots: levels[0].values().len(), ..Differing::default() };
+    for dot in 0..differing.dots {
+        let [one, other] = [0, 1].map(|k| levels[k].values()[dot].get());
+        let steps = one.abs_diff(other);
         differing.levels += usize::from(steps > 0);
-        differing.far += usize::from(steps > 1 && !is_at_edge(full, (i, j)));
+        differing.far += usize::from(steps > 1);
+        let object = |frame: &Frame| frame.object.as_ref().unwrap().values()[dot];
+        let [near, depth] = [half, full].map(|frame| frame.depth.as_ref().unwrap().values()[dot]);
+        let is_there = near == depth || (near - depth).abs() <= 1e-3 * depth;
+        differing.others += usize::from(object(half) != object(full) || !is_there);
     }
     differing
 }
@@ -71,14 +70,13 @@ fn alike(name: &str, scene: Scene) -> usize {
         assert_eq!(full.precision, Precision::Double);
         halves += usize::from(half.precision == Precision::Single);
         let differing = differing(&half, &full);
-        let few = differing.levels * 1000 <= differing.dots;
-        assert!(few && differing.far == 0, "{name}, {view}: {differing:?}");
+        assert!(differing.is_small(), "{name}, {view}: {differing:?}");
     }
     halves
 }
 
 #[test]
-fn one_dot_in_a_thousand_differs_at_most() {
+fn scenes_as_people_write_them() {
     let inside: usize = embedded_scenes().into_iter().map(|(name, scene)| alike(name, scene)).sum();
     assert!(inside >= 6, "{inside} views took half the digits");
     for (name, scene) in beside("openscad") {
@@ -91,18 +89,63 @@ fn studio(text: &str) -> Studio {
         .unwrap()
 }
 
+#[track_caller]
+fn same_from(text: &str, eyes: &[DVec3]) {
+    let studio = studio(text);
+    for &eye in eyes {
+        let camera = Camera { eye, target: DVec3::ZERO, ..studio.camera(0, 1.0) };
+        let [half, full] = both(&studio, &camera, Size::new(200, 200), PrecisionChoice::Auto);
+        assert_eq!(half.precision, Precision::Single, "{text}");
+        assert!(full.counts.primary_hits > 5000, "{text}");
+        let differing = differing(&half, &full);
+        assert!(differing.is_small(), "{text}, from {eye}: {differing:?}");
+    }
+}
+
 /// What half the digits can not tell apart is asked with all: a wall of a millionth, with one face from each of two primitives.
 #[test]
 fn thin_walls_stay() {
-    let studio = studio(
+    let eyes = [DVec3::new(1.0, -2.0, 6.0), DVec3::new(5.0, 0.1, 1.0)];
+    same_from(
         "difference() { cube(2, center = true); translate([0, 0, -0.000001]) cube(2, center = true); }
-         difference() { translate([3, 0, 0]) sphere(1); translate([3, 0, 0]) sphere(0.999999); }",
+         difference() { translate([1, 1, 0]) sphere(1); translate([1, 1, 0]) sphere(0.999999); }",
+        &eyes,
     );
-    let camera = Camera { eye: DVec3::new(1.0, -2.0, 9.0), target: DVec3::X, ..studio.camera(0, 1.0) };
-    let [half, full] = both(&studio, &camera, Size::new(64, 64), PrecisionChoice::Auto);
-    assert_eq!(half.precision, Precision::Single);
-    assert!(half.counts.primary_hits > 500);
-    assert!(half.counts.primary_hits.abs_diff(full.counts.primary_hits) <= 2);
+}
+
+/// Chords through a sharp edge are shorter than what their ends are off: a strip along it was lost that was dots wide.
+#[test]
+fn sharp_edges_stay() {
+    let above = [DVec3::new(0.0, 0.0, 10.0), DVec3::new(0.0, -1.0, 10.0), DVec3::new(3.0, -5.0, 7.0)];
+    for text in [
+        "cylinder(h = 0.01, r1 = 2, r2 = 0);",
+        "cylinder(h = 0.01, r1 = 2, r2 = 1);",
+        "cylinder(h = 0.01, r1 = 2, r2 = 0, $fn = 6);",
+        "polyhedron([[-2, -2, 0], [2, -2, 0], [0, 2, 0], [0, 0, 0.01]], [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]]);",
+        "difference() {
+            translate([-2, -2, -1]) cube([4, 4, 1]);
+            translate([0, 0, -0.01]) cylinder(h = 0.01, r1 = 0, r2 = 1.5);
+         }",
+        "multmatrix([[1, 0, 300, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) cube([2, 2, 0.006], center = true);",
+    ] {
+        same_from(text, &above);
+    }
+}
+
+/// Flush faces of two objects, seen so aslant that both are met anywhere within more than a rounding.
+#[test]
+fn flush_faces_are_the_first_in_the_file_however_aslant() {
+    let low = [DVec3::new(0.0, -30.0, 0.1), DVec3::new(25.0, 9.0, 0.05)];
+    let text = "camera(name = \"low\", eye = [0, -30, 0.1], target = [0, 0, 0], field = [10, 1]);
+        color(\"black\") translate([-2, -2, -1]) cube([4, 4, 1]);
+        translate([0, 0, -0.5]) cylinder(h = 0.5, r = 1.5);";
+    let studio = studio(text);
+    for eye in low {
+        let camera = Camera { eye, ..studio.camera(0, 1.0) };
+        let [half, full] = both(&studio, &camera, Size::new(200, 40), PrecisionChoice::Single);
+        let differing = differing(&half, &full);
+        assert!(full.counts.primary_hits > 100 && differing.is_small(), "from {eye}: {differing:?}");
+    }
 }
 
 #[test]
@@ -123,7 +166,7 @@ fn the_plan_knows_where_half_the_digits_would_be_seen() {
     let mirror = format!("material(kr = 0.5) {{ {cut} }}");
     assert_eq!(precision(&mirror, &|_| {}), Precision::Single);
     assert_eq!(precision(&mirror, &|r| r.options.shading = Shading::Whitted), Precision::Double);
-    // So thin that rays might miss it.
+    // So thin that all rays would be asked twice.
     let plate = format!("{cut} rotate([30, 20, 10]) cylinder(h = 1e-5, r = 2, $fn = 6);");
     assert_eq!(precision(&plate, &|_| {}), Precision::Double);
     assert_eq!(precision("sphere(1);", &|_| {}), Precision::Double);
@@ -134,11 +177,11 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, cases: 48, ..ProptestConfig::default() })]
 
     #[test]
-    fn random_scenes_differ_at_edges_only(scene in any_scene()) {
+    fn random_scenes_are_the_same(scene in any_scene()) {
         let studio = Studio::new(scene).unwrap();
         let dots = Size::new(96, 80);
         let [half, full] = both(&studio, &studio.camera(0, 1.2), dots, PrecisionChoice::Single);
         let differing = differing(&half, &full);
-        prop_assert!(differing.far == 0 && differing.levels * 200 <= differing.dots, "{:?}", differing);
+        prop_assert!(differing.others == 0 && differing.far == 0 && differing.levels <= 4, "{:?}", differing);
     }
 }

@@ -128,7 +128,7 @@ impl Fast<'_> {
                             memory.far[k] = nearest.farthest(simd, outset.rays);
                             memory.thin[k].look(
                                 #[inline(always)]
-                                |lane| nearest.t.0[lane].into() + slack,
+                                |lane| nearest.reach_of(lane) + slack,
                             );
                         }
                     }
@@ -157,21 +157,15 @@ impl Fast<'_> {
             Body::Single(index) => {
                 memory.counts.primitive_tests += 1;
                 let form = &primitives[*index as usize].form;
-                if let Form::Ball(ball) = form {
-                    simd.vectorize(
-                        #[inline(always)]
-                        || {
-                            let start = match outset.departures {
-                                None => 2.0 * ball.most_error::<T>(),
-                                Some(_) => ball.most_error::<T>() * (1.0 + self.assembly.off / ball.off()),
-                            };
-                            let about = (ball, form, start);
-                            ball_of_bundle(simd, about, passing, outset, nearest, [object, *index]);
-                        },
-                    );
-                    return true;
+                let doubtful = self.single(simd, form, (outset, passing), nearest, [object, *index]);
+                if !T::DECIDES && doubtful != 0 {
+                    let full = outset.full();
+                    let mut met = std::mem::take(&mut memory.met);
+                    met.clear();
+                    self.single(simd, form, (full, doubtful), &mut met, [object, *index]);
+                    offer_met(simd, &met, doubtful, object, nearest);
+                    memory.met = met;
                 }
-                single(simd, form, (outset, passing), nearest, [object, *index]);
                 true
             }
             Body::Surface(index) => {
@@ -199,6 +193,31 @@ impl Fast<'_> {
         }
     }
 
+    /// The first hits of the rays of a bundle with one convex primitive that is an object. Answers of which more digits are to
+    /// say whether they meet it.
+    fn single<S: Simd, T: Asks>(
+        &self,
+        simd: S,
+        form: &Form,
+        (outset, passing): (Outset<T>, u64),
+        nearest: &mut Nearest<T>,
+        indices: [u32; 2],
+    ) -> u64 {
+        let Form::Ball(ball) = form else {
+            return convex_of_bundle(simd, form, (outset, passing), nearest, indices);
+        };
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let start = match outset.departures {
+                    None => 2.0 * ball.most_error::<T>(),
+                    Some(_) => ball.most_error::<T>() * (1.0 + self.assembly.off / ball.off()),
+                };
+                ball_of_bundle(simd, (ball, form, start), passing, outset, nearest, indices)
+            },
+        )
+    }
+
     /// The first hits of a bundle with a composite object: its way through the object's box in slices, each with what the
     /// expression is there.
     fn composite<S: Simd, T: Asks>(
@@ -217,7 +236,33 @@ impl Fast<'_> {
     }
 }
 
-/// The first hits of the rays of a bundle that are near a ball. A crossing beyond `start` lies at the start of no ray.
+/// Offers what some rays met of one object by more digits.
+fn offer_met<S: Simd, T: Digits>(simd: S, met: &Nearest, rays: u64, object: u32, nearest: &mut Nearest<T>) {
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            for row in 0..T::ROWS {
+                if !T::has_any(rays, row) {
+                    continue;
+                }
+                let t = met.t.load_nearest::<T, S>(simd, row);
+                let met = Offer {
+                    any: T::row_of(simd, rays, row) & t.is_below(T::all(simd, f64::INFINITY)),
+                    t,
+                    error: met.error.load_nearest::<T, S>(simd, row),
+                    entering: T::row_of(simd, met.entering, row),
+                    object,
+                    primitive: met.primitive.load_nearest::<T, S>(simd, row),
+                    surface: met.surface.load_nearest::<T, S>(simd, row),
+                };
+                nearest.offer(simd, row, &met);
+            }
+        },
+    );
+}
+
+/// The first hits of the rays of a bundle that are near a ball. A crossing beyond `start` lies at the start of no ray. Answers
+/// of which more digits are to say.
 #[inline(always)]
 fn ball_of_bundle<S: Simd, T: Asks>(
     simd: S,
@@ -226,7 +271,8 @@ fn ball_of_bundle<S: Simd, T: Asks>(
     outset: Outset<T>,
     nearest: &mut Nearest<T>,
     [object, index]: [u32; 2],
-) {
+) -> u64 {
+    let mut doubtful = 0;
     let yes = T::row_of(simd, u64::MAX, 0);
     let (surface, primitive) = (T::all(simd, 0.0), T::all(simd, f64::from(index)));
     let start = T::all(simd, start);
@@ -235,6 +281,9 @@ fn ball_of_bundle<S: Simd, T: Asks>(
             continue;
         }
         let spans = ball.spans(&outset.rays.load(simd, row));
+        if !T::DECIDES {
+            doubtful |= T::bits_of(simd, spans.may & !spans.any, row);
+        }
         if !spans.any.any() {
             continue;
         }
@@ -251,6 +300,7 @@ fn ball_of_bundle<S: Simd, T: Asks>(
         };
         nearest.offer(simd, row, &met);
     }
+    doubtful & near
 }
 
 /// Whose way is cut into slices.
@@ -298,7 +348,7 @@ impl<S: Simd, T: Asks> Slices for Slicing<'_, S, T> {
         if unsure != 0 && !T::DECIDES {
             let Numbers { scratch, found, .. } = f64::numbers(memory);
             scratch.start();
-            let Outset { full_rays: bundle, full_departures: departures, .. } = self.outset;
+            let Outset { rays: bundle, departures, .. } = self.outset.full();
             let asked = Asked { bundle, wanted: unsure, departures, reach };
             first_of_expressions(simd, &asked, expression, primitives, scratch, found);
             if found.any != 0 {
@@ -341,19 +391,19 @@ fn offer_found<S: Simd, T: Digits, U: Digits>(
     );
 }
 
-/// One convex primitive that is an object.
-fn single<S: Simd, T: Asks>(
+/// The first hits of the rays of a bundle with one convex primitive that is an object. Answers of which more digits are to say.
+fn convex_of_bundle<S: Simd, T: Asks>(
     simd: S,
     form: &Form,
     (outset, wanted): (Outset<T>, u64),
     nearest: &mut Nearest<T>,
     [object, index]: [u32; 2],
-) {
+) -> u64 {
     #[inline(always)]
     fn rows<S: Simd, T: Asks>(
         simd: S,
         (form, outset, wanted, object, index): (&Form, Outset<T>, u64, u32, u32),
-        nearest: &mut Nearest<T>,
+        (nearest, doubtful): (&mut Nearest<T>, &mut u64),
         spans: impl Fn(&Rays<T::Wide<S>>) -> Spans<T::Wide<S>>,
     ) {
         let primitive = T::all(simd, f64::from(index));
@@ -362,6 +412,9 @@ fn single<S: Simd, T: Asks>(
                 continue;
             }
             let spans = spans(&outset.rays.load(simd, row));
+            if !T::DECIDES {
+                *doubtful |= T::bits_of(simd, spans.may & !spans.any, row);
+            }
             if !spans.any.any() {
                 continue;
             }
@@ -373,5 +426,7 @@ fn single<S: Simd, T: Asks>(
         }
     }
     let about = (form, outset, wanted, object, index);
-    with_spans!(simd, form, rows, about, nearest);
+    let mut doubtful = 0;
+    with_spans!(simd, form, rows, about, (nearest, &mut doubtful));
+    doubtful & wanted
 }

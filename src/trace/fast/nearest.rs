@@ -133,13 +133,28 @@ impl<T: Digits> Nearest<T> {
         self.entering = self.entering & !nearer | entering & nearer;
     }
 
+    /// Up to where something may be in one place with what the rays of a row met first. With all digits that is said by how far
+    /// solids may be off; with fewer also by the slope at which it was met, as what is flush with it is.
+    #[inline(always)]
+    fn reach<S: Simd>(&self, simd: S, row: usize) -> T::Wide<S> {
+        let t = self.t.load(simd, row);
+        if T::DECIDES { t } else { t + self.error.load(simd, row) * 4.0 }
+    }
+
+    /// The same for one ray.
+    #[inline(always)]
+    pub(super) fn reach_of(&self, lane: usize) -> f64 {
+        let t = self.t.0[lane].into();
+        if T::DECIDES { t } else { t + 4.0 * self.error.0[lane].into() }
+    }
+
     /// Is unsure of all rays that met two objects within `slack`.
     #[inline(always)]
     pub fn doubt<S: Simd>(&mut self, simd: S, slack: f64) {
         for row in 0..T::ROWS {
             let t = self.t.load(simd, row);
-            let close =
-                self.second.load(simd, row).is_at_most(t + slack) & t.is_below(T::all(simd, f64::INFINITY));
+            let close = self.second.load(simd, row).is_at_most(self.reach(simd, row) + slack)
+                & t.is_below(T::all(simd, f64::INFINITY));
             self.unsure |= T::bits_of(simd, close, row);
         }
     }
@@ -152,7 +167,7 @@ impl<T: Digits> Nearest<T> {
         let mut most = nowhere;
         for row in 0..T::ROWS {
             if bundle.has_live(row) {
-                let t = T::row_of(simd, bundle.live, row).choose(self.t.load(simd, row), nowhere);
+                let t = T::row_of(simd, bundle.live, row).choose(self.reach(simd, row), nowhere);
                 most = t.larger(most);
             }
         }

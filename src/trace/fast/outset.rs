@@ -26,7 +26,12 @@ impl<'a> Outset<'a> {
     }
 }
 
-impl<T: Digits> Outset<'_, T> {
+impl<'a, T: Digits> Outset<'a, T> {
+    /// The same with all digits.
+    pub fn full(&self) -> Outset<'a> {
+        Outset::new(self.full_rays, self.full_departures)
+    }
+
     /// The surfaces that the rays of a row start on, as seen from a primitive.
     #[inline(always)]
     pub fn starts<S: Simd>(&self, simd: S, row: usize, primitive: T::Wide<S>) -> Starts<T::Wide<S>> {

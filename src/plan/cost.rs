@@ -52,23 +52,32 @@ const FACES: f64 = 0.7;
 // processor of 2024 with AVX-512.
 
 /// An object in boxes, and in a lattice or tree. Sub-lattices are not foreseen.
-const BUILD_BOXES: f64 = 500.0;
+const BUILD_BOXES: f64 = 250.0;
 const BUILD_CELLS: f64 = 5000.0;
 /// A ray from the eye, alone and in a bundle.
 const RAY: f64 = 45.0;
-const RAY_IN_BUNDLE: f64 = 9.0;
-/// Of a ray that goes alone: a cell or a node on its way, a primitive, an expression.
+const RAY_IN_BUNDLE: f64 = 3.5;
+/// Of a ray that goes alone: a cell or a node on its way, a primitive, an expression. By the exact engine, and by the fast one,
+/// which has many on their way at once.
 const CELL: f64 = 28.0;
 const TEST: f64 = 35.0;
 const EVALUATION: f64 = 45.0;
-/// Of a ray in a bundle: its share of the walk, and a primitive, with its expression.
-const WALK_IN_BUNDLE: f64 = 60.0;
-const TEST_IN_BUNDLE: f64 = 15.0;
+const CELL_ABREAST: f64 = 16.0;
+const TEST_ABREAST: f64 = 8.0;
+const EVALUATION_ABREAST: f64 = 10.0;
+/// Of a ray in a bundle: its share of the walk where that ends at once, and where it does not; and a primitive, with its
+/// expression.
+const PAST_IN_BUNDLE: f64 = 1.0;
+const WALK_IN_BUNDLE: f64 = 14.0;
+const TEST_IN_BUNDLE: f64 = 5.0;
 /// A surface that is met, and a light on it.
 const SURFACE: f64 = 40.0;
 const LIGHT: f64 = 40.0;
-const SURFACE_IN_BUNDLE: f64 = 40.0;
-const LIGHT_IN_BUNDLE: f64 = 25.0;
+const SURFACE_IN_BUNDLE: f64 = 6.0;
+const LIGHT_IN_BUNDLE: f64 = 4.0;
+/// The same where a ray was sent on, in bundles that are not full.
+const SURFACE_OF_SENT: f64 = 25.0;
+const LIGHT_OF_SENT: f64 = 15.0;
 
 /// The rays of a picture, as far as they can be foreseen.
 #[derive(Clone, Copy, Debug)]
@@ -78,8 +87,9 @@ struct Rays {
     shadow: f64,
     shadow_of_sent: f64,
     secondary: f64,
-    /// Surfaces that are met by rays from the eye, or sent on.
+    /// Surfaces that are met by rays from the eye, or sent on; and by these alone.
     met: f64,
+    met_by_sent: f64,
 }
 
 /// What rays pass that are held against the objects' boxes.
@@ -124,11 +134,21 @@ impl Plan {
         let steps = 1.0 + libm::log2(nodes.max(1) as f64);
         let tile = WALK_IN_BUNDLE + TEST_IN_BUNDLE * asked * leaves;
         let (ways, of_ways, walked) = if fast {
-            (together + alone, "ray", together * tile + alone * steps * CELL)
+            let near = rays.primary * look.share + rays.shadow;
+            let past = rays.primary * PAST_IN_BUNDLE;
+            (together + alone, "ray", past + near * tile + alone * steps * CELL_ABREAST)
         } else {
             (alone * steps, "step", alone * steps * CELL)
         };
-        let (surface, light) = if fast { (SURFACE_IN_BUNDLE, LIGHT_IN_BUNDLE) } else { (SURFACE, LIGHT) };
+        let (test, evaluation) = if fast { (TEST_ABREAST, EVALUATION_ABREAST) } else { (TEST, EVALUATION) };
+        let shade = if fast {
+            let first = rays.met - rays.met_by_sent;
+            let shaded = first * (SURFACE_IN_BUNDLE + lamps * LIGHT_IN_BUNDLE)
+                + rays.met_by_sent * (SURFACE_OF_SENT + lamps * LIGHT_OF_SENT);
+            if rays.met > 0.0 { shaded / rays.met } else { 0.0 }
+        } else {
+            SURFACE + lamps * LIGHT
+        };
         let of = move |count: f64, of, each: f64| Some(Cost { count, of, each, shared: true });
         let is_empty = assembly.objects.is_empty();
         move |stage| match stage {
@@ -138,9 +158,9 @@ impl Plan {
             Stage::Ray if fast => of(rays.primary, "ray", RAY_IN_BUNDLE),
             Stage::Ray => of(rays.primary, "ray", RAY),
             Stage::Cell if !whole && ways > 0.0 => of(ways, of_ways, walked / ways),
-            Stage::Solid if tests > 0.0 => of(tests, "test", TEST),
-            Stage::Csg if evaluations > 0.0 => of(evaluations, "expression", EVALUATION),
-            Stage::Shade if !is_empty => of(rays.met, "surface", surface + lamps * light),
+            Stage::Solid if tests > 0.0 => of(tests, "test", test),
+            Stage::Csg if evaluations > 0.0 => of(evaluations, "expression", evaluation),
+            Stage::Shade if !is_empty => of(rays.met, "surface", shade),
             _ => None,
         }
     }
@@ -167,7 +187,7 @@ impl Plan {
         }
         let lights = if self.shadows { self.lamps.len() as f64 * FACES } else { 0.0 };
         let (shadow, shadow_of_sent) = (first * lights, (met - first) * lights);
-        Rays { primary, shadow, shadow_of_sent, secondary, met }
+        Rays { primary, shadow, shadow_of_sent, secondary, met, met_by_sent: met - first }
     }
 }
 

@@ -93,6 +93,14 @@ impl<N: Number> Ends<N> {
     }
 }
 
+impl<N: Number> Ends<N> {
+    /// Which may be one place with another: nothing is, that is infinitely far.
+    #[inline(always)]
+    fn may_be(&self, other: &Self) -> N::Mask {
+        (self.t - other.t).magnitude().is_at_most(self.error + other.error)
+    }
+}
+
 impl<N: Number> Spans<N> {
     /// The whole line, as often as there are numbers in `like`: the neutral element of [`Spans::clip`].
     #[inline(always)]
@@ -112,9 +120,13 @@ impl<N: Number> Spans<N> {
         Self { any: !line.any, may: !line.any, ..line }
     }
 
-    /// Cuts each span to `enter..leave`. Of two faces crossed at the same `t` the one clipped first stays.
+    /// Cuts each span to `enter..leave`. Of two faces crossed at the same `t` the one clipped first stays; numbers that do not
+    /// decide leave a doubt which of them it is.
     #[inline(always)]
     pub(super) fn clip(&mut self, enter: Ends<N>, leave: Ends<N>) {
+        if !N::DECIDES {
+            self.any = self.any & !(self.enter.may_be(&enter) | self.leave.may_be(&leave));
+        }
         self.enter = Ends::choose(enter.t.is_above(self.enter.t), enter, self.enter);
         self.leave = Ends::choose(leave.t.is_below(self.leave.t), leave, self.leave);
     }

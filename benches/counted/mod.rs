@@ -110,13 +110,6 @@ impl Number for Counted {
     fn fused(self, factor: Self, term: Self) -> Self {
         simple(Self(self.0.fused(factor.0, term.0)))
     }
-    fn parts(self) -> (Self, Self) {
-        let (exponent, fraction) = self.0.parts();
-        simple((Self(exponent), Self(fraction)))
-    }
-    fn exponential(self) -> Self {
-        simple(Self(self.0.exponential()))
-    }
     fn is_below(self, other: Self) -> bool {
         simple(self.0 < other.0)
     }

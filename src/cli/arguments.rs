@@ -151,10 +151,10 @@ pub struct PictureArguments {
     /// How space is cut into cells [default: auto]
     #[arg(long, value_enum)]
     pub structure: Option<StructureName>,
-    /// What traces; the picture is the same
+    /// What traces; with --precision double the picture is the same
     #[arg(long, value_enum, default_value = "auto")]
     pub engine: EngineName,
-    /// Digits of what the fast engine's rays from the eye meet
+    /// Digits of what rays from the eye meet; the exact engine always has all
     #[arg(long, value_enum, default_value = "auto")]
     pub precision: PrecisionName,
     /// Characters of the picture

@@ -85,7 +85,7 @@ impl Studio {
     fn traced(&self, request: &Request, hits: Option<&Hits>) -> Frame {
         let start = Instant::now();
         let (lens, plan) = self.plan(request);
-        let hits = hits.and_then(|hits| hits.of(plan.precision));
+        let hits = hits.map(|hits| hits.of(plan.precision, tiles(request.dots).len()));
         let viewed = Instant::now();
         let cut_before = self.built().cutting;
         let (structure, over_budget) = self.structure(plan.structure);

@@ -6,28 +6,27 @@ use std::time::Duration;
 use crate::plan::{Options, Precision};
 use crate::shade::TileHits;
 use crate::stage::{Counts, StageTimes};
-use crate::view::tiles;
 
 use super::{Frame, Request, Studio};
 
-/// What the rays from the eye met.
-#[derive(Debug)]
+/// What the rays from the eye met, by the digits in which they were asked.
+#[derive(Debug, Default)]
 pub(super) struct Hits {
-    /// In how many digits they were asked: nothing yet before the first picture.
-    precision: OnceLock<Precision>,
-    /// By tile; nothing yet of a tile that was not traced since it is kept.
-    tiles: Vec<OnceLock<TileHits>>,
+    single: OnceLock<Tiles>,
+    double: OnceLock<Tiles>,
 }
 
-impl Hits {
-    fn room(tiles: usize) -> Self {
-        let tiles = std::iter::repeat_with(OnceLock::new).take(tiles).collect();
-        Self { precision: OnceLock::new(), tiles }
-    }
+/// By tile; nothing yet of a tile that was not traced since it is kept.
+type Tiles = Box<[OnceLock<TileHits>]>;
 
-    /// Those that were asked in so many digits, or room for them. None where others are kept.
-    pub fn of(&self, precision: Precision) -> Option<&[OnceLock<TileHits>]> {
-        (*self.precision.get_or_init(|| precision) == precision).then_some(&self.tiles)
+impl Hits {
+    /// Those that were asked in so many digits, or room for them in as many tiles.
+    pub fn of(&self, precision: Precision, tiles: usize) -> &[OnceLock<TileHits>] {
+        let kept = match precision {
+            Precision::Single => &self.single,
+            Precision::Double => &self.double,
+        };
+        kept.get_or_init(|| std::iter::repeat_with(OnceLock::new).take(tiles).collect())
     }
 }
 
@@ -65,8 +64,7 @@ impl Studio {
         let hits = hits.take();
         let serves = |frame: &&Frame| request.has_dots_of(last) && frame.has(request);
         let Some(frame) = frame.as_ref().filter(serves) else {
-            let room = || Hits::room(tiles(request.dots).len());
-            return Reused { frame: None, hits: Some(hits.unwrap_or_else(room)) };
+            return Reused { frame: None, hits: Some(hits.unwrap_or_default()) };
         };
         let frame = Frame {
             cells: frame.cells.clone().filter(|_| request.has_cells_of(last)),

@@ -381,13 +381,13 @@ impl Beam {
 
 /// The least of eight, none of which is not-a-number.
 #[inline(always)]
-pub fn lowest<S: Simd>(x: f64x8<S>) -> f64 {
+fn lowest<S: Simd>(x: f64x8<S>) -> f64 {
     x.reduce_min()
 }
 
 /// The greatest of eight, none of which is not-a-number.
 #[inline(always)]
-pub fn highest<S: Simd>(x: f64x8<S>) -> f64 {
+fn highest<S: Simd>(x: f64x8<S>) -> f64 {
     x.reduce_max()
 }
 

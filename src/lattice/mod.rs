@@ -15,7 +15,7 @@ mod structure;
 mod sub;
 mod tree;
 
-pub use beam::{Basis, Beam, Met, Spread, WAY, highest, lowest};
+pub use beam::{Basis, Beam, Met, Spread, WAY};
 pub use boxes::{Boxes, Child, Meeting, Node, ROOM, Round, Stream, WIDE, Ways};
 pub use clip::{Outcode, entry};
 pub use fan::{FAN, Fan, FanMet};

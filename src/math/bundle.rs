@@ -46,7 +46,7 @@ impl<T: Digits> Column<T> {
         T::Wide::<S>::of_row(simd, &self.0[row * T::LANES..][..T::LANES])
     }
 
-    /// As many as a row of other digits has, in these.
+    /// The numbers of a row of `U`, below `U::ROWS`, each rounded to the nearest `U`.
     #[inline(always)]
     pub fn load_nearest<U: Digits, S: Simd>(&self, simd: S, row: usize) -> U::Wide<S> {
         let mut numbers = [U::ZERO; MOST_LANES];

@@ -19,7 +19,8 @@ pub trait Digits: Copy + Debug + Default + Into<f64> + Send + Sync + 'static {
     const ROWS: usize = BUNDLE / Self::LANES;
     /// A bit for each ray of the first row.
     const ROW: u64 = (1 << Self::LANES) - 1;
-    /// How many times as much is lost by a rounding as of an `f64`.
+    /// How many times as much is lost by a rounding as of an `f64`. Maps, starts and directions come rounded once from `f64`; the rest
+    /// of each chain of roundings is the same.
     const COARSER: f64;
     /// [`Number::DECIDES`].
     const DECIDES: bool;

@@ -18,7 +18,7 @@ pub use digits::{Answers, Digits, Row, Wide};
 pub use exact::{product_rest, two_sum};
 pub use glam::{DAffine3, DMat3, DVec2, DVec3};
 pub use grid::{Grid, Size};
-pub use number::{LANES, Mask, Number};
+pub use number::{LANES, Mask, Number, Powers};
 pub use placement::{Placement, is_singular};
 pub use ray::Ray;
 pub use vector::{Rays, Vector};

@@ -61,12 +61,6 @@ pub trait Number:
     /// `self · factor + term`, rounded once: in software where the processor has no such operation.
     #[must_use]
     fn fused(self, factor: Self, term: Self) -> Self;
-    /// Of a positive number that is not subnormal, `f · 2^e` with `1 ≤ f < 2`: the exponent e, and f.
-    #[must_use]
-    fn parts(self) -> (Self, Self);
-    /// `2^self` for whole numbers of −1022 to 1023.
-    #[must_use]
-    fn exponential(self) -> Self;
     /// `self < other`; false for not-a-number, as are all comparisons.
     fn is_below(self, other: Self) -> Self::Mask;
     /// `self ≤ other`.
@@ -90,6 +84,16 @@ pub trait Number:
     fn smaller(self, other: Self) -> Self {
         self.is_below(other).choose(self, other)
     }
+}
+
+/// Numbers of which powers are computed.
+pub trait Powers: Number {
+    /// Of a positive number that is not subnormal, `f · 2^e` with `1 ≤ f < 2`: the exponent e, and f.
+    #[must_use]
+    fn parts(self) -> (Self, Self);
+    /// `2^self` for whole numbers of −1022 to 1023.
+    #[must_use]
+    fn exponential(self) -> Self;
 }
 
 /// Answers to a question about a [`Number`].
@@ -126,16 +130,6 @@ impl Number for f64 {
         libm::fma(self, factor, term)
     }
     #[inline(always)]
-    fn parts(self) -> (Self, Self) {
-        let bits = self.to_bits();
-        let exponent = Self::from_bits(bits >> FRACTION | WHOLE.to_bits()) - (WHOLE + BIAS);
-        (exponent, Self::from_bits(bits & !(u64::MAX << FRACTION) | ONE))
-    }
-    #[inline(always)]
-    fn exponential(self) -> Self {
-        Self::from_bits((self + (WHOLE + BIAS)).to_bits() << FRACTION)
-    }
-    #[inline(always)]
     fn is_below(self, other: Self) -> bool {
         self < other
     }
@@ -154,6 +148,19 @@ impl Number for f64 {
     #[inline(always)]
     fn is_equal(self, other: Self) -> bool {
         self == other
+    }
+}
+
+impl Powers for f64 {
+    #[inline(always)]
+    fn parts(self) -> (Self, Self) {
+        let bits = self.to_bits();
+        let exponent = Self::from_bits(bits >> FRACTION | WHOLE.to_bits()) - (WHOLE + BIAS);
+        (exponent, Self::from_bits(bits & !(u64::MAX << FRACTION) | ONE))
+    }
+    #[inline(always)]
+    fn exponential(self) -> Self {
+        Self::from_bits((self + (WHOLE + BIAS)).to_bits() << FRACTION)
     }
 }
 
@@ -196,18 +203,6 @@ impl<S: Simd> Number for f64x8<S> {
         self.mul_add_precise(factor, term)
     }
     #[inline(always)]
-    fn parts(self) -> (Self, Self) {
-        let bits: u64x8<S> = self.bitcast();
-        let exponent: Self = ((bits >> FRACTION) | WHOLE.to_bits()).bitcast();
-        let fraction: Self = ((bits & !(u64::MAX << FRACTION)) | ONE).bitcast();
-        (exponent - (WHOLE + BIAS), fraction)
-    }
-    #[inline(always)]
-    fn exponential(self) -> Self {
-        let bits: u64x8<S> = (self + (WHOLE + BIAS)).bitcast();
-        (bits << FRACTION).bitcast()
-    }
-    #[inline(always)]
     fn is_below(self, other: Self) -> mask64x8<S> {
         self.simd_lt(other)
     }
@@ -226,6 +221,21 @@ impl<S: Simd> Number for f64x8<S> {
     #[inline(always)]
     fn is_equal(self, other: Self) -> mask64x8<S> {
         self.simd_eq(other)
+    }
+}
+
+impl<S: Simd> Powers for f64x8<S> {
+    #[inline(always)]
+    fn parts(self) -> (Self, Self) {
+        let bits: u64x8<S> = self.bitcast();
+        let exponent: Self = ((bits >> FRACTION) | WHOLE.to_bits()).bitcast();
+        let fraction: Self = ((bits & !(u64::MAX << FRACTION)) | ONE).bitcast();
+        (exponent - (WHOLE + BIAS), fraction)
+    }
+    #[inline(always)]
+    fn exponential(self) -> Self {
+        let bits: u64x8<S> = (self + (WHOLE + BIAS)).bitcast();
+        (bits << FRACTION).bitcast()
     }
 }
 

@@ -2,19 +2,10 @@
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-use fearless_simd::{Bytes, Select, Simd, SimdBase, SimdFloat, SimdMask, f32x16, mask32x16, u32x16};
+use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdMask, f32x16, mask32x16};
 
 use super::digits::{Row, Wide};
 use super::number::{Mask, Number};
-
-/// Digits of a fraction behind its leading 1, the fraction's bits of 1, and 2²³, beside which a number stands in the last
-/// bits as a whole one.
-const FRACTION: u32 = f32::MANTISSA_DIGITS - 1;
-const ONE: u32 = 1.0_f32.to_bits();
-const WHOLE: f32 = (1_u32 << FRACTION) as f32;
-
-/// What is added to an exponent that is stored.
-const BIAS: f32 = (f32::MAX_EXP - 1) as f32;
 
 /// Numbers of 24 bits; what they are computed with is rounded to that first.
 #[derive(Clone, Copy, Debug)]
@@ -61,7 +52,7 @@ impl<S: Simd> Number for Singles<S> {
     type Mask = SingleAnswers<S>;
 
     const COARSER: f64 = <f32 as super::Digits>::COARSER;
-    const DECIDES: bool = false;
+    const DECIDES: bool = <f32 as super::Digits>::DECIDES;
     const LEAST: f64 = f32::MIN_POSITIVE as f64;
 
     #[inline(always)]
@@ -83,18 +74,6 @@ impl<S: Simd> Number for Singles<S> {
     #[inline(always)]
     fn fused(self, factor: Self, term: Self) -> Self {
         Self(self.0.mul_add_precise(factor.0, term.0))
-    }
-    #[inline(always)]
-    fn parts(self) -> (Self, Self) {
-        let bits: u32x16<S> = self.0.bitcast();
-        let exponent: f32x16<S> = ((bits >> FRACTION) | WHOLE.to_bits()).bitcast();
-        let fraction: f32x16<S> = ((bits & !(u32::MAX << FRACTION)) | ONE).bitcast();
-        (Self(exponent - (WHOLE + BIAS)), Self(fraction))
-    }
-    #[inline(always)]
-    fn exponential(self) -> Self {
-        let bits: u32x16<S> = (self.0 + (WHOLE + BIAS)).bitcast();
-        Self((bits << FRACTION).bitcast())
     }
     #[inline(always)]
     fn is_below(self, other: Self) -> SingleAnswers<S> {

@@ -157,6 +157,8 @@ impl Plan {
             Digital::SentOn => "rays start on what is hit → f64".into(),
             Digital::NoGain => "of balls and surfaces it saves nothing → f64".into(),
             Digital::Thin => "a primitive is so thin that most rays would be asked twice → f64".into(),
+            Digital::Many => "24 bits can not number so many primitives → f64".into(),
+            Digital::Near => "the eye may be as near to a solid as can be → f64".into(),
             Digital::Dots(dots) => format!("a hit would be off by up to {dots:.2} dots → f64"),
             Digital::Unseen(dots) => {
                 format!("a hit is off by {dots:.4} dots at most → f32, and f64 where that leaves a doubt")

@@ -41,12 +41,15 @@ const UNSEEN: f64 = 0.25 / LEVELS;
 /// Steps from black to white.
 const LEVELS: f64 = 12.0;
 
-/// Whether a chord is there is certain where it is longer than what its two ends may be off, which is what their faces are, over
-/// the sine of the angle between face and ray: in a solid so many times as thick, for rays within a sine of an eighth.
+/// A chord is at least as long as a solid is thick, and its two ends are off by twice `off` over the sine of the angle between
+/// ray and face. So in a solid 16 `off` thick all chords are certain whose rays meet its faces at a sine of an eighth or more.
 const THICK: f64 = 16.0;
 
-/// Of more objects around the eye none is asked how near it is.
-const ASKED: usize = 1 << 16;
+/// Of more objects around the eye none is asked how near it is: a few nanoseconds each are a tenth of a millisecond.
+const ASKED: usize = 1 << 15;
+
+/// Inverse maps, their squares and the squares of those are far from the limits of f32 where solids are thicker than this.
+const PLAIN: f64 = 1.0 / (1_u32 << 30) as f64;
 
 /// More primitives have no number in 24 bits.
 const NUMBERED: usize = 1 << f32::MANTISSA_DIGITS;
@@ -64,6 +67,10 @@ pub(super) enum Digital {
     NoGain,
     /// A primitive is thin.
     Thin,
+    /// There are so many primitives that not all have a number.
+    Many,
+    /// The eye may be as near to a solid as can be.
+    Near,
     /// So many dots would a hit be off.
     Dots(f64),
     /// So few.
@@ -75,7 +82,13 @@ impl Digital {
         match self {
             Self::Asked(precision) => precision,
             Self::Unseen(_) => Precision::Single,
-            Self::Exact | Self::SentOn | Self::NoGain | Self::Thin | Self::Dots(_) => Precision::Double,
+            Self::Exact
+            | Self::SentOn
+            | Self::NoGain
+            | Self::Thin
+            | Self::Many
+            | Self::Near
+            | Self::Dots(_) => Precision::Double,
         }
     }
 
@@ -88,22 +101,25 @@ impl Digital {
         match options.precision {
             _ if engine == EngineChoice::Exact => return Self::Exact,
             PrecisionChoice::Double => return Self::Asked(Precision::Double),
-            PrecisionChoice::Single if assembly.primitives.len() <= NUMBERED => {
-                return Self::Asked(Precision::Single);
-            }
+            _ if assembly.primitives.len() > NUMBERED => return Self::Many,
+            PrecisionChoice::Single if assembly.makeup.thinnest < PLAIN => return Self::Thin,
+            PrecisionChoice::Single => return Self::Asked(Precision::Single),
             _ if sends_on => return Self::SentOn,
-            _ => {}
+            PrecisionChoice::Auto => {}
         }
         let makeup = &assembly.makeup;
-        let gains = makeup.surfaces == 0 && makeup.balls < assembly.objects.len();
-        if !gains || assembly.primitives.len() > NUMBERED {
+        if makeup.surfaces > 0 || makeup.balls == assembly.objects.len() {
             return Self::NoGain;
         }
         let off = assembly.off * f32::COARSER;
         if makeup.thinnest < THICK * off {
             return Self::Thin;
         }
-        let dots = off / (nearest(assembly, lens) * lens.least_dot());
+        let least_dot = nearest(assembly, lens) * lens.least_dot();
+        if least_dot == 0.0 {
+            return Self::Near;
+        }
+        let dots = off / least_dot;
         if dots <= UNSEEN { Self::Unseen(dots) } else { Self::Dots(dots) }
     }
 }

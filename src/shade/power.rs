@@ -2,7 +2,7 @@
 
 use std::f64::consts::{LN_2, LOG2_E, SQRT_2};
 
-use crate::math::{Mask, Number};
+use crate::math::{Mask, Powers};
 
 /// Past this the squares are as many as the steps of a logarithm.
 const MOST: f64 = 1024.0;
@@ -32,13 +32,13 @@ const EXP: [f64; 14] = {
 /// Most exponents are whole and small: a product of squares, each rounded once, then takes a part of the time. All others
 /// go by the logarithm to base 2, whose error `n` magnifies: the answer is within 4·n·|log₂ x| + 8 roundings.
 #[inline(always)]
-pub(super) fn power<N: Number>(x: N, n: f64) -> N {
+pub(super) fn power<N: Powers>(x: N, n: f64) -> N {
     let whole = if n <= MOST { n as u32 } else { 0 };
     if whole > 0 && f64::from(whole) == n { by_squares(x, whole) } else { by_logarithm(x, n) }
 }
 
 #[inline(always)]
-fn by_squares<N: Number>(x: N, n: u32) -> N {
+fn by_squares<N: Powers>(x: N, n: u32) -> N {
     let (mut left, mut square) = (n, x);
     while left & 1 == 0 {
         square = square * square;
@@ -57,7 +57,7 @@ fn by_squares<N: Number>(x: N, n: u32) -> N {
 }
 
 #[inline(always)]
-fn by_logarithm<N: Number>(x: N, n: f64) -> N {
+fn by_logarithm<N: Powers>(x: N, n: f64) -> N {
     let exponent = log2(x) * n;
     let none = !exponent.is_at_least(x.same(LEAST)) | x.is_below(x.same(f64::MIN_POSITIVE));
     none.choose(x.same(0.0), exp2(none.choose(x.same(0.0), exponent)))
@@ -65,7 +65,7 @@ fn by_logarithm<N: Number>(x: N, n: f64) -> N {
 
 /// The logarithm to base 2 of a number in 2⁻¹⁰²²..=1.
 #[inline(always)]
-fn log2<N: Number>(x: N) -> N {
+fn log2<N: Powers>(x: N) -> N {
     let (exponent, fraction) = x.parts();
     let high = fraction.is_above(x.same(SQRT_2));
     let fraction = high.choose(fraction * 0.5, fraction);
@@ -82,7 +82,7 @@ fn log2<N: Number>(x: N) -> N {
 
 /// 2 to the power of a number in −1022..=0.
 #[inline(always)]
-fn exp2<N: Number>(y: N) -> N {
+fn exp2<N: Powers>(y: N) -> N {
     let whole = y + ROUNDER - ROUNDER;
     let rest = (y - whole) * LN_2;
     let mut sum = y.same(0.0);

@@ -45,8 +45,14 @@ pub(super) fn decide_alone<S: Simd, T: Digits>(
             |d| d.off.load(simd, row),
         );
         let own = (known.off, known.seeming);
-        let goes_in = open & !(enter.t.is_at_most(start_of(enter.error, own, offs)) | enter.t.is_below(from));
-        let passed = leave.t.is_at_most(start_of(leave.error, own, offs)) | leave.t.is_below(from);
+        let starts = [start_of(enter.error, own, offs), start_of(leave.error, own, offs)];
+        if !T::DECIDES {
+            let near = enter.t.magnitude().is_at_most(starts[0]) | leave.t.magnitude().is_at_most(starts[1]);
+            found.unsure |= T::bits_of(simd, open & near, row);
+            open = open & !near;
+        }
+        let goes_in = open & !(enter.t.is_at_most(starts[0]) | enter.t.is_below(from));
+        let passed = leave.t.is_at_most(starts[1]) | leave.t.is_below(from);
         let ended = leave.t.is_above(to) | leave.t.is_equal(infinite);
         let any = goes_in | (open & !(passed | ended));
         if !any.any() {

@@ -107,7 +107,18 @@ impl<N: Number> Starts<N> {
     /// Whether crossings lie at the starts of their rays, or before.
     #[inline(always)]
     pub(super) fn before(&self, end: &Ends<N>, form: &Form) -> N::Mask {
-        end.t.is_at_most(start_of(end.error, (form.off() * N::COARSER, form.seeming()), self.off))
+        end.t.is_at_most(self.reach(end, form))
+    }
+
+    /// Whether numbers that do not decide leave a doubt which of these they do.
+    #[inline(always)]
+    pub fn near(&self, end: &Ends<N>, form: &Form) -> N::Mask {
+        end.t.magnitude().is_at_most(self.reach(end, form))
+    }
+
+    #[inline(always)]
+    fn reach(&self, end: &Ends<N>, form: &Form) -> N {
+        start_of(end.error, (form.off() * N::COARSER, form.seeming()), self.off)
     }
 }
 

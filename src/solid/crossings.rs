@@ -1,6 +1,6 @@
 //! Stage 8, CSG, for a bundle of rays: the first place along each where an expression changes.
 //!
-//! It does what [`super::crossing`] does for one ray, and finds the same bits: the crossings of all primitives, those
+//! It does what [`super::crossing`] does for one ray, and finds the same bits where it has all digits: the crossings of all primitives, those
 //! that are one place with the first of them toggled together, until the expression's value changes. Instead of a
 //! sorted list there is a bit for each ray: of a crossing that is yet to come, of a primitive that the place is inside,
 //! of an operator that is true there. So an operator is one operation on a word for all rays.
@@ -331,7 +331,8 @@ fn next_place<S: Simd, T: Digits>(
     }
     let mut doubtful = 0;
     let all_before = if !T::DECIDES {
-        doubtful = T::bits_of(simd, more, row);
+        let at_start = asking & t.magnitude().is_at_most(start);
+        doubtful = T::bits_of(simd, more | at_start, row);
         t.is_below(T::all(simd, reach.from))
     } else if more.any() {
         one_place((simd, row, asking), sides, [t, error, off], reach)

@@ -71,8 +71,7 @@ impl Round {
         })
     }
 
-    /// How far two parallel planes around it are apart at least, or less: every profile holds a ball of diameter 1, but for
-    /// what a cone's tip lacks, and a map shrinks no way by more than the norm of its inverse.
+    /// How far two parallel planes around it are apart at least, or less: every profile holds a ball of diameter 1, and a map shrinks no way by more than the norm of its inverse.
     pub fn thickness(&self) -> f64 {
         1.0 / self.space.norm()
     }
@@ -117,13 +116,15 @@ fn sphere_spans<N: Number>(rays: &Centred<N>) -> Spans<N> {
     // Moving the ray by at most `off` changes the square of the half-chord by 2·o·off.
     let across = rays.o.magnitude().dot_one(rays.off);
     let one = rays.t.same(1.0);
-    let near_enough = l_squared.is_at_most(if N::DECIDES { one } else { one + across * 2.0 });
+    // Of numbers that do not decide what is lost is no longer so small that its square can be left out.
+    let grazing = if N::DECIDES { across * 2.0 } else { across * 2.0 + rays.off.length_squared() };
+    let near_enough = l_squared.is_at_most(if N::DECIDES { one } else { one + grazing });
     if !near_enough.any() {
         return Spans::none(rays.t);
     }
     let l = l_squared.root();
     let half_squared = (-l + 1.0) * (l + 1.0);
-    let least = if N::DECIDES { across * 2.0 * rays.seeming } else { across * 2.0 };
+    let least = if N::DECIDES { across * 2.0 * rays.seeming } else { grazing };
     let any = near_enough & half_squared.is_above(least);
     let root = half_squared.root();
     let slowness = rays.t.same(1.0) / rays.d_squared.root();

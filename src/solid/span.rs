@@ -7,7 +7,7 @@ use crate::math::{Mask, Number};
 /// The longest chain of roundings between a ray and a crossing: the ray's start, which was itself computed as a point
 /// on a ray (a product and a sum, 2 roundings, of lengths up to twice [`WORLD`]: 4), inverting a map (8), moving the
 /// ray into the unit space (a difference and a dot product of three terms, 4, for the start and again for the
-/// direction), and re-centring it twice (4 each): 28, rounded up to 32 half-ulps of `f64::EPSILON / 2`. What composing
+/// direction), and re-centring it twice (5 each): 30, rounded up to 32 half-ulps of `f64::EPSILON / 2`. What composing
 /// the map took is [`scene::Primitive::displacement`](crate::scene::Primitive::displacement).
 pub const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
@@ -97,7 +97,7 @@ impl<N: Number> Ends<N> {
     /// Which may be one place with another: nothing is, that is infinitely far.
     #[inline(always)]
     fn may_be(&self, other: &Self) -> N::Mask {
-        (self.t - other.t).magnitude().is_at_most(self.error + other.error)
+        (self.t - other.t).magnitude().is_below(self.error + other.error)
     }
 }
 

@@ -1,4 +1,5 @@
-//! The fast engine against the exact one: every dot of every picture has the same bits, on every processor.
+//! The fast engine against the exact one: every dot of every picture has the same bits, on every processor; and with half the
+//! digits what is met is the same.
 
 #[path = "../anything/mod.rs"]
 mod anything;

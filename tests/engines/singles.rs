@@ -133,6 +133,51 @@ fn sharp_edges_stay() {
     }
 }
 
+/// What lies at the start of a ray, to within what half the digits lose, was passed over.
+#[test]
+fn an_eye_beside_a_face_sees_it() {
+    let studio = studio(
+        "difference() { cube(2, center = true); translate([0.5, 0, 0]) sphere(0.3); } cube([0.1, 3, 3]);",
+    );
+    for height in [1e-5, 1e-9, -1e-5] {
+        let eye = DVec3::new(-0.5, 0.1, 1.0 + height);
+        for target in [DVec3::new(-0.4, 0.2, 0.0), DVec3::new(0.9, 0.1, 0.99)] {
+            let camera = Camera { eye, target, ..studio.camera(0, 1.0) };
+            let [half, full] = both(&studio, &camera, Size::new(64, 64), PrecisionChoice::Single);
+            let differing = differing(&half, &full);
+            assert!(full.counts.primary_hits > 0 && differing.is_small(), "{height} {target}: {differing:?}");
+        }
+    }
+}
+
+/// A face that is skimmed and lies behind another: a row of dots saw it.
+#[test]
+fn a_row_in_the_plane_of_a_face() {
+    let studio = studio("cube(2, center = true);");
+    for height in [0.0, 1e-8, 3e-8, 5e-8, 1e-6] {
+        let eye = DVec3::new(8.0, 0.0, 1.0 + height);
+        let camera = Camera { eye, target: DVec3::new(0.0, 0.0, eye.z - 1e-9), ..studio.camera(0, 1.0) };
+        let [half, full] = both(&studio, &camera, Size::new(201, 201), PrecisionChoice::Auto);
+        assert_eq!(half.precision, Precision::Single);
+        let differing = differing(&half, &full);
+        assert!(differing.is_small(), "{height}: {differing:?}");
+    }
+}
+
+/// Squares of what is so thin are beyond f32.
+#[test]
+fn what_is_beyond_the_numbers_is_asked_with_all_digits() {
+    for thin in ["1e-18", "1e-25", "1e-40"] {
+        for solid in ["sphere(1)", "rotate([10, 20, 30]) cube(1)", "cylinder(h = 1, r = 1)"] {
+            let studio = studio(&format!("scale([1, 1.5, {thin}]) {solid}; translate([3, 0, 0]) cube(1);"));
+            let camera = studio.camera(0, 1.0);
+            let [half, full] = both(&studio, &camera, Size::new(48, 48), PrecisionChoice::Single);
+            assert_eq!(half.precision, Precision::Double);
+            assert_eq!(half.light, full.light);
+        }
+    }
+}
+
 /// Edges on a row of dots: which of two faces a ray meets there was left to half the digits.
 #[test]
 fn edges_in_the_plane_of_a_row_show_the_same_face() {

@@ -3,7 +3,7 @@
 use ray13::frame::{Frame, Request, Studio, Wants};
 use ray13::glyph::{ColorDepth, Palette};
 use ray13::math::{DVec3, Size};
-use ray13::plan::{EngineChoice, Options, Shading, StructureChoice};
+use ray13::plan::{EngineChoice, Options, Precision, PrecisionChoice, Shading, StructureChoice};
 use ray13::scene::{ReadOptions, Scene, read};
 
 use crate::request::request;
@@ -246,4 +246,32 @@ fn the_exact_engine_traces_anew_and_leaves_what_was_kept() {
     assert!(traced(&exact, &anew) && !traced(&frame, &anew));
     assert_same(&exact, &anew, name);
     assert_same(&frame, &anew, name);
+}
+
+/// Shadows are what the digits depend on: hits of one kind were kept until the view changed, and no others.
+#[test]
+fn hits_of_half_the_digits_and_of_all_are_kept_side_by_side() {
+    let text = "light(at = [6, -6, 8]); difference() { cube(2, center = true); sphere(1.2); }";
+    let [studio, fresh] = [(); 2].map(|()| Studio::new(scene("cut.scene", text)).unwrap());
+    let plain = request(studio.camera(0, 1.0), DOTS);
+    let ask = |shadows: bool, shading: Shading| {
+        let options = Options { shadows, shading, precision: PrecisionChoice::Auto, ..plain.options };
+        Request { options, ..plain.clone() }
+    };
+    let mut traced = Vec::new();
+    for (shadows, shading) in [
+        (false, Shading::Lambert),
+        (false, Shading::Depth),
+        (true, Shading::Lambert),
+        (false, Shading::Phong),
+        (true, Shading::Depth),
+        (false, Shading::Lambert),
+    ] {
+        let request = ask(shadows, shading);
+        let (frame, anew) = (studio.draw(&request), fresh.draw_anew(&request));
+        assert_eq!(frame.precision, if shadows { Precision::Double } else { Precision::Single });
+        assert_eq!(frame.light, anew.light);
+        traced.push(frame.counts.primary_rays > 0);
+    }
+    assert_eq!(traced, [true, true, true, false, false, false]);
 }

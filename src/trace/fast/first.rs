@@ -1,7 +1,7 @@
 //! What the rays of a tile meet first.
 //!
 //! The frustum of the whole tile walks the boxes once, nearest first. Where it meets objects, each bundle of the tile
-//! asks with a frustum of its own, and the objects that are left are asked by eight rays at a time. What lies behind
+//! asks with a frustum of its own, and the objects that are left are asked by eight rays at a time, or by sixteen in half the digits. What lies behind
 //! the farthest hit of all rays is never looked at.
 
 use fearless_simd::Simd;
@@ -9,8 +9,8 @@ use fearless_simd::Simd;
 use crate::lattice::{Child, FAN, SLACK};
 use crate::math::{Bounds, Bundle, Digits, Mask, Number, Rays};
 use crate::solid::{
-    Asked, Ball, Body, Ends, Firsts, Flat, Form, Found, Reach, Spans, first_of_expressions, firsts_of_spans,
-    firsts_of_surface, with_spans,
+    Asked, Ball, Body, Ends, Firsts, Flat, Form, Found, Reach, Spans, Starts, first_of_expressions,
+    firsts_of_spans, firsts_of_surface, with_spans,
 };
 
 use super::Fast;
@@ -159,12 +159,11 @@ impl Fast<'_> {
                 let form = &primitives[*index as usize].form;
                 let doubtful = self.single(simd, form, (outset, passing), nearest, [object, *index]);
                 if !T::DECIDES && doubtful != 0 {
-                    let full = outset.full();
-                    let mut met = std::mem::take(&mut memory.met);
+                    memory.counts.primitive_tests += 1;
+                    let met = &mut *memory.met;
                     met.clear();
-                    self.single(simd, form, (full, doubtful), &mut met, [object, *index]);
-                    offer_met(simd, &met, doubtful, object, nearest);
-                    memory.met = met;
+                    self.single(simd, form, (outset.full(), doubtful), met, [object, *index]);
+                    offer_met(simd, met, doubtful, object, nearest);
                 }
                 true
             }
@@ -236,6 +235,15 @@ impl Fast<'_> {
     }
 }
 
+/// Which rays may have a span, or start on a surface, and may not: of these none is left.
+#[inline(always)]
+fn doubts<N: Number>(spans: &mut Spans<N>, form: &Form, starts: &Starts<N>) -> N::Mask {
+    let at_start = starts.near(&spans.enter, form) | starts.near(&spans.leave, form);
+    let doubtful = spans.may & (!spans.any | at_start);
+    spans.any = spans.any & !doubtful;
+    doubtful
+}
+
 /// Offers what some rays met of one object by more digits.
 fn offer_met<S: Simd, T: Digits>(simd: S, met: &Nearest, rays: u64, object: u32, nearest: &mut Nearest<T>) {
     simd.vectorize(
@@ -249,7 +257,7 @@ fn offer_met<S: Simd, T: Digits>(simd: S, met: &Nearest, rays: u64, object: u32,
                 let met = Offer {
                     any: T::row_of(simd, rays, row) & t.is_below(T::all(simd, f64::INFINITY)),
                     t,
-                    error: met.error.load_nearest::<T, S>(simd, row),
+                    error: loosened::<T, S>(met.error.load_nearest::<T, S>(simd, row), t),
                     entering: T::row_of(simd, met.entering, row),
                     object,
                     primitive: met.primitive.load_nearest::<T, S>(simd, row),
@@ -280,23 +288,21 @@ fn ball_of_bundle<S: Simd, T: Asks>(
         if !T::has_any(near, row) {
             continue;
         }
-        let spans = ball.spans(&outset.rays.load(simd, row));
-        if !T::DECIDES {
-            doubtful |= T::bits_of(simd, spans.may & !spans.any, row);
-        }
-        if !spans.any.any() {
+        let mut spans = ball.spans(&outset.rays.load(simd, row));
+        if !spans.may.any() {
             continue;
         }
         let starts = outset.starts(simd, row, primitive);
+        if !T::DECIDES {
+            doubtful |= T::bits_of(simd, doubts(&mut spans, form, &starts), row);
+        }
         let ahead = spans.enter.t.is_above(start) & !starts.here;
         let met = if (spans.any & !ahead).any() {
             let Firsts { end, entering, any } = firsts_of_spans(spans, form, &starts);
             Offer { any, t: end.t, error: end.error, entering, object, primitive, surface }
         } else {
-            {
-                let Ends { t, error, .. } = spans.enter;
-                Offer { any: spans.any, t, error, entering: yes, object, primitive, surface }
-            }
+            let Ends { t, error, .. } = spans.enter;
+            Offer { any: spans.any, t, error, entering: yes, object, primitive, surface }
         };
         nearest.offer(simd, row, &met);
     }
@@ -346,6 +352,8 @@ impl<S: Simd, T: Asks> Slices for Slicing<'_, S, T> {
         }
         let mut unsure = found.unsure;
         if unsure != 0 && !T::DECIDES {
+            memory.counts.primitive_tests += expression.leaves.len() as u64;
+            memory.counts.csg_evaluations += 1;
             let Numbers { scratch, found, .. } = f64::numbers(memory);
             scratch.start();
             let Outset { rays: bundle, departures, .. } = self.outset.full();
@@ -362,6 +370,12 @@ impl<S: Simd, T: Asks> Slices for Slicing<'_, S, T> {
     }
 }
 
+/// How far a distance may be off that was rounded to fewer digits: by half an ulp more.
+#[inline(always)]
+fn loosened<T: Digits, S: Simd>(error: T::Wide<S>, t: T::Wide<S>) -> T::Wide<S> {
+    if T::DECIDES { error } else { error + t.magnitude() * (0.5 * f64::EPSILON * T::COARSER) }
+}
+
 /// Offers what an expression's crossings are.
 fn offer_found<S: Simd, T: Digits, U: Digits>(
     simd: S,
@@ -376,10 +390,11 @@ fn offer_found<S: Simd, T: Digits, U: Digits>(
                 if !T::has_any(found.any, row) {
                     continue;
                 }
+                let t = found.t.load_nearest::<T, S>(simd, row);
                 let met = Offer {
                     any: T::row_of(simd, found.any, row),
-                    t: found.t.load_nearest::<T, S>(simd, row),
-                    error: found.error.load_nearest::<T, S>(simd, row),
+                    t,
+                    error: loosened::<T, S>(found.error.load_nearest::<T, S>(simd, row), t),
                     entering: T::row_of(simd, found.entering, row),
                     object,
                     primitive: found.primitive.load_nearest::<T, S>(simd, row),
@@ -411,14 +426,14 @@ fn convex_of_bundle<S: Simd, T: Asks>(
             if !T::has_any(wanted, row) {
                 continue;
             }
-            let spans = spans(&outset.rays.load(simd, row));
-            if !T::DECIDES {
-                *doubtful |= T::bits_of(simd, spans.may & !spans.any, row);
-            }
-            if !spans.any.any() {
+            let mut spans = spans(&outset.rays.load(simd, row));
+            if !spans.may.any() {
                 continue;
             }
             let starts = outset.starts(simd, row, primitive);
+            if !T::DECIDES {
+                *doubtful |= T::bits_of(simd, doubts(&mut spans, form, &starts), row);
+            }
             let Firsts { end, entering, any } = firsts_of_spans(spans, form, &starts);
             let Ends { t, error, surface } = end;
             let met = Offer { any, t, error, entering, object, primitive, surface };

@@ -1,4 +1,5 @@
-//! The fast engine: the rays of a tile side by side, with the bits that the exact engine finds for each alone.
+//! The fast engine: the rays of a tile side by side, with the bits that the exact engine finds for each alone, unless half the
+//! digits are enough.
 //!
 //! A tile of rays is bounded by frustums, which walk a hierarchy of boxes; what they leave is computed for eight rays
 //! at a time, by the same formulas in the same order. Where a ray's answer needs more than that, two surfaces in one

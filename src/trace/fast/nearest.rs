@@ -7,6 +7,10 @@ use crate::solid::Crossing;
 
 use super::super::Hit;
 
+/// How many of their errors two hits may seem apart that are one place: as [`slack`](crate::lattice::slack) is so many times what
+/// solids may be off.
+const FLUSH: f64 = 4.0;
+
 /// What each ray of a bundle met first.
 #[derive(Clone, Debug)]
 pub struct Nearest<T = f64> {
@@ -14,7 +18,7 @@ pub struct Nearest<T = f64> {
     pub t: Column<T>,
     /// How far that may be off.
     pub error: Column<T>,
-    /// Where it met what comes next, another object's surface.
+    /// Where it met what comes next, another object's surface; of numbers that do not decide, where that is at least.
     pub second: Column<T>,
     /// The object, by its index in the assembly.
     pub object: Column<T>,
@@ -119,8 +123,13 @@ impl<T: Digits> Nearest<T> {
     pub fn offer<S: Simd>(&mut self, simd: S, row: usize, met: &Offer<T, S>) {
         let (best, second) = (self.t.load(simd, row), self.second.load(simd, row));
         let t = met.any.choose(met.t, T::all(simd, f64::INFINITY));
-        self.second.store(row, t.larger(best).smaller(second));
         let nearer = t.is_below(best);
+        let other = if T::DECIDES {
+            t.larger(best)
+        } else {
+            nearer.choose(best - self.error.load(simd, row) * FLUSH, t - met.error * FLUSH)
+        };
+        self.second.store(row, other.smaller(second));
         if !nearer.any() {
             return;
         }
@@ -138,14 +147,14 @@ impl<T: Digits> Nearest<T> {
     #[inline(always)]
     fn reach<S: Simd>(&self, simd: S, row: usize) -> T::Wide<S> {
         let t = self.t.load(simd, row);
-        if T::DECIDES { t } else { t + self.error.load(simd, row) * 4.0 }
+        if T::DECIDES { t } else { t + self.error.load(simd, row) * FLUSH }
     }
 
     /// The same for one ray.
     #[inline(always)]
     pub(super) fn reach_of(&self, lane: usize) -> f64 {
         let t = self.t.0[lane].into();
-        if T::DECIDES { t } else { t + 4.0 * self.error.0[lane].into() }
+        if T::DECIDES { t } else { t + FLUSH * self.error.0[lane].into() }
     }
 
     /// Is unsure of all rays that met two objects within `slack`.

@@ -2,10 +2,12 @@
 //!
 //! Three kinds of threads share the work. The one that calls [`run`] owns the model and the screen, and waits
 //! for things that happen; others wait for the terminal and for signals, and say what came; one
-//! traces the picture that was asked for last. None of them wakes by a clock: at rest the program does nothing
-//! and sends nothing.
+//! traces the picture that was asked for last. They wake by the clock only while something is waited for, the
+//! rest of a key or the terminal's answer: at rest the program does nothing and sends nothing.
 
+mod encoder;
 mod events;
+mod fence;
 mod help;
 mod identity;
 mod input;
@@ -13,6 +15,7 @@ mod keys;
 mod layout;
 mod model;
 mod motion;
+mod pacing;
 mod painter;
 mod screen;
 #[cfg(unix)]
@@ -33,10 +36,13 @@ use crate::plan::Options;
 use crate::scene::Camera;
 use crate::tone::Tone;
 
+pub(crate) use encoder::Encoder;
 use events::Inbox;
+use identity::Identity;
 use model::Model;
+use pacing::Pacing;
 pub use painter::Painter;
-use terminal::{Replies, Terminal};
+use terminal::Terminal;
 use tracer::Tracer;
 use viewer::{End, Viewer};
 
@@ -89,25 +95,15 @@ pub fn run(painter: impl Painter + 'static, settings: Settings) -> Result<(), Ap
     let mut terminal = Terminal::take()?;
     #[cfg(unix)]
     signals::listen(sender.clone(), terminal.hold())?;
-    events::listen_to_terminal(sender.clone())?;
+    events::listen_to_terminal(sender.clone(), terminal.hold().fence())?;
     let mut inbox = Inbox::new(events);
     let painter = Arc::new(painter);
     let tracer = Tracer::start(painter.clone(), sender)?;
     let model = Model::new(&*painter, settings, terminal::window());
-    let name = env::var("TERM").unwrap_or_default();
-    let replies = if identity::may_be_asked(&name) {
-        terminal.ask(identity::QUESTION, &mut inbox)?
-    } else {
-        Replies::default()
-    };
-    let _identity = identity::Identity::of(&replies.answers, &name);
-    let mut viewer =
-        Viewer { painter: &*painter, model, shown: None, tracer, terminal: &mut terminal, inbox: &mut inbox };
+    let pacing = look_ahead(&mut terminal, &mut inbox)?;
+    let mut viewer = Viewer::new(&*painter, model, tracer, &mut terminal, &mut inbox, pacing);
     let end = viewer.run();
     drop(viewer);
-    if end.is_ok() {
-        terminal.give_back(&mut inbox)?;
-    }
     drop(terminal);
     match end? {
         End::Quit => Ok(()),
@@ -118,4 +114,18 @@ pub fn run(painter: impl Painter + 'static, settings: Settings) -> Result<(), Ap
             std::process::exit(128 + signal);
         }
     }
+}
+
+/// Asks who draws the screen, and how far away that is.
+fn look_ahead(terminal: &mut Terminal, inbox: &mut Inbox) -> io::Result<Pacing> {
+    let name = env::var("TERM").unwrap_or_default();
+    let mut pacing = Pacing::default();
+    let mut answers = Vec::new();
+    if identity::may_be_asked(&name) {
+        let replies = terminal.ask(identity::QUESTION, inbox)?;
+        pacing.asked(replies.took);
+        answers = replies.answers;
+    }
+    pacing.set_relayed(Identity::of(&answers, &name) == Identity::Relay);
+    Ok(pacing)
 }

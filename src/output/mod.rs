@@ -4,6 +4,8 @@
 
 mod cells;
 mod pictures;
+mod sgr;
 
 pub use cells::{ansi, text};
 pub use pictures::{Pixels, grays_of_levels, grays_of_light, levels, pfm_gray, pfm_vectors, pgm, png, ppm};
+pub use sgr::{Color, Pen};

@@ -39,8 +39,8 @@ pub struct Terminal {
     encoder: Encoder,
 }
 
-/// What is ours of the terminal at the moment; shared by all threads that may have to give it back. Nothing is
-/// written to a screen that is not ours.
+/// What is ours of the terminal at the moment; shared by all threads that may have to give it back. Nothing
+/// is written to a screen that is not ours.
 #[derive(Clone, Default)]
 pub struct Hold {
     ours: Arc<Mutex<Ours>>,
@@ -58,8 +58,8 @@ struct Ours {
 pub struct Replies {
     /// The answers, in their order.
     pub answers: Vec<Answer>,
-    /// How long it took until the terminal had come to the end of the questions, so that what has not been answered
-    /// never will be; absent where it has not come so far.
+    /// How long it took until the terminal had come to the end of the questions, so that what has not been
+    /// answered never will be; absent where it has not come so far.
     pub took: Option<Duration>,
 }
 
@@ -96,11 +96,11 @@ impl Terminal {
         Ok(())
     }
 
-    /// Asks questions, with a status request behind them, and waits for the answers up to that. What else happens
-    /// meanwhile is put aside.
+    /// Asks questions, with a status request behind them, and waits for the answers up to that. What else
+    /// happens meanwhile is put aside.
     ///
-    /// A terminal that does not know a question says nothing to it, but answers the status request, so that only one
-    /// that answers nothing at all is waited for.
+    /// A terminal that does not know a question says nothing to it, but answers the status request, so that
+    /// only one that answers nothing at all is waited for.
     pub fn ask(&mut self, questions: &[u8], inbox: &mut Inbox) -> io::Result<Replies> {
         let begun = Instant::now();
         self.hold.write(&[questions, STATUS_REQUEST].concat())?;
@@ -146,8 +146,8 @@ impl Terminal {
         self.encoder.len()
     }
 
-    /// Sends what is queued, in one write, for the terminal to show at once, and a status request behind it. Nothing
-    /// queued, nothing sent; gives whether anything was.
+    /// Sends what is queued, in one write, for the terminal to show at once, and a status request behind it.
+    /// Nothing queued, nothing sent; gives whether anything was.
     pub fn send(&mut self) -> io::Result<bool> {
         let update = self.encoder.take();
         if update.is_empty() {
@@ -182,13 +182,14 @@ impl Hold {
     fn acquire(&self) -> io::Result<()> {
         let mut ours = self.lock();
         if ours.modes {
-            // A shell may have changed the modes while we were stopped; crossterm believes they are still raw.
+            // A shell may have changed the modes while we were stopped; crossterm believes they are still
+            // raw.
             disable_raw_mode()?;
         }
         enable_raw_mode()?;
         *ours = Ours { screen: true, modes: true };
-        // The alternate screen keeps colours with the cursor, and gives them back: they may be those of our last picture,
-        // after a stop that nobody could prepare.
+        // The alternate screen keeps colours with the cursor, and gives them back: they may be those of our
+        // last picture, after a stop that nobody could prepare.
         send(&commands(&[&ResetColor, &EnterAlternateScreen, &Hide]))
     }
 
@@ -197,8 +198,8 @@ impl Hold {
         self.fence.clone()
     }
 
-    /// Gives the terminal back: the screen of before, the cursor and plain attributes at once; cooked mode when the
-    /// answers have come that are on their way, for a shell would take them for typed.
+    /// Gives the terminal back: the screen of before, the cursor and plain attributes at once; cooked mode
+    /// when the answers have come that are on their way, for a shell would take them for typed.
     pub fn release(&self) -> io::Result<()> {
         let sent = self.lock().release_screen();
         if self.lock().modes {
@@ -207,8 +208,8 @@ impl Hold {
         self.lock().release().and(sent)
     }
 
-    /// Gives the terminal back as far as this goes without waiting: while another thread hangs in a write to a
-    /// terminal that takes nothing, only its modes can be.
+    /// Gives the terminal back as far as this goes without waiting: while another thread hangs in a write to
+    /// a terminal that takes nothing, only its modes can be.
     pub fn release_now(&self) {
         let _ = match self.ours.try_lock() {
             Ok(mut ours) => ours.release(),

@@ -20,8 +20,8 @@ pub fn text(cells: &Grid<Cell>, out: &mut impl Write) -> io::Result<()> {
 }
 
 /// The cells with SGR sequences: those of 16-colour terminals for the attributes (ECMA-48, and the bright colours of
-/// aixterm), those of xterm for colours by number, one line per row. Only the colour that changes is sent, and none for the ink of a blank. Each line ends in the terminal's
-/// own colours, so that nothing beyond the picture is painted.
+/// aixterm), those of xterm for colours by number, one line per row. Only the colour that changes is sent, and none
+/// for the ink of a blank. Each line ends in the terminal's own colours, so that nothing beyond the picture is painted.
 pub fn ansi(cells: &Grid<Cell>, out: &mut impl Write) -> io::Result<()> {
     let mut line = String::new();
     for row in cells.rows() {

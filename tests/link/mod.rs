@@ -1,7 +1,8 @@
-//! The viewer at the other end of a thin link: a real sshd behind a bucket of 80 kbit/s, and behind mosh and tmux.
+//! The viewer at the other end of a thin link: a real sshd behind a bucket of 80 kbit/s, and behind mosh and
+//! tmux.
 //!
-//! sshd and TCP take in whatever is written: 30 pictures a second for ten seconds were shown for 55 s more, up to
-//! 56 s old.
+//! sshd and TCP take in whatever is written: 30 pictures a second for ten seconds were shown for 55 s more,
+//! up to 56 s old.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -17,8 +18,9 @@ const STEP: f64 = 5.0;
 /// Between two presses of a key that is held down.
 const REPEAT: Duration = Duration::from_millis(33);
 
-/// Two network namespaces, the server's and that of this script, joined by a pair of interfaces that let through
-/// 80 kbit/s each; their queues hold a minute, as those of modems and phones do. sshd wants a folder of its own in /run.
+/// Two network namespaces, the server's and that of this script, joined by a pair of interfaces that let
+/// through 80 kbit/s each; their queues hold a minute, as those of modems and phones do. sshd wants a folder
+/// of its own in /run.
 const THIN: &str = r#"
     set -e
     folder=$1 program=$2 scene=$3
@@ -52,7 +54,8 @@ fn no_thin_link() -> Option<&'static str> {
         ("command -v ip tc", "ip or tc is not installed"),
         ("unshare -nm mount -t tmpfs none /run", "namespaces are not allowed here"),
         (
-            "unshare -n sh -ec 'ip link add here type veth peer name there; tc qdisc add dev here root tbf rate 80kbit burst 2kb \
+            "unshare -n sh -ec 'ip link add here type veth peer name there; tc qdisc add dev here \
+             root tbf rate 80kbit burst 2kb \
              latency 60s'",
             "this kernel has no veth or tbf",
         ),

@@ -1,5 +1,6 @@
 //! What is wrong with an input, where, and what to do about it.
 
+use std::collections::HashMap;
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
@@ -135,11 +136,27 @@ pub(crate) struct Reported;
 #[derive(Debug, Default)]
 pub(crate) struct Sink {
     errors: Vec<Diagnostic>,
-    notes: Vec<Diagnostic>,
+    /// The first note of each kind, and how many there are of it.
+    notes: Vec<(Diagnostic, usize)>,
+    /// By message: the kind's place in `notes`.
+    kinds: HashMap<String, usize>,
+    /// Notes of kinds for which there was no place.
     uncounted_notes: usize,
+    /// Whether what is wrong with a part of the input leaves that part out, in place of an error.
+    leaves_out: bool,
 }
 
 impl Sink {
+    /// A sink for an input whose wrong parts are left out, where that is wanted.
+    pub fn new(leaves_out: bool) -> Self {
+        Self { leaves_out, ..Self::default() }
+    }
+
+    /// Whether what is wrong with a part of the input leaves that part out, with a note.
+    pub fn leaves_out(&self) -> bool {
+        self.leaves_out
+    }
+
     /// Takes an error.
     pub fn report(&mut self, diagnostic: Diagnostic) -> Reported {
         if !self.is_full() {
@@ -148,13 +165,23 @@ impl Sink {
         Reported
     }
 
-    /// Takes a note.
+    /// Takes a note. Notes with the same message are one, at the place of the first: what a program wrote wrong it wrote
+    /// thousands of times.
     pub fn note(&mut self, note: Diagnostic) {
-        if self.notes.len() < MAX_NOTES {
-            self.notes.push(note);
+        if let Some(&kind) = self.kinds.get(&note.message) {
+            self.notes[kind].1 += 1;
+        } else if self.notes.len() < MAX_NOTES {
+            self.kinds.insert(note.message.clone(), self.notes.len());
+            self.notes.push((note, 1));
         } else {
             self.uncounted_notes += 1;
         }
+    }
+
+    /// The note taken first, and how many there are in all.
+    pub fn first_note(&self) -> Option<(&Diagnostic, usize)> {
+        let (first, _) = self.notes.first()?;
+        Some((first, self.notes.iter().map(|(_, count)| count).sum::<usize>() + self.uncounted_notes))
     }
 
     /// Whether a reader should stop.
@@ -170,19 +197,24 @@ impl Sink {
     /// The notes as sentences, where there was no error; else all remarks.
     pub fn finish(self, source_name: &str, source: &str) -> Result<Vec<String>, Diagnostics> {
         let stopped = self.is_full();
+        let counted = self.notes.into_iter().map(|(note, count)| match count {
+            1 => note,
+            _ => Diagnostic { message: format!("{} ({count} times)", note.message), ..note },
+        });
         if !self.errors.is_empty() {
             let source_name = source_name.to_owned();
-            let mut list: Vec<_> = self.errors.into_iter().chain(self.notes).collect();
+            let mut list: Vec<_> = self.errors.into_iter().chain(counted).collect();
             list.sort_by_key(|diagnostic| diagnostic.span.start);
             return Err(Diagnostics { source_name, source: Arc::from(source), list, stopped });
         }
-        let mut notes: Vec<String> = self
-            .notes
-            .iter()
-            .map(|note| format!("line {}: {}", place(source, note.span.start).0, note.message))
+        let mut notes: Vec<String> = counted
+            .map(|note| {
+                let detail = if note.label.is_empty() { String::new() } else { format!(": {}", note.label) };
+                format!("line {}: {}{detail}", place(source, note.span.start).0, note.message)
+            })
             .collect();
         if self.uncounted_notes > 0 {
-            notes.push(format!("and {} more notes of this kind", self.uncounted_notes));
+            notes.push(format!("and {} more notes of other kinds", self.uncounted_notes));
         }
         Ok(notes)
     }

@@ -73,10 +73,10 @@ fn each(
 }
 
 /// Whether a program wrote the text, so that wrong parts are left out: what ends in `.csg` does, and what has no ending,
-/// as standard input has none, where it names the arguments that OpenSCAD gives to every solid.
+/// as standard input has none, where it names the settings that OpenSCAD gives to every round solid.
 fn is_from_a_program(name: &str, text: &str) -> bool {
     match Path::new(name).extension() {
         Some(extension) => extension.eq_ignore_ascii_case("csg"),
-        None => ["$fa = ", ", center = ", ", convexity = "].iter().any(|given| text.contains(given)),
+        None => [", $fa = ", ", $fs = "].iter().all(|given| text.contains(given)),
     }
 }

@@ -85,11 +85,13 @@ fn unsupported_words_can_be_left_out() {
         scene.notes,
         [
             "line 2: `hull` is left out: only OpenSCAD can work its shape out",
-            "line 3: `text` is left out: it is flat, and ray13 shows solids"
+            "line 3: `text` is left out: it is flat, and ray13 shows solids",
+            "line 3: a hole of `difference` stays filled: what cuts it is left out"
         ]
     );
-    // What is drilled into something unknown is not shown, and what meets something unknown is shown whole.
-    let text = b"difference() { hull() cube(1); cube(2); } intersection() { hull() cube(1); sphere(2); }";
+    // What is drilled into something unknown is not shown, and neither is what only meets something unknown.
+    let text =
+        b"cube(9); difference() { hull() cube(1); cube(2); } intersection() { hull() cube(1); sphere(2); }";
     let scene = read("test", text, &skipping).expect("a scene");
     assert_eq!(scene.objects.len(), 1);
     let nothing = read("test", b"hull() cube(1);", &skipping).expect_err("nothing is left").to_string();

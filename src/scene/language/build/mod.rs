@@ -5,6 +5,7 @@ mod chain;
 mod colors;
 mod degrees;
 mod facets;
+mod frames;
 mod lost;
 mod maps;
 mod materials;
@@ -25,8 +26,8 @@ use crate::scene::memory::Memory;
 use crate::scene::{Diagnostic, ReadOptions, Scene, Solid};
 use chain::Chain;
 use facets::Polygons;
+use frames::Frame;
 use materials::{Surface, Surfaces};
-use operators::Frame;
 use polyhedron::EarClipper;
 use survey::Survey;
 

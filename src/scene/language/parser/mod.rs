@@ -3,11 +3,13 @@
 //! The first error of the grammar ends the parse, because what follows would mostly be echoes of it.
 //! Nothing here recurses: what is open stands in a list, so that no input overflows the stack.
 
-use std::borrow::Cow;
+mod escapes;
+mod mistakes;
+mod value;
 
 use super::lexer::{Lexer, Token, TokenKind};
 use super::nearest::{nearest, quoted};
-use super::syntax::{Argument, Call, Event, Modifiers, Name, Span, Spanned, Value};
+use super::syntax::{Argument, Call, Event, Modifiers, Name, Span};
 use super::vocabulary::{FRAGMENT_SETTINGS, PROGRAM_WORDS};
 use crate::scene::Diagnostic;
 use crate::scene::diagnostic::{Reported, Sink};
@@ -15,9 +17,6 @@ use crate::scene::memory::Memory;
 
 /// Braces, chained calls and brackets may be nested so deep: programs write 267 levels, OpenSCAD reads some 600.
 pub const MAX_DEPTH: usize = 2000;
-
-/// Lists inside so many lists are not kept: the deepest that a word takes are the rows of a list.
-const KEPT_LISTS: usize = 4;
 
 const EXPORT: &str = "arithmetic, variables and modules are OpenSCAD's work: \
      export the file as .csg (openscad -o part.csg part.scad)";
@@ -274,223 +273,4 @@ impl<'a> Parser<'a> {
         }
         Err(reading.memory.refuse(3 * self.value_bytes, self.previous.end, reading.sink))
     }
-
-    fn value(&mut self, reading: &mut Reading<'_>) -> Result<Spanned<'a>, Reported> {
-        let start = self.token.span;
-        if !self.is('[') {
-            return self.single(start, reading);
-        }
-        // The lists that are open, the outermost first, each with the place of its bracket.
-        let mut lists = vec![(self.take().span, Vec::new())];
-        loop {
-            let depth = lists.len();
-            let Some((opener, items)) = lists.last_mut() else { return Err(Reported) };
-            if self.takes(']') {
-                let span = opener.to(self.previous);
-                let value =
-                    if depth > KEPT_LISTS { Value::DeepList } else { Value::List(std::mem::take(items)) };
-                let item = self.ended(value, span, reading.sink)?;
-                lists.pop();
-                let Some((opener, items)) = lists.last_mut() else { return Ok(item) };
-                if lists_are_kept(depth - 1) {
-                    items.push(item);
-                }
-                let opener = *opener;
-                self.between(opener, reading)?;
-                continue;
-            }
-            if self.is('[') {
-                let opener = self.token.span;
-                self.descend(depth, opener, reading.sink)?;
-                lists.push((self.take().span, Vec::new()));
-                continue;
-            }
-            let opener = *opener;
-            let item = self.single(self.token.span, reading)?;
-            if lists_are_kept(depth) {
-                items.push(item);
-            }
-            self.between(opener, reading)?;
-        }
-    }
-
-    /// What stands between two items of a list.
-    fn between(&mut self, opener: Span, reading: &mut Reading<'_>) -> Result<(), Reported> {
-        self.keep(size_of::<Spanned<'_>>(), reading)?;
-        if self.takes(',') || self.is(']') {
-            return Ok(());
-        }
-        Err(self.expected_in("`,` or `]`", opener, '[', reading.sink))
-    }
-
-    /// A value that is no list.
-    fn single(&mut self, start: Span, reading: &mut Reading<'_>) -> Result<Spanned<'a>, Reported> {
-        let sink = &mut *reading.sink;
-        let mut negative = None;
-        while let TokenKind::Sign(sign @ ('-' | '+')) = self.token.kind {
-            negative = Some(negative.unwrap_or(false) != (sign == '-'));
-            self.take();
-        }
-        let value = match self.token.kind {
-            TokenKind::Number(number) => {
-                let token = self.take();
-                Value::Number(finite(number, token, sink)?)
-            }
-            _ if negative.is_some() && !matches!(self.token.text, "inf" | "nan") => {
-                return Err(self.expected("a number after the sign", sink));
-            }
-            TokenKind::NumberWithUnit => return Err(self.unit(sink)),
-            TokenKind::Text => Value::Text(unescaped(self.take().text)),
-            TokenKind::Word => self.word_value(sink)?,
-            TokenKind::Sign('(' | '!') => return Err(self.arithmetic("a value was expected here", sink)),
-            _ => return Err(self.expected("a value", sink)),
-        };
-        let value = match value {
-            Value::Number(number) if negative == Some(true) => Value::Number(-number),
-            other => other,
-        };
-        self.ended(value, start.to(self.previous), sink)
-    }
-
-    /// A value with its place, where no arithmetic follows it.
-    fn ended(&self, value: Value<'a>, span: Span, sink: &mut Sink) -> Result<Spanned<'a>, Reported> {
-        if let TokenKind::Sign(
-            '+' | '-' | '*' | '/' | '%' | '^' | '<' | '>' | '?' | ':' | '.' | '[' | '&' | '|' | '!',
-        ) = self.token.kind
-        {
-            return Err(self.arithmetic("a value ends before this", sink));
-        }
-        Ok(Spanned { value, span })
-    }
-
-    fn word_value(&mut self, sink: &mut Sink) -> Result<Value<'a>, Reported> {
-        let value = match self.token.text {
-            "true" => Value::Flag(true),
-            "false" => Value::Flag(false),
-            "undef" => Value::Undef,
-            "inf" if sink.leaves_out() => Value::Number(f64::INFINITY),
-            "nan" if sink.leaves_out() => Value::Number(f64::NAN),
-            "inf" | "nan" => {
-                let message = format!("the number `{}` is not finite", self.token.text);
-                return Err(sink.report(Diagnostic::error(self.token.span, message)));
-            }
-            word => {
-                let message = format!("`{}` is not a value", quoted(word));
-                let help = match nearest(word, ["true", "false", "undef"]) {
-                    Some(right) => format!("did you mean `{right}`? ({EXPORT})"),
-                    None => format!("write a number, or a text in quotes; {EXPORT}"),
-                };
-                return Err(sink.report(Diagnostic::error(self.token.span, message).help(help)));
-            }
-        };
-        self.take();
-        Ok(value)
-    }
-
-    fn unit(&self, sink: &mut Sink) -> Reported {
-        let message = format!("`{}` is not a number", quoted(self.token.text));
-        let error = Diagnostic::error(self.token.span, message).label("numbers carry no unit");
-        sink.report(
-            error.help("lengths are in the scene's own unit, angles in degrees: write the number alone"),
-        )
-    }
-
-    fn arithmetic(&self, label: &str, sink: &mut Sink) -> Reported {
-        let message = format!("`{}` is arithmetic", self.token.text);
-        sink.report(Diagnostic::error(self.token.span, message).label(label).help(EXPORT))
-    }
-
-    /// As [`Parser::expected`], but at the end of the text the opener is what needs a look.
-    fn expected_in(&self, what: &str, opener: Span, sign: char, sink: &mut Sink) -> Reported {
-        if self.token.kind != TokenKind::End {
-            return self.expected(what, sink);
-        }
-        let error = Diagnostic::error(opener, format!("this `{sign}` is never closed")).label("opened here");
-        sink.report(error)
-    }
-
-    fn expected(&self, what: &str, sink: &mut Sink) -> Reported {
-        let span = self.token.span;
-        let error = match self.token.kind {
-            TokenKind::OpenText => Diagnostic::error(span, "this text is never closed")
-                .label("opened here")
-                .help("add a `\"` where the text ends"),
-            TokenKind::OpenComment => Diagnostic::error(span, "this comment is never closed")
-                .label("opened here")
-                .help("add a `*/` where the comment ends"),
-            TokenKind::Stray(stray) => {
-                let message = format!("the character `{}` has no meaning here", stray.escape_debug());
-                let error = Diagnostic::error(span, message).label(format!("expected {what}"));
-                match stray {
-                    '“' | '”' | '‘' | '’' | '\'' => {
-                        error.help("texts stand in straight double quotes: \"name\"")
-                    }
-                    '−' | '–' => error.help("a minus is the plain `-`"),
-                    _ => error,
-                }
-            }
-            TokenKind::End => Diagnostic::error(self.previous, format!("expected {what}, but the file ends"))
-                .label("the last thing in the file"),
-            _ => Diagnostic::error(span, format!("expected {what}, found `{}`", quoted(self.token.text))),
-        };
-        sink.report(error)
-    }
-}
-
-/// A number too large is an error of its own, after which the parse goes on; or what the word that takes it leaves out.
-fn finite(number: f64, token: Token<'_>, sink: &mut Sink) -> Result<f64, Reported> {
-    if number.is_finite() || sink.leaves_out() {
-        return Ok(number);
-    }
-    let message = format!("the number `{}` is not finite", quoted(token.text));
-    let error = Diagnostic::error(token.span, message).label("too large for a 64-bit float");
-    let reported = sink.report(error.help("the largest number is about 1.8e308"));
-    if sink.is_full() { Err(reported) } else { Ok(0.0) }
-}
-
-/// Whether what is in a list at this depth is kept.
-fn lists_are_kept(depth: usize) -> bool {
-    depth <= KEPT_LISTS
-}
-
-/// A text token without its quotes and with its escapes resolved, as OpenSCAD resolves them; an escape
-/// that it does not know stays as it is written.
-fn unescaped(token: &str) -> Cow<'_, str> {
-    let inner = token.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).unwrap_or(token);
-    if !inner.contains('\\') {
-        return Cow::Borrowed(inner);
-    }
-    let mut text = String::with_capacity(inner.len());
-    let mut rest = inner;
-    while let Some(at) = rest.find('\\') {
-        text.push_str(&rest[..at]);
-        let after = &rest[at + 1..];
-        let (replacement, length) = escape(after);
-        match replacement {
-            Some(c) => text.push(c),
-            None => text.push_str(&rest[at..=at + length]),
-        }
-        rest = &after[length..];
-    }
-    text.push_str(rest);
-    Cow::Owned(text)
-}
-
-/// The character meant by what follows a backslash, and how many bytes of it that takes.
-fn escape(after: &str) -> (Option<char>, usize) {
-    let hexadecimal = |digits: usize| {
-        let code = after.get(1..=digits).filter(|code| code.bytes().all(|byte| byte.is_ascii_hexdigit()));
-        (code.and_then(|code| u32::from_str_radix(code, 16).ok()).and_then(char::from_u32), 1 + digits)
-    };
-    let (c, length) = match after.chars().next() {
-        Some('n') => (Some('\n'), 1),
-        Some('t') => (Some('\t'), 1),
-        Some('r') => (Some('\r'), 1),
-        Some(c @ ('"' | '\\')) => (Some(c), 1),
-        Some('x') => hexadecimal(2),
-        Some('u') => hexadecimal(4),
-        Some('U') => hexadecimal(6),
-        _ => (None, 0),
-    };
-    if c.is_some() { (c, length) } else { (None, 0) }
 }

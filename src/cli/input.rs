@@ -10,10 +10,14 @@ use crate::scene::{
 
 use super::diagnostics;
 use super::error::{CliError, tell};
+use super::memory;
 
 /// Reads a scene: a file, `-` for standard input, or an embedded scene where there is no file of that name.
-pub fn read(file: &str, skip_unsupported: bool) -> Result<Scene, CliError> {
-    let options = ReadOptions { skip_unsupported, ..ReadOptions::default() };
+///
+/// `memory` is how many bytes it may take, where that is said.
+pub fn read(file: &str, skip_unsupported: bool, memory: Option<u64>) -> Result<Scene, CliError> {
+    let memory = memory.or_else(memory::half_of_all);
+    let options = ReadOptions { skip_unsupported, memory, ..ReadOptions::default() };
     if file == "-" {
         let mut bytes = Vec::new();
         let limited = std::io::stdin().lock().take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes);

@@ -6,6 +6,7 @@ mod diagnostics;
 mod error;
 mod input;
 mod manual;
+mod memory;
 mod picture;
 mod plan;
 mod render;
@@ -56,10 +57,10 @@ fn view(arguments: &ViewerArguments) -> Result<(), CliError> {
     let file = arguments.file.as_deref().unwrap_or(FIRST_SCENE);
     let picture = &arguments.picture;
     if !io::stdout().is_terminal() {
-        return render::still(file, arguments.skip_unsupported, picture);
+        return render::still(file, arguments.skip_unsupported, arguments.memory, picture);
     }
     // The viewer shows what it can, and says on the screen what it left out.
-    let scene = input::read(file, true)?;
+    let scene = input::read(file, true, arguments.memory)?;
     let notes = scene.notes.clone();
     let studio = input::studio(scene)?;
     let view = picture.camera.view_index(studio.scene())?;
@@ -79,7 +80,7 @@ fn view(arguments: &ViewerArguments) -> Result<(), CliError> {
 
 /// Reads and validates only.
 fn check(arguments: &SceneArguments) -> Result<(), CliError> {
-    let scene = input::read(&arguments.file, arguments.skip_unsupported)?;
+    let scene = input::read(&arguments.file, arguments.skip_unsupported, arguments.memory)?;
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
     let (scene, count) =

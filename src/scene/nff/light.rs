@@ -122,11 +122,16 @@ impl Fills {
     }
 }
 
-/// The format has one share, Ks, for the highlight and for what is mirrored. Of the mirror it is no more than T leaves:
-/// files give glass a strong highlight without meaning that light comes of nothing. An index of 0 is that of a surface
-/// through which nothing is seen.
+/// The format has one share, Kd, for all light that a surface scatters, from lamps and from everywhere. So the colour of
+/// ambient and diffuse light is Kd times the file's, and what is left of `kd` says whether there is any.
+///
+/// It has one share, Ks, for the highlight and for what is mirrored. Of the mirror it is no more than T leaves: files give
+/// glass a strong highlight without meaning that light comes of nothing. An index of 0 is that of a surface through which
+/// nothing is seen.
 fn material([r, g, b, kd, ks, n, kt, index]: [f64; 8]) -> Material {
     let index = if index > 0.0 { index } else { 1.0 };
     let kr = if ks + kt > 1.0 { 1.0 - kt } else { ks };
-    Material { name: None, color: DVec3::new(r, g, b), kd, ks, n, kr, kt, index }
+    let color = kd * DVec3::new(r, g, b);
+    let kd = if kd > 0.0 { 1.0 } else { 0.0 };
+    Material { name: None, color, kd, ks, n, kr, kt, index }
 }

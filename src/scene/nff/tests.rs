@@ -51,8 +51,9 @@ fn all_entities_are_read_wherever_lines_break() {
     assert_eq!(solids[2].map.transform_point3(DVec3::Z), DVec3::new(0.0, 0.0, 4.0));
     let Shape::Patch(corners) = &solids[3].shape else { panic!("a patch") };
     assert_eq!((corners[2].place, corners[2].normal), (DVec3::Y, DVec3::Z));
+    // Kd is in the colour.
     let fill =
-        Material { color: DVec3::new(1.0, 0.5, 0.0), kd: 0.5, ks: 0.25, n: 30.0, ..Material::default() };
+        Material { color: DVec3::new(0.5, 0.25, 0.0), kd: 1.0, ks: 0.25, n: 30.0, ..Material::default() };
     assert_eq!(scene.materials, [Material { kr: 0.25, kt: 0.0, index: 1.0, ..fill }]);
 }
 
@@ -65,6 +66,18 @@ fn lights_without_intensity_share_by_the_rule_of_the_format() {
     assert_eq!(lights[3], (Anchor::World(DVec3::Z * 4.0), 2.0, DVec3::new(1.0, 0.5, 0.0)));
     let dark = read("s 0 0 0 1").unwrap();
     assert_eq!((dark.lights.len(), dark.world.ambient), (0, Scene::default().world.ambient));
+}
+
+/// All of `mount` was burnt out: its glass with a Kd of 0.1 had half of white from ambient light, once for each surface
+/// behind another.
+#[test]
+fn a_surface_scatters_of_ambient_light_what_it_scatters_of_lamps() {
+    let scene = read("l 0 0 9 f 1 .5 .2 .1 .1 101 .9 1.5 s 0 0 0 1 f 1 1 1 0 1 9 0 0 s 4 0 0 1").unwrap();
+    let [glass, mirror] = &scene.materials[..] else { panic!("two materials") };
+    assert_eq!((glass.color, glass.kd), (DVec3::new(0.1, 0.05, 0.2 * 0.1), 1.0));
+    assert_eq!(scene.world.ambient * glass.color, 0.1 * DVec3::new(0.5, 0.25, 0.1));
+    // What scatters nothing is asked for no light.
+    assert_eq!((mirror.color, mirror.kd), (DVec3::ZERO, 0.0));
 }
 
 #[test]

@@ -10,6 +10,7 @@ mod picture;
 mod plan;
 mod render;
 mod stats;
+mod terminal;
 mod values;
 
 use std::io::{self, IsTerminal, Write};

@@ -5,6 +5,7 @@
 //! traces the picture that was asked for last. None of them wakes by a clock: at rest the program does nothing
 //! and sends nothing.
 
+mod charset;
 mod events;
 mod help;
 mod keys;
@@ -26,6 +27,7 @@ use std::sync::{Arc, mpsc};
 use ratatui::crossterm::style::force_color_output;
 
 use crate::glyph::{GlyphMode, Palette};
+use crate::output::Capabilities;
 use crate::plan::Options;
 use crate::scene::Camera;
 use crate::tone::Tone;
@@ -53,6 +55,8 @@ pub struct Settings {
     pub palette: Palette,
     /// Light to level.
     pub tone: Tone,
+    /// What the terminal can be told and what it can draw.
+    pub terminal: Capabilities,
 }
 
 /// Why the viewer ended other than by a key.
@@ -82,7 +86,7 @@ pub fn run(painter: impl Painter + 'static, settings: Settings) -> Result<(), Ap
     // The caller has decided about colours, NO_COLOR included; crossterm shall not decide again.
     force_color_output(true);
     let (sender, events) = mpsc::channel();
-    let mut terminal = Terminal::take()?;
+    let mut terminal = Terminal::take(&settings.terminal)?;
     #[cfg(unix)]
     {
         signals::listen(sender.clone(), terminal.hold())?;

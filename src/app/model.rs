@@ -119,7 +119,7 @@ impl Model {
             Action::Home => self.go_home(painter),
             Action::ShadingDown => self.settings.options.shading = self.shading(usize::checked_sub),
             Action::ShadingUp => self.settings.options.shading = self.shading(usize::checked_add),
-            Action::NextGlyphs => self.settings.glyphs = after(&GlyphMode::ALL, self.settings.glyphs),
+            Action::NextGlyphs => self.settings.glyphs = self.next_glyphs(),
             Action::Help => self.help = true,
             Action::Suspend => return Effect::Suspend,
             Action::Quit => return Effect::Quit,
@@ -184,6 +184,14 @@ impl Model {
         let view = || painter.camera(self.settings.view, aspect);
         self.camera = self.settings.camera.clone().unwrap_or_else(view);
         self.moved = false;
+    }
+
+    /// The next set of characters that the terminal draws; the present one where it draws no other.
+    fn next_glyphs(&self) -> GlyphMode {
+        let now = self.settings.glyphs;
+        let drawn = |glyphs: &GlyphMode| *glyphs == now || self.settings.terminal.draws(*glyphs);
+        let all: Vec<_> = GlyphMode::ALL.into_iter().filter(drawn).collect();
+        after(&all, now)
     }
 
     /// The shading model one step away, or the present one where there is none.

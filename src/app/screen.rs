@@ -10,7 +10,7 @@ use ratatui::widgets::{Block, BorderType, Widget};
 use super::layout::Panels;
 use super::model::Model;
 use super::theme::Theme;
-use super::{help, keys, motion};
+use super::{charset, help, keys, motion};
 use crate::frame::Frame;
 use crate::math::DVec3;
 use crate::plan::Shading;
@@ -43,12 +43,16 @@ pub fn draw(model: &Model, shown: Option<&Shown>, buffer: &mut Buffer) {
         draw_panels(model, shown, panels, &theme, buffer);
     }
     let picture = model.layout.picture;
+    let terminal = &model.settings.terminal;
+    charset::fit(buffer, model.layout.screen, terminal);
+    // The picture is in characters that were chosen for it; what is written over it was not.
     match shown {
         Some(Shown { frame: Frame { cells: Some(cells), .. }, .. }) => Picture(cells).render(picture, buffer),
         _ => Line::from("tracing").centered().style(theme.dim).render(middle_row(picture), buffer),
     }
     if model.help {
-        help::draw(&theme, model.layout.screen, buffer);
+        let place = help::draw(&theme, model.layout.screen, buffer);
+        charset::fit(buffer, place, terminal);
     }
 }
 

@@ -7,7 +7,7 @@ use std::thread;
 
 use ratatui::backend::{Backend, CrosstermBackend};
 use ratatui::buffer::Buffer;
-use ratatui::crossterm::cursor::{Hide, Show};
+use ratatui::crossterm::cursor::{Hide, MoveTo, Show};
 use ratatui::crossterm::style::ResetColor;
 use ratatui::crossterm::terminal::{
     BeginSynchronizedUpdate, Clear, ClearType, EndSynchronizedUpdate, EnterAlternateScreen,
@@ -17,10 +17,11 @@ use ratatui::crossterm::{Command, queue};
 use ratatui::layout::{Rect, Size};
 
 use super::model::Window;
+use crate::output::Capabilities;
 
 type Hook = dyn Fn(&PanicHookInfo<'_>) + Send + Sync;
 
-/// A terminal in raw mode on its alternate screen, and what stands on it. Dropping it gives it back.
+/// A terminal in raw mode on its alternate screen, where it has one, and what stands on it. Dropping it gives it back.
 pub struct Terminal {
     hold: Hold,
     hook: Arc<Hook>,
@@ -32,13 +33,18 @@ pub struct Terminal {
 
 /// Whether the terminal is ours at the moment; shared by all threads that may have to give it back. Nothing is
 /// written to a terminal that is not ours.
-#[derive(Clone, Default)]
-pub struct Hold(Arc<Mutex<bool>>);
+#[derive(Clone)]
+pub struct Hold {
+    ours: Arc<Mutex<bool>>,
+    /// Whether there is a second screen. Where there is none, the one that there is is cleared at the end: the
+    /// shell goes on at its top.
+    alternate_screen: bool,
+}
 
 impl Terminal {
     /// Takes the terminal. From now on a panic on any thread gives it back before its message is printed.
-    pub fn take() -> io::Result<Self> {
-        let hold = Hold::default();
+    pub fn take(capabilities: &Capabilities) -> io::Result<Self> {
+        let hold = Hold { ours: Arc::default(), alternate_screen: capabilities.alternate_screen };
         let hook: Arc<Hook> = Arc::from(panic::take_hook());
         panic::set_hook(Box::new({
             let (hold, hook) = (hold.clone(), hook.clone());
@@ -120,21 +126,25 @@ impl Hold {
         }
         enable_raw_mode()?;
         *ours = true;
-        send(&commands(&[&EnterAlternateScreen, &Hide]))
+        if self.alternate_screen {
+            send(&commands(&[&EnterAlternateScreen, &Hide]))
+        } else {
+            send(&commands(&[&Hide]))
+        }
     }
 
     /// Gives the terminal back: cooked mode, the screen of before, the cursor, plain attributes.
     pub fn release(&self) -> io::Result<()> {
         let mut ours = self.lock();
-        release(&mut ours)
+        self.give_back(&mut ours)
     }
 
     /// Gives the terminal back as far as this goes without waiting: while another thread hangs in a write to a
     /// terminal that takes nothing, only its modes can be.
     pub fn release_now(&self) {
-        let _ = match self.0.try_lock() {
-            Ok(mut ours) => release(&mut ours),
-            Err(TryLockError::Poisoned(poison)) => release(&mut poison.into_inner()),
+        let _ = match self.ours.try_lock() {
+            Ok(mut ours) => self.give_back(&mut ours),
+            Err(TryLockError::Poisoned(poison)) => self.give_back(&mut poison.into_inner()),
             Err(TryLockError::WouldBlock) => disable_raw_mode(),
         };
     }
@@ -146,17 +156,22 @@ impl Hold {
 
     fn lock(&self) -> MutexGuard<'_, bool> {
         // A flag is whole after any panic.
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+        self.ours.lock().unwrap_or_else(PoisonError::into_inner)
     }
-}
 
-fn release(ours: &mut bool) -> io::Result<()> {
-    if !std::mem::take(ours) {
-        return Ok(());
+    fn give_back(&self, ours: &mut bool) -> io::Result<()> {
+        if !std::mem::take(ours) {
+            return Ok(());
+        }
+        // A panic may have come in the middle of an update. The modes go back even if the screen cannot.
+        let sent = if self.alternate_screen {
+            send(&commands(&[&EndSynchronizedUpdate, &ResetColor, &Show, &LeaveAlternateScreen, &Show]))
+        } else {
+            let clear = Clear(ClearType::All);
+            send(&commands(&[&EndSynchronizedUpdate, &ResetColor, &clear, &MoveTo(0, 0), &Show]))
+        };
+        disable_raw_mode().and(sent)
     }
-    // A panic may have come in the middle of an update. The modes go back even if the screen cannot.
-    let sent = send(&commands(&[&EndSynchronizedUpdate, &ResetColor, &Show, &LeaveAlternateScreen, &Show]));
-    disable_raw_mode().and(sent)
 }
 
 fn commands(commands: &[&dyn AnsiCommand]) -> Vec<u8> {

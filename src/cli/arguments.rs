@@ -158,9 +158,9 @@ pub struct PictureArguments {
     #[arg(long, value_enum, default_value = "auto")]
     pub precision: PrecisionName,
     /// Characters of the picture
-    #[arg(long, value_enum, default_value = "blocks")]
+    #[arg(long, value_enum, default_value = "auto")]
     pub glyphs: Glyphs,
-    /// Colours of the picture [default: dos; mono where `NO_COLOR` is set and in txt]
+    /// Colours of the picture [default: dos; mono in txt, where `NO_COLOR` is set, and where the terminal has no grays]
     #[arg(long, value_enum)]
     pub palette: Option<PaletteName>,
     /// How light becomes a level [default: lightness]

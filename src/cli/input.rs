@@ -10,6 +10,7 @@ use crate::scene::{
 
 use super::diagnostics;
 use super::error::{CliError, tell};
+use super::terminal::capabilities;
 
 /// Reads a scene: a file, `-` for standard input, or an embedded scene where there is no file of that name.
 pub fn read(file: &str, skip_unsupported: bool) -> Result<Scene, CliError> {
@@ -68,7 +69,8 @@ fn embedded_names(file: &str) -> String {
 }
 
 fn rendered(diagnostics: &Diagnostics) -> CliError {
-    CliError::Scene(diagnostics::render(diagnostics, std::io::stderr().is_terminal()))
+    let colors = std::io::stderr().is_terminal() && capabilities().has_grays();
+    CliError::Scene(diagnostics::render(diagnostics, colors))
 }
 
 /// Puts a scene together.

@@ -13,7 +13,7 @@ mod stats;
 mod terminal;
 mod values;
 
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -22,7 +22,7 @@ use crate::app::{self, Settings};
 use crate::scene::embedded;
 
 use arguments::{Arguments, Command, SceneArguments, ViewerArguments};
-use error::CliError;
+use error::{CliError, tell};
 
 /// The scene that the program shows when it is given none.
 const FIRST_SCENE: &str = "hanyang";
@@ -56,22 +56,27 @@ fn command(arguments: Arguments) -> Result<(), CliError> {
 fn view(arguments: &ViewerArguments) -> Result<(), CliError> {
     let file = arguments.file.as_deref().unwrap_or(FIRST_SCENE);
     let picture = &arguments.picture;
-    if !io::stdout().is_terminal() {
-        return render::still(file, arguments.skip_unsupported, picture);
+    let still = || render::still(file, arguments.skip_unsupported, picture);
+    let Some(terminal) = terminal::of_output() else { return still() };
+    if !terminal.cursor {
+        tell(&terminal::why_a_still());
+        return still();
     }
     // The viewer shows what it can, and says on the screen what it left out.
     let scene = input::read(file, true)?;
     let notes = scene.notes.clone();
     let studio = input::studio(scene)?;
     let view = picture.camera.view_index(studio.scene())?;
+    let look = picture.look(Some(&terminal));
     let settings = Settings {
         title: input::title(file),
         view: view.unwrap_or(0),
         camera: picture.moves_camera().then(|| picture.camera(&studio, 1.6)).transpose()?,
         options: picture.options()?,
-        glyphs: picture.glyphs.into(),
-        palette: picture.palette(),
+        glyphs: look.glyphs,
+        palette: look.palette,
         tone: picture.tone(),
+        terminal,
     };
     app::run(studio, settings)?;
     input::say(&notes);

@@ -2,6 +2,7 @@
 
 use std::env;
 use std::fs;
+use std::io::IsTerminal;
 use std::path::PathBuf;
 
 use crate::output::{Capabilities, Description, Environment, is_known};
@@ -19,6 +20,11 @@ const FOLDERS: [&str; 5] = [
 /// What the terminal can do.
 pub fn capabilities() -> Capabilities {
     Capabilities::of(&environment())
+}
+
+/// The same of standard output; nothing where that is no terminal.
+pub fn of_output() -> Option<Capabilities> {
+    std::io::stdout().is_terminal().then(capabilities)
 }
 
 /// Why there is no viewer on such a terminal.

@@ -5,6 +5,8 @@
 //! traces the picture that was asked for last. None of them wakes by a clock: at rest the program does nothing
 //! and sends nothing.
 
+mod around;
+mod caption;
 mod charset;
 mod events;
 mod help;
@@ -16,6 +18,7 @@ mod painter;
 mod screen;
 #[cfg(unix)]
 mod signals;
+mod status;
 mod terminal;
 mod theme;
 mod tracer;

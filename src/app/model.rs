@@ -155,6 +155,16 @@ impl Model {
         })
     }
 
+    /// How to get back to where something is to be seen, in words behind those that say so; empty where nobody has
+    /// gone anywhere.
+    pub const fn way_back(&self) -> &'static str {
+        match (self.moved, self.settings.camera.is_some()) {
+            (true, _) => ". Home goes back",
+            (false, true) => ". Tab goes to the view",
+            (false, false) => "",
+        }
+    }
+
     /// What the picture's panel calls the view.
     pub fn view_name(&self) -> String {
         let name = match &self.camera.name {

@@ -101,7 +101,7 @@ impl Viewer<'_> {
 
     fn screen(&self, shown: Option<&Shown>) -> Buffer {
         let mut buffer = Buffer::empty(self.model.layout.screen);
-        screen::draw(&self.model, shown, &mut buffer);
+        screen::draw(&self.model, shown, None, &mut buffer);
         buffer
     }
 

@@ -18,7 +18,7 @@ use super::blocks::Blocks;
 use super::gather::{PictureDots, TileDots};
 use super::kept::{Hits, Reused};
 use super::points::{Points, Tracer};
-use super::{Frame, Request, Space, Studio, Wants};
+use super::{Frame, NothingInView, Request, Space, Studio, Wants};
 
 /// One tile in this many is timed stage by stage: reading the clock at every change of stage costs about as much
 /// as the stage.
@@ -107,6 +107,7 @@ impl Studio {
             normal: dots.normal.map(Arc::new),
             object: dots.object.map(Arc::new),
             cells: None,
+            nothing: (counts.primary_hits == 0).then(|| NothingInView::cause(&self.assembly, &lens)),
             counts,
             times,
             objects: self.assembly.objects.len(),

@@ -1,7 +1,7 @@
 //! The full-screen viewer: keys in, pictures out, the terminal as it was afterwards.
 //!
 //! Three kinds of threads share the work. The one that calls [`run`] owns the model and the screen, and waits
-//! for things that happen; others wait for keys, for signals and for the connection's end, and say so; one
+//! for things that happen; others wait for the terminal and for signals, and say what came; one
 //! traces the picture that was asked for last. None of them wakes by a clock: at rest the program does nothing
 //! and sends nothing.
 
@@ -10,6 +10,8 @@ mod caption;
 mod charset;
 mod events;
 mod help;
+mod identity;
+mod input;
 mod keys;
 mod layout;
 mod model;
@@ -24,6 +26,7 @@ mod theme;
 mod tracer;
 mod viewer;
 
+use std::env;
 use std::io;
 use std::sync::{Arc, mpsc};
 
@@ -35,9 +38,10 @@ use crate::plan::Options;
 use crate::scene::Camera;
 use crate::tone::Tone;
 
+use events::Inbox;
 use model::Model;
 pub use painter::Painter;
-use terminal::Terminal;
+use terminal::{Replies, Terminal};
 use tracer::Tracer;
 use viewer::{End, Viewer};
 
@@ -91,17 +95,26 @@ pub fn run(painter: impl Painter + 'static, settings: Settings) -> Result<(), Ap
     let (sender, events) = mpsc::channel();
     let mut terminal = Terminal::take(&settings.terminal)?;
     #[cfg(unix)]
-    {
-        signals::listen(sender.clone(), terminal.hold())?;
-        signals::listen_for_hang_up(sender.clone())?;
-    }
-    events::listen_to_keys(sender.clone())?;
+    signals::listen(sender.clone(), terminal.hold())?;
+    events::listen_to_terminal(sender.clone())?;
+    let mut inbox = Inbox::new(events);
     let painter = Arc::new(painter);
     let tracer = Tracer::start(painter.clone(), sender)?;
     let model = Model::new(&*painter, settings, terminal::window());
-    let mut viewer = Viewer { painter: &*painter, model, shown: None, tracer, terminal: &mut terminal };
-    let end = viewer.run(&events);
+    let name = env::var("TERM").unwrap_or_default();
+    let replies = if identity::may_be_asked(&name) {
+        terminal.ask(identity::QUESTION, &mut inbox)?
+    } else {
+        Replies::default()
+    };
+    let _identity = identity::Identity::of(&replies.answers, &name);
+    let mut viewer =
+        Viewer { painter: &*painter, model, shown: None, tracer, terminal: &mut terminal, inbox: &mut inbox };
+    let end = viewer.run();
     drop(viewer);
+    if end.is_ok() {
+        terminal.give_back(&mut inbox)?;
+    }
     drop(terminal);
     match end? {
         End::Quit => Ok(()),

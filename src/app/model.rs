@@ -121,6 +121,8 @@ impl Model {
             Action::ShadingUp => self.settings.options.shading = self.shading(usize::checked_add),
             Action::NextGlyphs => self.settings.glyphs = self.next_glyphs(),
             Action::Help => self.help = true,
+            // What was open has been closed above.
+            Action::Close => {}
             Action::Suspend => return Effect::Suspend,
             Action::Quit => return Effect::Quit,
         }
@@ -370,15 +372,20 @@ mod tests {
 
     #[test]
     fn any_key_closes_the_help_and_does_nothing_else() {
-        for key in [Some(Action::Quit), Some(Action::OrbitLeft), Some(Action::Help), None] {
+        for key in
+            [Action::Quit, Action::OrbitLeft, Action::Help, Action::Close].map(Some).into_iter().chain([None])
+        {
             let mut model = model();
             press(&mut model, &[Action::Help]);
             assert!(model.help);
             assert_eq!(model.update(&three(), key), Effect::None);
             assert!(!model.help && !model.moved);
         }
-        assert_eq!(model().update(&three(), Some(Action::Quit)), Effect::Quit);
-        assert_eq!(model().update(&three(), Some(Action::Suspend)), Effect::Suspend);
+        let mut model = model();
+        assert_eq!(model.update(&three(), Some(Action::Close)), Effect::None);
+        assert!(!model.help && !model.moved, "where nothing is open, closing does nothing");
+        assert_eq!(model.update(&three(), Some(Action::Quit)), Effect::Quit);
+        assert_eq!(model.update(&three(), Some(Action::Suspend)), Effect::Suspend);
     }
 
     #[test]

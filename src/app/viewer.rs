@@ -1,12 +1,11 @@
 //! The loop of the viewer: wait for something to happen, change the model, show it.
 
-use std::iter;
-use std::sync::mpsc::Receiver;
 use std::time::{Duration, Instant};
 
 use ratatui::buffer::Buffer;
 
-use super::events::Event;
+use super::events::{Event, Gone, Inbox};
+use super::input::Answer;
 use super::model::{Effect, Model};
 use super::screen::{self, Shown};
 #[cfg(unix)]
@@ -23,6 +22,7 @@ pub struct Viewer<'a> {
     pub shown: Option<Shown>,
     pub tracer: Tracer,
     pub terminal: &'a mut Terminal,
+    pub inbox: &'a mut Inbox,
 }
 
 /// How the viewer ends when nothing fails.
@@ -37,13 +37,13 @@ pub enum End {
 impl Viewer<'_> {
     /// Shows the scene until the end. Everything that has already happened is taken in before the screen is
     /// drawn once, so keys never wait behind pictures.
-    pub fn run(&mut self, events: &Receiver<Event>) -> Result<End, AppError> {
+    pub fn run(&mut self) -> Result<End, AppError> {
         self.show(None)?;
         loop {
             // The threads that listen keep their ends of the channel for as long as there is a terminal.
-            let first = events.recv().map_err(|_| AppError::HungUp)?;
+            let mut next = self.inbox.next(None).map_err(|Gone| AppError::HungUp)?;
             let mut finished = None;
-            for event in iter::once(first).chain(events.try_iter()) {
+            while let Some(event) = next {
                 match event {
                     Event::Drawn(frame) => finished = Some(frame),
                     event => {
@@ -52,6 +52,7 @@ impl Viewer<'_> {
                         }
                     }
                 }
+                next = self.inbox.try_next();
             }
             self.show(finished)?;
         }
@@ -64,6 +65,7 @@ impl Viewer<'_> {
                 Effect::Suspend => self.suspend()?,
                 Effect::Quit => return Ok(Some(End::Quit)),
             },
+            Event::Answer(Answer::Status) => self.terminal.answered(),
             Event::Resized => self.model.resize(self.painter, terminal::window()),
             Event::Stopped => self.suspend()?,
             Event::Continued => {
@@ -74,7 +76,8 @@ impl Viewer<'_> {
             Event::HungUp => return Err(AppError::HungUp),
             Event::Failed(error) => return Err(error.into()),
             Event::Panicked => return Err(AppError::Panicked),
-            Event::Drawn(_) => {}
+            // An answer that came too late for its question.
+            Event::Answer(_) | Event::Drawn(_) => {}
         }
         Ok(None)
     }
@@ -109,7 +112,7 @@ impl Viewer<'_> {
     #[cfg(unix)]
     fn suspend(&mut self) -> Result<(), AppError> {
         if signals::can_stop() {
-            self.terminal.hold().release()?;
+            self.terminal.give_back(self.inbox)?;
             signals::stop()?;
         }
         Ok(())

@@ -198,7 +198,7 @@ fn a_text_read_in_stretches_means_the_same() {
         let text = long_text(lines);
         let whole = Reader::of(&text, 0..text.len()).finish("test", &text).unwrap();
         for bytes in [1, 10, 100, 1000] {
-            let Some(read) = in_stretches(&text, bytes) else {
+            let Some(read) = in_stretches(&text, bytes, None) else {
                 assert!(lines == 1 || text.len() < 2 * bytes, "{bytes} of {}", text.len());
                 continue;
             };

@@ -1,7 +1,5 @@
 //! The screen as a function of the state: frame, panels, status line, function keys.
 
-use std::time::Duration;
-
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
@@ -10,30 +8,13 @@ use ratatui::widgets::Widget;
 use super::around::{self, Labels};
 use super::layout::Around;
 use super::model::Model;
+use super::shown::Shown;
 use super::theme::Theme;
 use super::{caption, charset, help, status};
 use crate::frame::Frame;
 use crate::plan::Shading;
 use crate::stage::{Step, Task};
 use crate::widget::{FlowChart, Picture};
-
-/// The last finished picture and what it took to send it.
-#[derive(Clone, Debug)]
-pub struct Shown {
-    /// The picture.
-    pub frame: Frame,
-    /// Bytes to the terminal; 0 until they are known.
-    pub bytes: usize,
-    /// The time it took to draw the screen and turn it into these bytes.
-    pub display: Duration,
-}
-
-impl Shown {
-    /// From the request to the bytes, in milliseconds.
-    pub fn total_ms(&self) -> f64 {
-        self.frame.total.as_secs_f64() * 1e3 + self.display.as_secs_f64() * 1e3
-    }
-}
 
 /// Draws the whole screen into a buffer of its size; `working` is what is at work, where it takes long.
 pub fn draw(model: &Model, shown: Option<&Shown>, working: Option<Step>, buffer: &mut Buffer) {
@@ -133,6 +114,7 @@ fn note(model: &Model, shown: Option<&Shown>) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use std::sync::Arc;
+    use std::time::Duration;
 
     use ratatui::buffer::Cell;
     use ratatui::layout::Size;

@@ -2,7 +2,7 @@
 
 use super::model::Model;
 use super::motion;
-use super::screen::Shown;
+use super::shown::Shown;
 use crate::math::DVec3;
 use crate::widget::figures;
 

@@ -190,9 +190,14 @@ impl Capabilities {
         self.colors >= Colors::Indexed
     }
 
-    /// Whether it can draw the characters of a mode.
+    /// Whether it can draw the characters of a mode, and on their papers: the DOS set has papers 0 and 7 only, others
+    /// have any of the four grays.
     pub fn draws(&self, glyphs: GlyphMode) -> bool {
-        self.utf8 || glyphs == GlyphMode::Ascii
+        match glyphs {
+            GlyphMode::Ascii => true,
+            GlyphMode::Cp437 => self.utf8,
+            _ => self.utf8 && self.bright_papers,
+        }
     }
 }
 
@@ -276,6 +281,19 @@ mod tests {
             assert_eq!(of(term, "truecolor", "C.UTF-8").colors, Colors::None, "{term}");
         }
         assert!(is_known("xterm-kitty") && !is_known("xtermx") && !is_known(""));
+    }
+
+    #[test]
+    fn what_is_offered_can_be_drawn() {
+        let offered = |term: &str, locale: &str| {
+            let found = of(term, "", locale);
+            GlyphMode::ALL.into_iter().filter(|glyphs| found.draws(*glyphs)).collect::<Vec<_>>()
+        };
+        assert_eq!(offered("xterm", "C.UTF-8"), GlyphMode::ALL);
+        assert_eq!(offered("xterm", "C"), [GlyphMode::Ascii]);
+        for term in ["linux", "vt100", "screen"] {
+            assert_eq!(offered(term, "C.UTF-8"), [GlyphMode::Cp437, GlyphMode::Ascii], "{term}");
+        }
     }
 
     #[test]

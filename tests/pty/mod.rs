@@ -110,6 +110,7 @@ impl Pty {
 
         let mut shell = Command::new("sh");
         shell.env_remove("NO_COLOR").env_remove("RUST_BACKTRACE").env("TERM", "xterm-256color");
+        shell.env_remove("TMUX").env_remove("COLORTERM").env("LC_ALL", "C.UTF-8");
         shell.arg("-c").arg(script).arg("sh").arg(&pipe);
         shell.arg(size.columns.to_string()).arg(size.rows.to_string()).args(command);
         let process = UnixProcess::spawn_command(shell).unwrap();

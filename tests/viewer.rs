@@ -1,11 +1,14 @@
 //! The viewer in a real terminal: it draws, moves, follows the size, and gives the terminal back.
 #![cfg(all(unix, feature = "app"))]
 
+mod link;
 mod pty;
 
+use std::path::Path;
+use std::process::Command;
 use std::sync::atomic::{AtomicU32, Ordering};
-use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
+use std::{fs, thread};
 
 use pty::{Pty, Size};
 use ray13::app::{self, Painter, Settings};
@@ -20,6 +23,10 @@ const SMALLEST: Size = Size { columns: 80, rows: 24 };
 const USUAL: Size = Size { columns: 80, rows: 25 };
 
 const VIEWER: &str = env!("CARGO_BIN_EXE_ray13");
+
+/// What stands before an update, and behind it.
+const BEGIN_UPDATE: &str = "\x1b[?2026h";
+const STATUS_REQUEST: &[u8] = b"\x1b[5n";
 
 /// An embedded scene that looks different from every side.
 const SCENE: &str = "die";
@@ -115,6 +122,7 @@ fn the_help_lists_the_keys_and_any_key_closes_it() {
 #[test]
 fn a_key_without_a_meaning_sends_nothing() {
     let mut pty = viewer(SMALLEST);
+    pty.wait_for("the end of the picture", |pty| pty.log().ends_with(STATUS_REQUEST));
     let before = pty.log().len();
     pty.send("xq");
     pty.wait_for("the end", |pty| pty.text().contains("code=0"));
@@ -145,6 +153,60 @@ fn an_arrow_in_two_pieces_is_an_arrow() {
     }
     pty.send("q");
     pty.wait_for_end(0);
+}
+
+/// What is told beside a picture was sent before it, on its own.
+#[test]
+fn a_key_costs_one_write() {
+    let mut pty = viewer(SMALLEST);
+    pty.wait_for("the end of the picture", |pty| pty.log().ends_with(STATUS_REQUEST));
+    for presses in 1..=5 {
+        let (eye, before) = (pty.eye(), pty.log().len());
+        pty.send("\x1b[C");
+        pty.wait_for("another picture", |pty| pty.eye() != eye && pty.log().ends_with(STATUS_REQUEST));
+        let sent = String::from_utf8_lossy(&pty.log()[before..]).into_owned();
+        assert_eq!(sent.matches(BEGIN_UPDATE).count(), 1, "press {presses}: {sent:?}");
+    }
+}
+
+/// Every write is an update of its own, so that the count above is that of writes.
+#[test]
+fn an_update_is_one_write() {
+    if Command::new("strace").arg("-V").output().is_err() {
+        eprintln!("skipped: strace is not installed");
+        return;
+    }
+    let log = Path::new(env!("CARGO_TARGET_TMPDIR")).join("writes");
+    let trace = ["strace", "-f", "-qq", "-e", "trace=write", "-e", "write=none", "-s", "0", "-o"];
+    let command: Vec<&str> = trace.into_iter().chain([log.to_str().unwrap(), VIEWER, SCENE]).collect();
+    let mut pty = Pty::start(&command, SMALLEST);
+    pty.wait_for("the first picture", |pty| pty.drawn() && pty.log().ends_with(STATUS_REQUEST));
+    for _ in 0..5 {
+        let eye = pty.eye();
+        pty.send("\x1b[C");
+        pty.wait_for("another picture", |pty| pty.eye() != eye && pty.log().ends_with(STATUS_REQUEST));
+    }
+    let updates = String::from_utf8_lossy(pty.log()).matches(BEGIN_UPDATE).count();
+    pty.send("q");
+    pty.wait_for_end(0);
+    let writes = fs::read_to_string(log).unwrap();
+    let to_terminal = writes.lines().filter(|line| line.contains("write(1,")).count();
+    // The alternate screen, the question, and giving the terminal back are one each.
+    assert_eq!(to_terminal, updates + 3, "{writes}");
+}
+
+/// At rest nothing is sent, though a question may have no answer.
+#[test]
+fn at_rest_nothing_is_sent() {
+    for answers in [Some(Duration::ZERO), None] {
+        let mut pty = Pty::start(&[VIEWER, SCENE], SMALLEST);
+        pty.answer_after(answers);
+        pty.wait_for("the first picture", |pty| pty.drawn() && pty.log().ends_with(STATUS_REQUEST));
+        let before = pty.log().len();
+        let end = Instant::now() + Duration::from_millis(1_500);
+        while Instant::now() < end && pty.take_output(end) {}
+        assert_eq!(pty.log().len(), before);
+    }
 }
 
 #[test]

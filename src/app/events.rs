@@ -7,6 +7,7 @@ use std::time::Instant;
 
 use ratatui::crossterm::event::KeyEvent;
 
+use super::fence::Fence;
 use super::input::{self, Answer, Input};
 use crate::frame::Frame;
 use crate::stage::Step;
@@ -60,9 +61,18 @@ impl From<Input> for Event {
     }
 }
 
-/// Starts to listen to the terminal. The thread lasts as long as the process or the terminal.
-pub fn listen_to_terminal(events: Sender<Event>) -> io::Result<()> {
-    input::start(move |input| events.send(input.into()).is_ok())
+/// Starts to listen to the terminal. The thread lasts as long as the process or the terminal, whoever still listens, for
+/// an answer that is on its way is waited for.
+pub fn listen_to_terminal(events: Sender<Event>, fence: Fence) -> io::Result<()> {
+    input::start(move |input| {
+        match input {
+            Input::Answer(Answer::Status) => fence.answered(),
+            Input::HungUp | Input::Failed(_) => fence.forget(),
+            _ => {}
+        }
+        // Without a receiver the viewer has ended.
+        let _ = events.send(input.into());
+    })
 }
 
 /// The end of the channel where events arrive, and those that have been looked at and put aside.

@@ -11,7 +11,6 @@ use ratatui::widgets::Widget;
 
 use super::around::{self, Labels};
 use super::events::{Event, Gone, Inbox};
-use super::input::Answer;
 use super::keys::{self, Action};
 use super::layout::{Around, Layout};
 use super::suspend::suspend;
@@ -100,7 +99,7 @@ impl<P: Send + 'static, E: Send + 'static> Loading<P, E> {
             let layout = Layout::new(terminal::window().cells);
             let mut buffer = Buffer::empty(layout.screen);
             draw(opening, &layout, step, &mut buffer);
-            terminal.queue(buffer)?;
+            terminal.queue(buffer);
             terminal.send()?;
             match inbox.next(None).map_err(|Gone| AppError::HungUp)? {
                 Some(Event::Loaded) => {
@@ -109,12 +108,11 @@ impl<P: Send + 'static, E: Send + 'static> Loading<P, E> {
                 Some(Event::Working(now)) => step = now,
                 Some(Event::Key(key)) => match keys::action(key) {
                     Some(Action::Quit) => return Ok(Waited::Ended(End::Quit)),
-                    Some(Action::Suspend) => suspend(terminal, inbox)?,
+                    Some(Action::Suspend) => suspend(terminal)?,
                     _ => {}
                 },
-                Some(Event::Stopped) => suspend(terminal, inbox)?,
+                Some(Event::Stopped) => suspend(terminal)?,
                 Some(Event::Continued) => terminal.retake()?,
-                Some(Event::Answer(Answer::Status)) => terminal.answered(),
                 Some(Event::Terminated(signal)) => return Ok(Waited::Ended(End::Signal(signal))),
                 Some(Event::HungUp) => return Err(AppError::HungUp),
                 Some(Event::Failed(error)) => return Err(error.into()),

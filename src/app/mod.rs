@@ -2,13 +2,15 @@
 //!
 //! Three kinds of threads share the work. The one that calls [`run`] owns the model and the screen, and waits
 //! for things that happen; others wait for the terminal and for signals, and say what came; one
-//! traces the picture that was asked for last. None of them wakes by a clock: at rest the program does nothing
-//! and sends nothing.
+//! traces the picture that was asked for last. They wake by the clock only while something is waited for, the
+//! rest of a key or the terminal's answer: at rest the program does nothing and sends nothing.
 
 mod around;
 mod caption;
 mod charset;
+mod encoder;
 mod events;
+mod fence;
 mod help;
 mod identity;
 mod input;
@@ -17,6 +19,7 @@ mod layout;
 mod loading;
 mod model;
 mod motion;
+mod pacing;
 mod painter;
 mod screen;
 mod shown;
@@ -44,12 +47,15 @@ use crate::scene::Camera;
 use crate::stage::Progress;
 use crate::tone::Tone;
 
+pub(crate) use encoder::Encoder;
 use events::{Event, Inbox};
+use identity::Identity;
 pub use loading::Opening;
 use loading::{Loading, Waited};
 use model::Model;
+use pacing::Pacing;
 pub use painter::Painter;
-use terminal::{Replies, Terminal};
+use terminal::Terminal;
 use tracer::Tracer;
 use viewer::{End, Viewer};
 
@@ -169,7 +175,7 @@ impl Session {
         let terminal = Terminal::take(capabilities)?;
         #[cfg(unix)]
         signals::listen(sender.clone(), terminal.hold())?;
-        events::listen_to_terminal(sender.clone())?;
+        events::listen_to_terminal(sender.clone(), terminal.hold().fence())?;
         Ok(Self { terminal, inbox: Inbox::new(events), sender })
     }
 
@@ -178,25 +184,15 @@ impl Session {
         let tracer = Tracer::start(painter.clone(), self.sender.clone())?;
         let model = Model::new(&**painter, settings, terminal::window());
         let (terminal, inbox) = (&mut self.terminal, &mut self.inbox);
-        let name = env::var("TERM").unwrap_or_default();
-        let replies = if identity::may_be_asked(&name) {
-            terminal.ask(identity::QUESTION, inbox)?
-        } else {
-            Replies::default()
-        };
-        let _identity = identity::Identity::of(&replies.answers, &name);
-        let mut viewer =
-            Viewer { painter: &**painter, model, shown: None, working: None, tracer, terminal, inbox };
+        let pacing = look_ahead(terminal, inbox)?;
+        let mut viewer = Viewer::new(&**painter, model, tracer, terminal, inbox, pacing);
         let end = viewer.run();
         drop(viewer);
         self.end(end)
     }
 
     /// Gives the terminal back.
-    fn end(mut self, end: Result<End, AppError>) -> Result<(), AppError> {
-        if end.is_ok() {
-            self.terminal.give_back(&mut self.inbox)?;
-        }
+    fn end(self, end: Result<End, AppError>) -> Result<(), AppError> {
         drop(self.terminal);
         match end? {
             End::Quit => Ok(()),
@@ -208,4 +204,18 @@ impl Session {
             }
         }
     }
+}
+
+/// Asks who draws the screen, and how far away that is.
+fn look_ahead(terminal: &mut Terminal, inbox: &mut Inbox) -> io::Result<Pacing> {
+    let name = env::var("TERM").unwrap_or_default();
+    let mut pacing = Pacing::default();
+    let mut answers = Vec::new();
+    if identity::may_be_asked(&name) {
+        let replies = terminal.ask(identity::QUESTION, inbox)?;
+        pacing.asked(replies.took);
+        answers = replies.answers;
+    }
+    pacing.set_relayed(Identity::of(&answers, &name) == Identity::Relay);
+    Ok(pacing)
 }

@@ -36,6 +36,14 @@ pub struct Model {
     cell_aspect: f64,
 }
 
+/// What a picture shows, and how.
+#[derive(Clone, Debug)]
+pub struct Subject {
+    settings: Settings,
+    camera: Camera,
+    moved: bool,
+}
+
 /// What an action asks of the world around the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effect {
@@ -165,6 +173,18 @@ impl Model {
             (false, true) => ". Tab goes to the view",
             (false, false) => "",
         }
+    }
+
+    /// What is told of a picture beside it.
+    pub fn subject(&self) -> Subject {
+        Subject { settings: self.settings.clone(), camera: self.camera.clone(), moved: self.moved }
+    }
+
+    /// The state as it was when a picture was begun, as far as that is told of the picture; the rest as it is now.
+    #[must_use]
+    pub fn with(&self, subject: Subject) -> Self {
+        let Subject { settings, camera, moved } = subject;
+        Self { settings, camera, moved, ..self.clone() }
     }
 
     /// What the picture's panel calls the view.

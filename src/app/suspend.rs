@@ -1,16 +1,15 @@
 //! Stopping for a while, as Ctrl-Z asks for.
 
 use super::AppError;
-use super::events::Inbox;
 #[cfg(unix)]
 use super::signals;
 use super::terminal::Terminal;
 
 /// Gives the terminal back and stops; `Event::Continued` says when to take it again.
 #[cfg(unix)]
-pub fn suspend(terminal: &mut Terminal, inbox: &mut Inbox) -> Result<(), AppError> {
+pub fn suspend(terminal: &Terminal) -> Result<(), AppError> {
     if signals::can_stop() {
-        terminal.give_back(inbox)?;
+        terminal.hold().release()?;
         signals::stop()?;
     }
     Ok(())
@@ -18,6 +17,6 @@ pub fn suspend(terminal: &mut Terminal, inbox: &mut Inbox) -> Result<(), AppErro
 
 #[cfg(not(unix))]
 #[expect(clippy::unnecessary_wraps, reason = "one signature for all systems")]
-pub fn suspend(_: &mut Terminal, _: &mut Inbox) -> Result<(), AppError> {
+pub fn suspend(_: &Terminal) -> Result<(), AppError> {
     Ok(())
 }

@@ -1,37 +1,32 @@
 //! The terminal: taken, drawn on, and given back as it was, whatever ends the program.
 
-use std::io::{self, Write};
+use std::io;
+#[cfg(not(unix))]
+use std::io::Write;
 use std::panic::{self, PanicHookInfo};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use ratatui::backend::{Backend, CrosstermBackend};
 use ratatui::buffer::Buffer;
+use ratatui::crossterm::Command;
 use ratatui::crossterm::cursor::{Hide, MoveTo, Show};
 use ratatui::crossterm::style::ResetColor;
 use ratatui::crossterm::terminal::{
     BeginSynchronizedUpdate, Clear, ClearType, EndSynchronizedUpdate, EnterAlternateScreen,
     LeaveAlternateScreen, disable_raw_mode, enable_raw_mode, window_size,
 };
-use ratatui::crossterm::{Command, queue};
 use ratatui::layout::{Rect, Size};
 
+use super::encoder::Encoder;
 use super::events::{Event, Inbox};
+use super::fence::{self, Fence};
 use super::input::Answer;
 use super::model::Window;
 use crate::output::Capabilities;
 
 /// Asks a terminal to say that it has come this far (DSR 5, ECMA-48): every terminal since the VT100 answers.
 const STATUS_REQUEST: &[u8] = b"\x1b[5n";
-
-/// So long is an answer waited for where none has ever come: what a terminal across an ocean takes. A person who waits
-/// for the first picture, or for the shell, hardly notices.
-const UNKNOWN_PATIENCE: Duration = Duration::from_millis(200);
-
-/// So long are answers waited for at the end where the terminal has answered before, so that they are certainly on
-/// their way: the shell would take them for typed.
-const LAST_PATIENCE: Duration = Duration::from_secs(1);
 
 type Hook = dyn Fn(&PanicHookInfo<'_>) + Send + Sync;
 
@@ -42,17 +37,16 @@ pub struct Terminal {
     /// What the terminal shows.
     screen: Buffer,
     /// What is to be sent.
-    queue: Vec<u8>,
-    /// Status requests that have not been answered.
-    awaited: usize,
-    /// Whether one ever was.
-    answers: bool,
+    encoder: Encoder,
 }
 
 /// What is ours of the terminal at the moment; shared by all threads that may have to give it back. Nothing is
 /// written to a screen that is not ours.
 #[derive(Clone)]
-pub struct Hold(Arc<Mutex<Ours>>);
+pub struct Hold {
+    ours: Arc<Mutex<Ours>>,
+    fence: Fence,
+}
 
 #[derive(Clone, Copy, Debug, Default)]
 struct Ours {
@@ -67,15 +61,16 @@ struct Ours {
 pub struct Replies {
     /// The answers, in their order.
     pub answers: Vec<Answer>,
-    /// Whether the terminal has come to the end of the questions: what has not been answered never will be.
-    pub complete: bool,
+    /// How long it took until the terminal had come to the end of the questions, so that what has not been answered
+    /// never will be; absent where it has not come so far.
+    pub took: Option<Duration>,
 }
 
 impl Terminal {
     /// Takes the terminal. From now on a panic on any thread gives it back before its message is printed.
     pub fn take(capabilities: &Capabilities) -> io::Result<Self> {
         let ours = Ours { only_screen: !capabilities.alternate_screen, ..Ours::default() };
-        let hold = Hold(Arc::new(Mutex::new(ours)));
+        let hold = Hold { ours: Arc::new(Mutex::new(ours)), fence: Fence::default() };
         let hook: Arc<Hook> = Arc::from(panic::take_hook());
         panic::set_hook(Box::new({
             let (hold, hook) = (hold.clone(), hook.clone());
@@ -85,14 +80,8 @@ impl Terminal {
                 hook(info);
             }
         }));
-        let mut terminal = Self {
-            hold,
-            hook,
-            screen: Buffer::empty(Rect::ZERO),
-            queue: Vec::new(),
-            awaited: 0,
-            answers: false,
-        };
+        let mut terminal =
+            Self { hold, hook, screen: Buffer::empty(Rect::ZERO), encoder: Encoder::default() };
         terminal.retake()?;
         Ok(terminal)
     }
@@ -102,10 +91,12 @@ impl Terminal {
         self.hold.clone()
     }
 
-    /// Takes the terminal again, after [`Self::give_back`] or after something else has used it.
+    /// Takes the terminal again, after [`Hold::release`] or after something else has used it.
     pub fn retake(&mut self) -> io::Result<()> {
         self.hold.acquire()?;
         self.forget();
+        // What was on its way has come to whoever had the terminal.
+        self.hold.fence.forget();
         Ok(())
     }
 
@@ -115,49 +106,27 @@ impl Terminal {
     /// A terminal that does not know a question says nothing to it, but answers the status request, so that only one
     /// that answers nothing at all is waited for.
     pub fn ask(&mut self, questions: &[u8], inbox: &mut Inbox) -> io::Result<Replies> {
+        let begun = Instant::now();
         self.hold.write(&[questions, STATUS_REQUEST].concat())?;
-        self.awaited += 1;
-        let answers = self.wait_for_answers(UNKNOWN_PATIENCE, inbox);
-        Ok(Replies { answers, complete: self.awaited == 0 })
-    }
-
-    /// Notes that a status request was answered.
-    pub fn answered(&mut self) {
-        self.awaited = self.awaited.saturating_sub(1);
-        self.answers = true;
-    }
-
-    /// Gives the terminal back: the screen at once, its modes when the answers have come that are on their way, for
-    /// a shell would take them for typed. Keys that come meanwhile are put aside.
-    pub fn give_back(&mut self, inbox: &mut Inbox) -> io::Result<()> {
-        let sent = self.hold.release_screen();
-        let patience = if self.answers { LAST_PATIENCE } else { UNKNOWN_PATIENCE };
-        self.wait_for_answers(patience, inbox);
-        // Whatever comes later is no longer an answer to us.
-        self.awaited = 0;
-        self.hold.release().and(sent)
-    }
-
-    /// Waits for the answers to all status requests, and gives what was answered besides. All that happens meanwhile
-    /// is put aside.
-    fn wait_for_answers(&mut self, patience: Duration, inbox: &mut Inbox) -> Vec<Answer> {
-        let deadline = Instant::now() + patience;
-        let mut answers = Vec::new();
-        while self.awaited > 0 {
-            match inbox.next_arrival(Some(deadline)) {
-                Ok(Some(Event::Answer(Answer::Status))) => self.answered(),
-                Ok(Some(Event::Answer(answer))) => answers.push(answer),
-                Ok(Some(event)) => {
+        self.hold.fence.sent();
+        let mut replies = Replies::default();
+        while let Ok(Some(event)) = inbox.next_arrival(Some(begun + fence::UNKNOWN_PATIENCE)) {
+            match event {
+                Event::Answer(Answer::Status) => {
+                    replies.took = Some(begun.elapsed());
+                    break;
+                }
+                Event::Answer(answer) => replies.answers.push(answer),
+                event => {
                     let urgent = event.is_urgent();
                     inbox.put_aside(event);
                     if urgent {
                         break;
                     }
                 }
-                Ok(None) | Err(_) => break,
             }
         }
-        answers
+        Ok(replies)
     }
 
     /// Trusts nothing that stands on the screen: the next picture is sent whole.
@@ -165,31 +134,38 @@ impl Terminal {
         self.screen = Buffer::empty(Rect::ZERO);
     }
 
-    /// Queues what turns the screen into `next`; gives the number of bytes that are now to be sent.
-    pub fn queue(&mut self, next: Buffer) -> io::Result<usize> {
-        let mut backend = CrosstermBackend::new(&mut self.queue);
-        if self.screen.area != next.area {
-            queue!(backend, ResetColor, Clear(ClearType::All))?;
-            self.screen = Buffer::empty(next.area);
-        }
-        let changes = self.screen.diff(&next);
-        if !changes.is_empty() {
-            backend.draw(changes.into_iter())?;
-        }
-        self.screen = next;
-        Ok(self.queue.len())
+    /// Whether the terminal shows this screen already.
+    pub fn shows(&self, screen: &Buffer) -> bool {
+        self.screen == *screen
     }
 
-    /// Sends what is queued, in one write, for the terminal to show at once. Nothing queued, nothing sent.
-    pub fn send(&mut self) -> io::Result<()> {
-        if self.queue.is_empty() {
-            return Ok(());
+    /// Queues what turns the screen into `next`; gives the number of bytes that are now to be sent.
+    pub fn queue(&mut self, next: Buffer) -> usize {
+        if self.screen.area != next.area {
+            self.encoder.clear();
+            self.screen = Buffer::empty(next.area);
         }
-        let mut bytes = Vec::with_capacity(self.queue.len() + 16);
-        queue!(bytes, BeginSynchronizedUpdate)?;
-        bytes.append(&mut self.queue);
-        queue!(bytes, EndSynchronizedUpdate)?;
-        self.hold.write(&bytes)
+        self.encoder.turn(&self.screen, &next);
+        self.screen = next;
+        self.encoder.len()
+    }
+
+    /// Sends what is queued, in one write, for the terminal to show at once, and a status request behind it. Nothing
+    /// queued, nothing sent; gives whether anything was.
+    pub fn send(&mut self) -> io::Result<bool> {
+        let update = self.encoder.take();
+        if update.is_empty() {
+            return Ok(false);
+        }
+        let mut bytes = commands(&[&BeginSynchronizedUpdate]);
+        bytes.extend(update.as_bytes());
+        bytes.extend(commands(&[&EndSynchronizedUpdate]));
+        bytes.extend(STATUS_REQUEST);
+        let sent = self.hold.write(&bytes)?;
+        if sent {
+            self.hold.fence.sent();
+        }
+        Ok(sent)
     }
 }
 
@@ -215,38 +191,51 @@ impl Hold {
         }
         enable_raw_mode()?;
         (ours.screen, ours.modes) = (true, true);
-        let enter = commands(&[&EnterAlternateScreen, &Hide]);
-        send(if ours.only_screen { &commands(&[&Hide]) } else { &enter })
+        if ours.only_screen {
+            return send(&commands(&[&ResetColor, &Hide]));
+        }
+        // The alternate screen keeps colours with the cursor, and gives them back: they may be those of our last picture,
+        // after a stop that nobody could prepare.
+        send(&commands(&[&ResetColor, &EnterAlternateScreen, &Hide]))
     }
 
-    /// Gives the terminal back: cooked mode, the screen of before, the cursor, plain attributes.
+    /// The status requests that have not been answered.
+    pub fn fence(&self) -> Fence {
+        self.fence.clone()
+    }
+
+    /// Gives the terminal back: the screen of before, the cursor and plain attributes at once; cooked mode when the
+    /// answers have come that are on their way, for a shell would take them for typed.
     pub fn release(&self) -> io::Result<()> {
-        self.lock().release()
-    }
-
-    /// Gives back the screen of before, the cursor and plain attributes, but not the modes.
-    fn release_screen(&self) -> io::Result<()> {
-        self.lock().release_screen()
+        let sent = self.lock().release_screen();
+        if self.lock().modes {
+            self.fence.wait();
+        }
+        self.lock().release().and(sent)
     }
 
     /// Gives the terminal back as far as this goes without waiting: while another thread hangs in a write to a
     /// terminal that takes nothing, only its modes can be.
     pub fn release_now(&self) {
-        let _ = match self.0.try_lock() {
+        let _ = match self.ours.try_lock() {
             Ok(mut ours) => ours.release(),
             Err(TryLockError::Poisoned(poison)) => poison.into_inner().release(),
             Err(TryLockError::WouldBlock) => disable_raw_mode(),
         };
     }
 
-    fn write(&self, bytes: &[u8]) -> io::Result<()> {
+    /// Writes where the screen is ours; gives whether it is.
+    fn write(&self, bytes: &[u8]) -> io::Result<bool> {
         let ours = self.lock();
-        if ours.screen { send(bytes) } else { Ok(()) }
+        if ours.screen {
+            send(bytes)?;
+        }
+        Ok(ours.screen)
     }
 
     fn lock(&self) -> MutexGuard<'_, Ours> {
         // Flags are whole after any panic.
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+        self.ours.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -266,7 +255,7 @@ impl Ours {
         bytes.extend(if self.only_screen {
             commands(&[&Clear(ClearType::All), &MoveTo(0, 0)])
         } else {
-            commands(&[&LeaveAlternateScreen, &Show])
+            commands(&[&LeaveAlternateScreen, &ResetColor, &Show])
         });
         send(&bytes)
     }
@@ -292,6 +281,21 @@ impl<C: Command> AnsiCommand for C {
     }
 }
 
+/// Writes past the buffer of standard output, which would part what has a line's end in it.
+#[cfg(unix)]
+fn send(mut bytes: &[u8]) -> io::Result<()> {
+    let output = io::stdout().lock();
+    while !bytes.is_empty() {
+        match rustix::io::write(&output, bytes) {
+            Ok(written) => bytes = &bytes[written..],
+            Err(rustix::io::Errno::INTR) => {}
+            Err(error) => return Err(error.into()),
+        }
+    }
+    Ok(())
+}
+
+#[cfg(not(unix))]
 fn send(bytes: &[u8]) -> io::Result<()> {
     let mut output = io::stdout().lock();
     output.write_all(bytes)?;

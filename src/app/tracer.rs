@@ -41,9 +41,14 @@ impl Tracer {
         Ok(Self { mailbox, asked: None })
     }
 
+    /// Whether this is the request that was asked last.
+    pub fn has_been_asked(&self, request: &Request) -> bool {
+        self.asked.as_ref() == Some(request)
+    }
+
     /// Asks for a picture in place of any that has not been begun. The same request twice is asked once.
     pub fn ask(&mut self, request: Request) {
-        if self.asked.as_ref() != Some(&request) {
+        if !self.has_been_asked(&request) {
             self.mailbox.post(request.clone());
             self.asked = Some(request);
         }

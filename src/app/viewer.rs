@@ -5,27 +5,36 @@ use std::time::{Duration, Instant};
 use ratatui::buffer::Buffer;
 
 use super::events::{Event, Gone, Inbox};
+use super::identity::Identity;
 use super::input::Answer;
-use super::model::{Effect, Model};
+use super::model::{Effect, Model, Subject};
+use super::pacing::Pacing;
 use super::screen;
 use super::shown::Shown;
 use super::suspend::suspend;
 use super::terminal::{self, Terminal};
 use super::tracer::Tracer;
 use super::{AppError, Painter, keys};
-use crate::frame::Frame;
+use crate::frame::{Frame, Request};
 use crate::stage::Step;
 
 /// Model, picture and terminal together.
 pub struct Viewer<'a> {
-    pub painter: &'a dyn Painter,
-    pub model: Model,
-    pub shown: Option<Shown>,
+    painter: &'a dyn Painter,
+    model: Model,
+    tracer: Tracer,
+    terminal: &'a mut Terminal,
+    inbox: &'a mut Inbox,
+    pacing: Pacing,
+    shown: Option<Shown>,
     /// How far the next picture is, where it takes long.
-    pub working: Option<Step>,
-    pub tracer: Tracer,
-    pub terminal: &'a mut Terminal,
-    pub inbox: &'a mut Inbox,
+    working: Option<Step>,
+    /// What is told beside the picture that is shown.
+    subject: Subject,
+    /// What is to be told beside the picture that is being traced; absent while none is.
+    next_subject: Option<Subject>,
+    /// Whether something is to be shown that waits for the terminal.
+    waits: bool,
 }
 
 /// How the viewer ends when nothing fails.
@@ -37,14 +46,41 @@ pub enum End {
     Signal(i32),
 }
 
-impl Viewer<'_> {
+impl<'a> Viewer<'a> {
+    /// A viewer that has shown nothing yet.
+    pub fn new(
+        painter: &'a dyn Painter,
+        model: Model,
+        tracer: Tracer,
+        terminal: &'a mut Terminal,
+        inbox: &'a mut Inbox,
+        pacing: Pacing,
+    ) -> Self {
+        let subject = model.subject();
+        Self {
+            painter,
+            model,
+            tracer,
+            terminal,
+            inbox,
+            pacing,
+            shown: None,
+            working: None,
+            subject,
+            next_subject: None,
+            waits: false,
+        }
+    }
+
     /// Shows the scene until the end. Everything that has already happened is taken in before the screen is
     /// drawn once, so keys never wait behind pictures.
     pub fn run(&mut self) -> Result<End, AppError> {
         self.show(None)?;
         loop {
+            // By the clock it wakes only while something waits for the terminal.
+            let wakes = if self.waits { self.pacing.opens() } else { None };
             // The threads that listen keep their ends of the channel for as long as there is a terminal.
-            let mut next = self.inbox.next(None).map_err(|Gone| AppError::HungUp)?;
+            let mut next = self.inbox.next(wakes).map_err(|Gone| AppError::HungUp)?;
             let mut finished = None;
             while let Some(event) = next {
                 match event {
@@ -69,49 +105,94 @@ impl Viewer<'_> {
         match event {
             Event::Key(key) => match self.model.update(self.painter, keys::action(key)) {
                 Effect::None => {}
-                Effect::Suspend => suspend(self.terminal, self.inbox)?,
+                Effect::Suspend => suspend(self.terminal)?,
                 Effect::Quit => return Ok(Some(End::Quit)),
             },
-            Event::Answer(Answer::Status) => self.terminal.answered(),
+            Event::Answer(Answer::Status) => self.pacing.answered(Instant::now()),
+            // An answer that came too late for its question.
+            Event::Answer(answer) => {
+                if let Some(identity) = Identity::told(answer) {
+                    self.pacing.set_relayed(identity == Identity::Relay);
+                }
+            }
             Event::Resized => self.model.resize(self.painter, terminal::window()),
-            Event::Stopped => suspend(self.terminal, self.inbox)?,
+            Event::Stopped => suspend(self.terminal)?,
             Event::Continued => {
                 self.terminal.retake()?;
+                self.pacing.forget();
                 self.model.resize(self.painter, terminal::window());
             }
             Event::Terminated(signal) => return Ok(Some(End::Signal(signal))),
             Event::HungUp => return Err(AppError::HungUp),
             Event::Failed(error) => return Err(error.into()),
             Event::Panicked => return Err(AppError::Panicked),
-            // An answer that came too late for its question.
-            Event::Answer(_) | Event::Drawn(_) | Event::Working(_) | Event::Loaded => {}
+            Event::Drawn(_) | Event::Working(_) | Event::Loaded => {}
         }
         Ok(None)
     }
 
-    /// Asks for the picture of the model, and draws the screen, with a new picture if there is one.
+    /// Sends a finished picture, with what is told beside it, in one write; and, where the terminal has shown enough of
+    /// what was sent before, begins the next picture and sends what else has changed.
     fn show(&mut self, finished: Option<Box<Frame>>) -> Result<(), AppError> {
-        if let Some(request) = self.model.request() {
-            self.tracer.ask(request);
-        }
+        let now = Instant::now();
         if let Some(frame) = finished {
-            let begun = Instant::now();
-            // The picture first, with the figures of the one before; then, in the same write, its own.
-            let before =
-                self.shown.as_ref().map_or((0, Duration::ZERO), |shown| (shown.bytes, shown.display));
-            let mut shown = Shown { frame: *frame, bytes: before.0, display: before.1 };
-            shown.bytes = self.terminal.queue(self.screen(Some(&shown)))?;
-            shown.display = begun.elapsed();
-            self.shown = Some(shown);
+            // It was begun in time, so it is sent whatever else is on its way.
+            self.put(*frame);
+            self.send(now)?;
         }
-        self.terminal.queue(self.screen(self.shown.as_ref()))?;
-        self.terminal.send()?;
+        let open = self.pacing.is_open(now);
+        if open {
+            self.begin_picture(now);
+            self.terminal.queue(self.screen(self.shown.as_ref()));
+            if self.send(now)? {
+                self.pacing.begin(now);
+            }
+        }
+        self.waits = !open
+            && (self.next_request().is_some() || !self.terminal.shows(&self.screen(self.shown.as_ref())));
         Ok(())
+    }
+
+    /// The picture that is to be begun; absent while one is being traced, and where it has been.
+    fn next_request(&self) -> Option<Request> {
+        let request = self.model.request().filter(|request| !self.tracer.has_been_asked(request));
+        request.filter(|_| self.next_subject.is_none())
+    }
+
+    fn begin_picture(&mut self, now: Instant) {
+        if let Some(request) = self.next_request() {
+            self.tracer.ask(request);
+            self.next_subject = Some(self.model.subject());
+            self.pacing.begin(now);
+        } else if self.next_subject.is_none() {
+            self.subject = self.model.subject();
+        }
+    }
+
+    /// Puts a picture on the screen: first with the figures of the one before, then, in the same write, its own.
+    fn put(&mut self, frame: Frame) {
+        let begun = Instant::now();
+        self.subject = self.next_subject.take().unwrap_or_else(|| self.model.subject());
+        let before = self.shown.as_ref().map_or((0, Duration::ZERO), |shown| (shown.bytes, shown.display));
+        let mut shown = Shown { frame, bytes: before.0, display: before.1 };
+        shown.bytes = self.terminal.queue(self.screen(Some(&shown)));
+        shown.display = begun.elapsed();
+        self.terminal.queue(self.screen(Some(&shown)));
+        self.shown = Some(shown);
+    }
+
+    /// Sends what is queued; gives whether anything was.
+    fn send(&mut self, now: Instant) -> Result<bool, AppError> {
+        let sent = self.terminal.send()?;
+        if sent {
+            self.pacing.sent(now);
+        }
+        Ok(sent)
     }
 
     fn screen(&self, shown: Option<&Shown>) -> Buffer {
         let mut buffer = Buffer::empty(self.model.layout.screen);
-        screen::draw(&self.model, shown, self.working, &mut buffer);
+        screen::draw(&self.model.with(self.subject.clone()), shown, self.working, &mut buffer);
         buffer
     }
 }

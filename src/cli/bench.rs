@@ -2,12 +2,12 @@
 
 use std::time::{Duration, Instant};
 
-use ratatui::backend::{Backend, CrosstermBackend};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 use serde_json::{Value, json};
 
+use crate::app::Encoder;
 use crate::frame::{Frame, Request, Studio, Wants};
 use crate::math::DVec3;
 use crate::widget::Picture;
@@ -105,9 +105,9 @@ fn screen(frame: &Frame) -> Buffer {
 
 /// What a terminal is sent to turn one screen into the other.
 fn bytes_between(before: &Buffer, after: &Buffer) -> usize {
-    let mut sent = Vec::new();
-    let drawn = CrosstermBackend::new(&mut sent).draw(before.diff(after).into_iter());
-    drawn.map_or(0, |()| sent.len())
+    let mut encoder = Encoder::default();
+    encoder.turn(before, after);
+    encoder.len()
 }
 
 /// The most memory that the process has held, where the system tells.

@@ -1,9 +1,9 @@
 //! A screen of cells as text, with and without its colours.
 
-use std::fmt::Write as _;
 use std::io::{self, Write};
 
-use crate::glyph::{Cell, Paint};
+use super::sgr::Pen;
+use crate::glyph::Cell;
 use crate::math::Grid;
 
 /// The characters alone, one line per row of cells, each line at its full width. Colours are lost, so this is for
@@ -26,82 +26,24 @@ pub fn ansi(cells: &Grid<Cell>, out: &mut impl Write) -> io::Result<()> {
     let mut line = String::new();
     for row in cells.rows() {
         line.clear();
-        let mut now = Colours::TERMINAL;
+        let mut now = Pen::TERMINAL;
         for cell in row {
-            let ink = if cell.glyph == ' ' { now.ink } else { cell.ink };
-            now = now.change_to(Colours { ink, paper: cell.paper }, &mut line);
+            let meant = Pen::new(cell.ink.into(), cell.paper.into());
+            let next = if cell.glyph == ' ' { now.for_blank(meant) } else { meant };
+            now = now.change_to(next, &mut line);
             line.push(cell.glyph);
         }
-        now.change_to(Colours::TERMINAL, &mut line);
+        now.change_to(Pen::TERMINAL, &mut line);
         line.push('\n');
         out.write_all(line.as_bytes())?;
     }
     Ok(())
 }
 
-/// The colours that the terminal has been told.
-#[derive(Clone, Copy, PartialEq, Eq)]
-struct Colours {
-    ink: Paint,
-    paper: Paint,
-}
-
-impl Colours {
-    const TERMINAL: Self = Self { ink: Paint::Terminal, paper: Paint::Terminal };
-
-    /// Appends the shortest sequence that changes `self` to `next`, which is given back.
-    fn change_to(self, next: Self, line: &mut String) -> Self {
-        match (self.ink == next.ink, self.paper == next.paper) {
-            (true, true) => {}
-            _ if next == Self::TERMINAL => line.push_str("\x1b[m"),
-            (false, true) => sequence(line, &[(next.ink, Ground::Ink)]),
-            (true, false) => sequence(line, &[(next.paper, Ground::Paper)]),
-            (false, false) => sequence(line, &[(next.ink, Ground::Ink), (next.paper, Ground::Paper)]),
-        }
-        next
-    }
-}
-
-/// What a colour is set for, with what is added to the SGR parameters of an ink.
-#[derive(Clone, Copy)]
-enum Ground {
-    Ink = 0,
-    Paper = 10,
-}
-
-fn sequence(line: &mut String, colours: &[(Paint, Ground)]) {
-    line.push_str("\x1b[");
-    for (place, &(paint, ground)) in colours.iter().enumerate() {
-        if place > 0 {
-            line.push(';');
-        }
-        parameters(line, paint, ground);
-    }
-    line.push('m');
-}
-
-/// The SGR parameters of a colour: 30 + colour, 90 + colour for a bright one, 39 for the terminal's own; 38;5 and a
-/// number, or 38;2 and three bytes (with semicolons as xterm had them first, which every terminal reads).
-fn parameters(line: &mut String, paint: Paint, ground: Ground) {
-    let add = ground as u8;
-    let mut put = |code: std::fmt::Arguments| {
-        // A string takes every character.
-        let _ = line.write_fmt(code);
-    };
-    match paint {
-        Paint::Terminal => put(format_args!("{}", 39 + add)),
-        Paint::Black => put(format_args!("{}", 30 + add)),
-        Paint::DarkGray => put(format_args!("{}", 90 + add)),
-        Paint::LightGray => put(format_args!("{}", 37 + add)),
-        Paint::White => put(format_args!("{}", 97 + add)),
-        Paint::Indexed(index) => put(format_args!("{};5;{index}", 38 + add)),
-        Paint::Rgb([r, g, b]) => put(format_args!("{};2;{r};{g};{b}", 38 + add)),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::glyph::Paint;
     use crate::math::Size;
     use proptest::prelude::*;
     use std::num::NonZeroU16;

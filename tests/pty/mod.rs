@@ -109,8 +109,10 @@ impl Pty {
         });
 
         let mut shell = Command::new("sh");
-        shell.env_remove("NO_COLOR").env_remove("RUST_BACKTRACE").env("TERM", "xterm-256color");
-        shell.env_remove("TMUX").env_remove("COLORTERM").env("LC_ALL", "C.UTF-8");
+        for variable in ["NO_COLOR", "RUST_BACKTRACE", "TMUX", "STY", "COLORTERM"] {
+            shell.env_remove(variable);
+        }
+        shell.env("TERM", "xterm-256color").env("LC_ALL", "C.UTF-8");
         shell.arg("-c").arg(script).arg("sh").arg(&pipe);
         shell.arg(size.columns.to_string()).arg(size.rows.to_string()).args(command);
         let process = UnixProcess::spawn_command(shell).unwrap();
@@ -198,14 +200,8 @@ impl Pty {
         }
     }
 
-    /// Takes what comes in a time.
-    pub fn watch(&mut self, time: Duration) {
-        let end = Instant::now() + time;
-        while Instant::now() < end && self.take_output(end) {}
-    }
-
     /// Takes what comes next, or sends the answer that is due; `false` after the last process.
-    fn take_output(&mut self, deadline: Instant) -> bool {
+    pub fn take_output(&mut self, deadline: Instant) -> bool {
         let due = self.answers.sent.front().map(|&(due, _)| due);
         let until = due.map_or(deadline, |due| due.min(deadline));
         let left = until.saturating_duration_since(Instant::now());

@@ -20,8 +20,8 @@ mod reader {
 
     use super::Input;
 
-    /// Starts to read, until `tell` says that nobody listens.
-    pub fn start(mut tell: impl FnMut(Input) -> bool + Send + 'static) -> io::Result<()> {
+    /// Starts to read, and to tell what came.
+    pub fn start(mut tell: impl FnMut(Input) + Send + 'static) -> io::Result<()> {
         let read = move || {
             loop {
                 let input = match event::read() {
@@ -31,7 +31,8 @@ mod reader {
                     Err(error) => Input::Failed(error),
                 };
                 let last = matches!(input, Input::Failed(_));
-                if !tell(input) || last {
+                tell(input);
+                if last {
                     return;
                 }
             }

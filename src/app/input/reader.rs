@@ -12,9 +12,9 @@ use rustix::io::{Errno, read};
 use super::Input;
 use super::decoder::Decoder;
 
-/// Starts to read, until the terminal is gone or `tell` says that nobody listens. It wakes for bytes only, and by
+/// Starts to read, until the terminal is gone, and to tell what came. It wakes for bytes only, and by
 /// the clock only while a sequence is unfinished.
-pub fn start(tell: impl FnMut(Input) -> bool + Send + 'static) -> io::Result<()> {
+pub fn start(tell: impl FnMut(Input) + Send + 'static) -> io::Result<()> {
     let line = line()?;
     thread::Builder::new().name("keys".to_owned()).spawn(move || read_to_end(line, tell)).map(drop)
 }
@@ -25,7 +25,7 @@ fn line() -> io::Result<OwnedFd> {
     if input.is_terminal() { input.as_fd().try_clone_to_owned() } else { Ok(File::open("/dev/tty")?.into()) }
 }
 
-fn read_to_end(line: OwnedFd, mut tell: impl FnMut(Input) -> bool) {
+fn read_to_end(line: OwnedFd, mut tell: impl FnMut(Input)) {
     let mut decoder = Decoder::default();
     loop {
         let inputs = match next_inputs(&line, &mut decoder) {
@@ -35,7 +35,8 @@ fn read_to_end(line: OwnedFd, mut tell: impl FnMut(Input) -> bool) {
         };
         for input in inputs {
             let last = matches!(input, Input::HungUp | Input::Failed(_));
-            if !tell(input) || last {
+            tell(input);
+            if last {
                 return;
             }
         }

@@ -31,6 +31,9 @@ pub struct ViewerArguments {
     /// Leave out what OpenSCAD can show and ray13 can not (the viewer always does)
     #[arg(long)]
     pub skip_unsupported: bool,
+    /// Memory that the scene may take, as in 500MiB or 2GiB [default: half of the machine's]
+    #[arg(long, value_name = "BYTES", value_parser = values::bytes)]
+    pub memory: Option<u64>,
     #[command(flatten)]
     pub picture: PictureArguments,
 }
@@ -69,6 +72,9 @@ pub struct SceneArguments {
     /// Leave out what OpenSCAD can show and ray13 can not
     #[arg(long)]
     pub skip_unsupported: bool,
+    /// Memory that the scene may take, as in 500MiB or 2GiB [default: half of the machine's]
+    #[arg(long, value_name = "BYTES", value_parser = values::bytes)]
+    pub memory: Option<u64>,
 }
 
 #[derive(Clone, Debug, Args)]

@@ -26,7 +26,7 @@ const TURN: f64 = 5.0;
 /// Measures a scene and prints the figures.
 pub fn run(arguments: &BenchArguments) -> Result<(), CliError> {
     let reading = Instant::now();
-    let scene = input::read(&arguments.scene.file, arguments.scene.skip_unsupported)?;
+    let scene = input::read(&arguments.scene.file, arguments.scene.skip_unsupported, arguments.scene.memory)?;
     input::say(&scene.notes);
     let read = reading.elapsed();
     let studio = input::studio(scene)?;

@@ -11,15 +11,25 @@ use crate::stage::Progress;
 
 use super::diagnostics;
 use super::error::{CliError, tell};
+use super::memory;
 use super::terminal::capabilities;
 
 /// Reads a scene: a file, `-` for standard input, or an embedded scene where there is no file of that name.
-pub fn read(file: &str, skip_unsupported: bool) -> Result<Scene, CliError> {
-    read_with(file, &ReadOptions { skip_unsupported, ..ReadOptions::default() })
+///
+/// `memory` is how many bytes it may take, where that is said.
+pub fn read(file: &str, skip_unsupported: bool, memory: Option<u64>) -> Result<Scene, CliError> {
+    read_watched(file, skip_unsupported, memory, None)
 }
 
-/// The same with all options.
-pub fn read_with(file: &str, options: &ReadOptions) -> Result<Scene, CliError> {
+/// The same, where `progress` says how far this is.
+pub fn read_watched(
+    file: &str,
+    skip_unsupported: bool,
+    memory: Option<u64>,
+    progress: Option<Progress>,
+) -> Result<Scene, CliError> {
+    let memory = memory.or_else(memory::half_of_all);
+    let options = &ReadOptions { skip_unsupported, memory, progress, ..ReadOptions::default() };
     if file == "-" {
         let mut bytes = Vec::new();
         let limited = std::io::stdin().lock().take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes);

@@ -6,6 +6,7 @@ mod diagnostics;
 mod error;
 mod input;
 mod manual;
+mod memory;
 mod picture;
 mod plan;
 mod render;
@@ -21,7 +22,7 @@ use clap::Parser;
 
 use crate::app::{self, Opening, Settings};
 use crate::frame::Studio;
-use crate::scene::{ReadOptions, embedded};
+use crate::scene::embedded;
 use crate::stage::Progress;
 
 use arguments::{Arguments, Command, SceneArguments, ViewerArguments};
@@ -59,7 +60,7 @@ fn command(arguments: Arguments) -> Result<(), CliError> {
 fn view(arguments: &ViewerArguments) -> Result<(), CliError> {
     let file = arguments.file.as_deref().unwrap_or(FIRST_SCENE);
     let picture = &arguments.picture;
-    let still = || render::still(file, arguments.skip_unsupported, picture);
+    let still = || render::still(file, arguments.skip_unsupported, arguments.memory, picture);
     let Some(terminal) = terminal::of_output() else { return still() };
     if !terminal.cursor {
         tell(&terminal::why_a_still());
@@ -92,9 +93,7 @@ fn load(
     progress: &Progress,
 ) -> Result<(Studio, Settings), CliError> {
     // The viewer shows what it can, and says on the screen what it left out.
-    let options =
-        ReadOptions { skip_unsupported: true, progress: Some(progress.clone()), ..ReadOptions::default() };
-    let scene = input::read_with(file, &options)?;
+    let scene = input::read_watched(file, true, arguments.memory, Some(progress.clone()))?;
     let studio = input::watched_studio(scene, progress.clone())?;
     let picture = &arguments.picture;
     let view = picture.camera.view_index(studio.scene())?;
@@ -113,7 +112,7 @@ fn load(
 
 /// Reads and validates only.
 fn check(arguments: &SceneArguments) -> Result<(), CliError> {
-    let scene = input::read(&arguments.file, arguments.skip_unsupported)?;
+    let scene = input::read(&arguments.file, arguments.skip_unsupported, arguments.memory)?;
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
     let (scene, count) =

@@ -16,7 +16,7 @@ use super::{input, print};
 /// Explains a picture; draws it only where that is asked for.
 pub fn run(arguments: &PlanArguments) -> Result<(), CliError> {
     let reading = Instant::now();
-    let scene = input::read(&arguments.scene.file, arguments.scene.skip_unsupported)?;
+    let scene = input::read(&arguments.scene.file, arguments.scene.skip_unsupported, arguments.scene.memory)?;
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
     let read = reading.elapsed();

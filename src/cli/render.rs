@@ -25,7 +25,7 @@ pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
     let format = arguments.format.map_or_else(|| format_of(arguments.output.as_deref()), Ok)?;
     check(format, arguments.channel)?;
     let reading = Instant::now();
-    let scene = input::read(&arguments.scene.file, arguments.scene.skip_unsupported)?;
+    let scene = input::read(&arguments.scene.file, arguments.scene.skip_unsupported, arguments.scene.memory)?;
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
     let read = reading.elapsed();
@@ -57,8 +57,13 @@ pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
 }
 
 /// One still on standard output, which is no terminal, or one without a cursor: characters only.
-pub fn still(file: &str, skip_unsupported: bool, picture: &PictureArguments) -> Result<(), CliError> {
-    let scene = input::read(file, skip_unsupported)?;
+pub fn still(
+    file: &str,
+    skip_unsupported: bool,
+    memory: Option<u64>,
+    picture: &PictureArguments,
+) -> Result<(), CliError> {
+    let scene = input::read(file, skip_unsupported, memory)?;
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
     let look = look(picture, Format::Txt, terminal::of_output().as_ref());

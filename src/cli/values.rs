@@ -41,6 +41,27 @@ pub fn field(text: &str) -> Result<[f64; 2], String> {
     }
 }
 
+/// Bytes, as in `500MiB`.
+pub fn bytes(text: &str) -> Result<u64, String> {
+    const UNITS: [(&str, u64); 7] = [
+        ("KiB", 1 << 10),
+        ("MiB", 1 << 20),
+        ("GiB", 1 << 30),
+        ("kB", 1_000),
+        ("MB", 1_000_000),
+        ("GB", 1_000_000_000),
+        ("", 1),
+    ];
+    let digits = text.trim_end_matches(|c: char| c.is_ascii_alphabetic());
+    let unit = UNITS.iter().find(|(name, _)| name.eq_ignore_ascii_case(&text[digits.len()..]));
+    match (digits.trim().parse::<f64>(), unit) {
+        (Ok(number), Some((_, unit))) if number > 0.0 && number.is_finite() => {
+            Ok((number * *unit as f64) as u64)
+        }
+        _ => Err("expected a number of bytes above 0, or of KiB, MiB or GiB, as in 500MiB".into()),
+    }
+}
+
 /// A number above 0.
 pub fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
@@ -71,6 +92,10 @@ mod tests {
         assert_eq!(size("80x25"), Ok(Size::new(80, 25)));
         assert_eq!(point("0, -9,3e1"), Ok(DVec3::new(0.0, -9.0, 30.0)));
         assert_eq!(field("40x25"), Ok([40.0, 25.0]));
+        assert_eq!(
+            ["500MiB", "1.5 GiB", "2gb", "4096"].map(bytes),
+            [524_288_000, 1_610_612_736, 2_000_000_000, 4096].map(Ok)
+        );
     }
 
     #[test]
@@ -80,6 +105,9 @@ mod tests {
         }
         for text in ["", "1,2", "1,2,3,4", "1,2,nan", "1,2,inf", "a,b,c"] {
             assert!(point(text).is_err(), "{text}");
+        }
+        for text in ["", "0", "-1MiB", "MiB", "1TB", "nan", "1e999"] {
+            assert!(bytes(text).is_err(), "{text}");
         }
         for text in ["180x40", "0x40", "40", "nanx40"] {
             assert!(field(text).is_err(), "{text}");

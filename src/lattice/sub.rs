@@ -111,6 +111,10 @@ pub struct SubLattice {
 /// The first and the last cell along each axis.
 type Range = [(usize, usize); 3];
 
+/// Pruning recurses once per level of operators inside each other: deeper ones than a small stack allows for, which only
+/// programs write, and seldom, are asked as a whole.
+const DEEPEST: usize = 256;
+
 /// The content of a cell without surfaces, be it outside or inside.
 const NOTHING: u32 = u32::MAX;
 
@@ -118,7 +122,7 @@ impl SubLattice {
     /// The sub-lattice of the expression `tree` in the box `bounds`; `None` where it would be a single cell.
     fn new(tree: &Tree, primitives: &[Primitive], bounds: &Bounds, budget: Budget) -> Option<Self> {
         let leaves = tree.leaves();
-        if leaves.len() < 2 {
+        if leaves.len() < 2 || tree.depth() > DEEPEST {
             return None;
         }
         let boxes = leaves.iter().map(|&leaf| primitives[leaf as usize].form.bounds());

@@ -1,5 +1,6 @@
 //! What is wrong with an input, where, and what to do about it.
 
+use std::collections::HashMap;
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
@@ -135,11 +136,27 @@ pub(crate) struct Reported;
 #[derive(Debug, Default)]
 pub(crate) struct Sink {
     errors: Vec<Diagnostic>,
-    notes: Vec<Diagnostic>,
+    /// The notes, one of each kind.
+    notes: Vec<Kind>,
+    /// By message: the kind's place in `notes`.
+    kinds: HashMap<String, usize>,
+    /// Notes of kinds for which there was no place.
     uncounted_notes: usize,
+    /// Whether what is wrong with a part of the input leaves that part out, in place of an error.
+    leaves_out: bool,
 }
 
 impl Sink {
+    /// A sink for an input whose wrong parts are left out, where that is wanted.
+    pub fn new(leaves_out: bool) -> Self {
+        Self { leaves_out, ..Self::default() }
+    }
+
+    /// Whether what is wrong with a part of the input leaves that part out, with a note.
+    pub fn leaves_out(&self) -> bool {
+        self.leaves_out
+    }
+
     /// Takes an error.
     pub fn report(&mut self, diagnostic: Diagnostic) -> Reported {
         if !self.is_full() {
@@ -148,13 +165,23 @@ impl Sink {
         Reported
     }
 
-    /// Takes a note.
+    /// Takes a note. Notes with the same message are one, at the place of the first: what a program wrote wrong it wrote
+    /// thousands of times.
     pub fn note(&mut self, note: Diagnostic) {
-        if self.notes.len() < MAX_NOTES {
-            self.notes.push(note);
+        if let Some(&kind) = self.kinds.get(&note.message) {
+            self.notes[kind].add(note.span.start);
+        } else if self.notes.len() < MAX_NOTES {
+            self.kinds.insert(note.message.clone(), self.notes.len());
+            self.notes.push(Kind { starts: vec![note.span.start], count: 1, first: note });
         } else {
             self.uncounted_notes += 1;
         }
+    }
+
+    /// The note taken first, and how many there are in all.
+    pub fn first_note(&self) -> Option<(&Diagnostic, usize)> {
+        let first = &self.notes.first()?.first;
+        Some((first, self.notes.iter().map(|kind| kind.count).sum::<usize>() + self.uncounted_notes))
     }
 
     /// Whether a reader should stop.
@@ -170,20 +197,89 @@ impl Sink {
     /// The notes as sentences, where there was no error; else all remarks.
     pub fn finish(self, source_name: &str, source: &str) -> Result<Vec<String>, Diagnostics> {
         let stopped = self.is_full();
+        let lines = Lines::of(source, self.notes.iter().flat_map(|kind| kind.starts.iter().copied()));
+        let counted: Vec<_> = self.notes.into_iter().map(|kind| kind.counted(&lines)).collect();
         if !self.errors.is_empty() {
             let source_name = source_name.to_owned();
-            let mut list: Vec<_> = self.errors.into_iter().chain(self.notes).collect();
+            let mut list: Vec<_> = self.errors.into_iter().chain(counted).collect();
             list.sort_by_key(|diagnostic| diagnostic.span.start);
             return Err(Diagnostics { source_name, source: Arc::from(source), list, stopped });
         }
-        let mut notes: Vec<String> = self
-            .notes
-            .iter()
-            .map(|note| format!("line {}: {}", place(source, note.span.start).0, note.message))
+        let mut notes: Vec<String> = counted
+            .into_iter()
+            .map(|note| {
+                let detail = if note.label.is_empty() { String::new() } else { format!(": {}", note.label) };
+                format!("line {}: {}{detail}", lines.line(note.span.start), note.message)
+            })
             .collect();
         if self.uncounted_notes > 0 {
-            notes.push(format!("and {} more notes of this kind", self.uncounted_notes));
+            notes.push(format!("and {} more notes of other kinds", self.uncounted_notes));
         }
         Ok(notes)
+    }
+}
+
+/// Notes that say the same of several places.
+#[derive(Debug)]
+struct Kind {
+    first: Diagnostic,
+    count: usize,
+    /// Where the first few of them stand.
+    starts: Vec<usize>,
+}
+
+impl Kind {
+    /// How many places are kept.
+    const SHOWN: usize = 5;
+
+    fn add(&mut self, start: usize) {
+        self.count += 1;
+        if self.starts.len() < Self::SHOWN {
+            self.starts.push(start);
+        }
+    }
+
+    /// One note for all, which says how many there are, and in which lines the first of them.
+    fn counted(self, lines: &Lines) -> Diagnostic {
+        let mut numbers: Vec<usize> = self.starts.iter().map(|&start| lines.line(start)).collect();
+        numbers.dedup();
+        let place = match (self.count, numbers.as_slice()) {
+            (1, _) => return self.first,
+            (_, [_]) => String::new(),
+            (count, [numbers @ .., last]) if count == self.starts.len() => {
+                let numbers: Vec<_> = numbers.iter().map(usize::to_string).collect();
+                format!(", in lines {} and {last}", numbers.join(", "))
+            }
+            (_, numbers) => {
+                let numbers: Vec<_> = numbers.iter().take(4).map(usize::to_string).collect();
+                format!(", in lines {} and on", numbers.join(", "))
+            }
+        };
+        let message = format!("{} ({} times{place})", self.first.message, self.count);
+        Diagnostic { message, ..self.first }
+    }
+}
+
+/// The lines of a few places of a text, counted in one go through it: texts may be long.
+#[derive(Debug)]
+struct Lines(HashMap<usize, usize>);
+
+impl Lines {
+    fn of(source: &str, starts: impl Iterator<Item = usize>) -> Self {
+        let mut starts: Vec<_> = starts.collect();
+        starts.sort_unstable();
+        let (mut line, mut from) = (1, 0);
+        let counted = starts.into_iter().map(|start| {
+            let between = source.as_bytes().get(from..start).unwrap_or_default();
+            line += between.iter().filter(|&&byte| byte == b'\n').count();
+            from = start;
+            (start, line)
+        });
+        Self(counted.collect())
+    }
+
+    /// The line of a place, from 1.
+    fn line(&self, start: usize) -> usize {
+        self.0.get(&start).copied().unwrap_or(1)
     }
 }

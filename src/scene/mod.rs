@@ -3,6 +3,7 @@
 mod diagnostic;
 mod embedded;
 mod language;
+mod memory;
 mod model;
 mod nff;
 mod read;

@@ -2,6 +2,7 @@
 //! degrees, colours and intensities linear light.
 
 use std::sync::Arc;
+use std::vec::Drain;
 
 use crate::math::{Bounds, DAffine3, DVec3};
 
@@ -67,25 +68,65 @@ pub enum Solid {
 impl Solid {
     /// Calls `f` with each primitive, in file order.
     pub fn visit<'a>(&'a self, f: &mut impl FnMut(&'a Primitive)) {
+        self.fold(f, &mut |_, _| ());
+    }
+
+    /// The operands of an operator; none of a primitive.
+    fn operands(&self) -> &[Self] {
         match self {
-            Self::Primitive(p) => f(p),
-            Self::Union(c) | Self::Intersection(c) | Self::Difference(c) => c.iter().for_each(|s| s.visit(f)),
+            Self::Primitive(_) => &[],
+            Self::Union(c) | Self::Intersection(c) | Self::Difference(c) => c,
+        }
+    }
+
+    /// What `leaf` makes of the primitives, in file order, put together by `join` at each operator, from the innermost
+    /// outwards. Does not recurse: solids may be nested deeper than a thread's stack allows for.
+    pub fn fold<'a, T>(
+        &'a self,
+        leaf: &mut impl FnMut(&'a Primitive) -> T,
+        join: &mut impl FnMut(&'a Self, Drain<'_, T>) -> T,
+    ) -> T {
+        if let Self::Primitive(primitive) = self {
+            return leaf(primitive);
+        }
+        // By operator that is open: the operands to come, and where the values of the others begin.
+        let mut open = vec![(self, self.operands().iter(), 0)];
+        let mut values = Vec::new();
+        loop {
+            let Some((solid, rest, start)) = open.last_mut() else { return join(self, values.drain(..)) };
+            match rest.next() {
+                Some(Self::Primitive(primitive)) => values.push(leaf(primitive)),
+                Some(inner) => open.push((inner, inner.operands().iter(), values.len())),
+                None => {
+                    let value = join(solid, values.drain(*start..));
+                    open.pop();
+                    if open.is_empty() {
+                        return value;
+                    }
+                    values.push(value);
+                }
+            }
         }
     }
 
     /// Whether it is the same but for materials.
     fn is_shaped_as(&self, other: &Self) -> bool {
-        match (self, other) {
-            (Self::Primitive(a), Self::Primitive(b)) => {
-                (&a.shape, &a.map, &a.map_error) == (&b.shape, &b.map, &b.map_error)
+        let mut open = vec![(self, other)];
+        while let Some(both) = open.pop() {
+            match both {
+                (Self::Primitive(a), Self::Primitive(b))
+                    if (&a.shape, &a.map, &a.map_error) == (&b.shape, &b.map, &b.map_error) => {}
+                (Self::Union(a), Self::Union(b))
+                | (Self::Intersection(a), Self::Intersection(b))
+                | (Self::Difference(a), Self::Difference(b))
+                    if a.len() == b.len() =>
+                {
+                    open.extend(a.iter().zip(b));
+                }
+                _ => return false,
             }
-            (Self::Union(a), Self::Union(b))
-            | (Self::Intersection(a), Self::Intersection(b))
-            | (Self::Difference(a), Self::Difference(b)) => {
-                a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.is_shaped_as(b))
-            }
-            _ => false,
         }
+        true
     }
 }
 

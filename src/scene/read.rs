@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use super::{Diagnostic, Diagnostics, Scene, language, nff};
+use super::{Diagnostic, Diagnostics, Scene, language, memory, nff};
 use crate::stage::Progress;
 
 /// The largest file that is read: 256 MiB.
@@ -37,6 +37,8 @@ pub struct ReadOptions {
     pub format: Option<Format>,
     /// Where to write how far the reading is, for who watches.
     pub progress: Option<Progress>,
+    /// Bytes of memory that the scene, and what will show it, may take; as many as there are where it is not given.
+    pub memory: Option<u64>,
 }
 
 /// Why a file gave no scene.
@@ -71,6 +73,7 @@ pub fn read_file(path: &Path, options: &ReadOptions) -> Result<Scene, ReadError>
     if metadata.len() > MAX_FILE_BYTES {
         return Err(too_large(&name).into());
     }
+    check_room(&name, metadata.len(), options)?;
     // The length above is a promise only of plain files: a pipe or a growing file is cut off here.
     let mut bytes = Vec::with_capacity(metadata.len() as usize + 1);
     file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(file_error)?;
@@ -92,10 +95,19 @@ pub fn read(name: &str, bytes: &[u8], options: &ReadOptions) -> Result<Scene, Di
     if bytes.len() as u64 > MAX_FILE_BYTES {
         return Err(too_large(name));
     }
+    check_room(name, bytes.len() as u64, options)?;
     let text = text(name, bytes)?;
     match options.format.unwrap_or_else(|| Format::of(name)) {
         Format::Language => language::read(name, text, options),
         Format::Nff => nff::read(name, text, options.progress.as_ref()),
+    }
+}
+
+/// Whether there is memory for the text alone.
+fn check_room(name: &str, bytes: u64, options: &ReadOptions) -> Result<(), Diagnostics> {
+    match options.memory {
+        Some(limit) if bytes > limit => Err(Diagnostics::whole(name, memory::too_little(limit, bytes))),
+        _ => Ok(()),
     }
 }
 

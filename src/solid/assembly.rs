@@ -225,15 +225,14 @@ impl Datum {
 
 /// A box around what a solid shows: a difference reaches no further than what it cuts from.
 fn bounds_of(solid: &Solid) -> Bounds {
-    match solid {
-        Solid::Primitive(p) => p.shape.bounds().mapped(&p.map),
-        Solid::Union(parts) => parts.iter().map(bounds_of).fold(Bounds::EMPTY, |b, part| b.join(&part)),
-        Solid::Intersection(parts) => {
-            let met = parts.iter().map(bounds_of).reduce(|b, part| b.meet(&part));
+    solid.fold(&mut |p| p.shape.bounds().mapped(&p.map), &mut |solid, mut parts| match solid {
+        Solid::Primitive(_) | Solid::Union(_) => parts.fold(Bounds::EMPTY, |b, part| b.join(&part)),
+        Solid::Intersection(_) => {
+            let met = parts.reduce(|b, part| b.meet(&part));
             met.filter(|b| !b.is_empty()).unwrap_or(Bounds::EMPTY)
         }
-        Solid::Difference(parts) => parts.first().map_or(Bounds::EMPTY, bounds_of),
-    }
+        Solid::Difference(_) => parts.next().unwrap_or(Bounds::EMPTY),
+    })
 }
 
 /// Why a scene can not be put together. Readers refuse such scenes with the place in their text.

@@ -3,6 +3,8 @@
 //! Union, intersection and difference become two operators, *any* and *all*, over children that may be negated.
 //! A box in which a primitive is certainly inside or outside replaces it by a constant, and the constants fold.
 
+use std::vec::Drain;
+
 use crate::math::{Bounds, DVec3};
 use crate::scene::Solid;
 
@@ -44,29 +46,30 @@ impl Tree {
     /// of nothing.
     pub fn new(solid: &Solid, next: &mut u32) -> Option<Self> {
         let plain = |tree| Child { tree, negated: false };
-        match solid {
-            Solid::Primitive(_) => {
-                let leaf = Self::Leaf(*next);
-                *next += 1;
-                Some(leaf)
+        let mut leaf = |_| {
+            let leaf = Self::Leaf(*next);
+            *next += 1;
+            Some(leaf)
+        };
+        solid.fold(&mut leaf, &mut |solid, mut children| match solid {
+            Solid::Primitive(_) | Solid::Union(_) => {
+                fold(Self::Any(children.flatten().map(plain).collect()), false)
             }
-            Solid::Union(children) => {
-                let children = children.iter().filter_map(|c| Self::new(c, next)).map(plain).collect();
-                fold(Self::Any(children), false)
-            }
-            Solid::Intersection(children) => {
-                let children: Vec<_> = children.iter().map(|c| Self::new(c, next)).collect();
-                let children: Option<Vec<_>> = children.into_iter().map(|c| c.map(plain)).collect();
+            Solid::Intersection(_) => {
+                let children: Option<Vec<_>> = children.map(|c| c.map(plain)).collect();
                 fold(Self::All(children?), false)
             }
-            Solid::Difference(children) => {
-                let mut children =
-                    children.iter().map(|c| Self::new(c, next)).collect::<Vec<_>>().into_iter();
+            Solid::Difference(_) => {
                 let first = children.next().flatten().map(plain);
                 let cuts = children.flatten().map(|tree| Child { tree, negated: true });
                 fold(Self::All(std::iter::once(first?).chain(cuts).collect()), false)
             }
-        }
+        })
+    }
+
+    /// How many operators stand inside each other at most.
+    pub fn depth(&self) -> usize {
+        self.fold_up(|_| 0, |_, operands| 1 + operands.max().unwrap_or(0))
     }
 
     /// The expression inside a box.
@@ -84,57 +87,86 @@ impl Tree {
 
     /// The primitives it depends on, in file order.
     pub fn leaves(&self) -> Vec<u32> {
-        let mut found = Vec::new();
-        self.visit(&mut |leaf| found.push(leaf));
+        let (mut found, mut open) = (Vec::new(), vec![self]);
+        while let Some(tree) = open.pop() {
+            match tree {
+                Self::Leaf(leaf) => found.push(*leaf),
+                Self::Any(children) | Self::All(children) => {
+                    open.extend(children.iter().rev().map(|c| &c.tree))
+                }
+            }
+        }
         found
     }
 
-    fn visit(&self, f: &mut impl FnMut(u32)) {
-        match self {
-            Self::Leaf(leaf) => f(*leaf),
-            Self::Any(children) | Self::All(children) => children.iter().for_each(|c| c.tree.visit(f)),
+    /// What `leaf` makes of the primitives, put together by `join` at each operator, from the innermost outwards. Does not
+    /// recurse, as [`Solid::fold`].
+    fn fold_up<T>(&self, leaf: impl Fn(u32) -> T, join: impl Fn(&Self, Drain<'_, T>) -> T) -> T {
+        let children = match self {
+            Self::Leaf(index) => return leaf(*index),
+            Self::Any(children) | Self::All(children) => children,
+        };
+        let mut open = vec![(self, children.iter(), 0)];
+        let mut values = Vec::new();
+        loop {
+            let Some((tree, rest, start)) = open.last_mut() else { return join(self, values.drain(..)) };
+            match rest.next().map(|child| &child.tree) {
+                Some(Self::Leaf(index)) => values.push(leaf(*index)),
+                Some(inner @ (Self::Any(children) | Self::All(children))) => {
+                    open.push((inner, children.iter(), values.len()));
+                }
+                None => {
+                    let value = join(tree, values.drain(*start..));
+                    open.pop();
+                    if open.is_empty() {
+                        return value;
+                    }
+                    values.push(value);
+                }
+            }
         }
     }
 
     /// How far the solid reaches along `v` at most. A difference reaches no further than what it cuts from.
     pub fn support(&self, primitives: &[Primitive], v: DVec3) -> f64 {
-        match self {
-            Self::Leaf(index) => primitives[*index as usize].form.support(v),
-            Self::Any(children) => {
-                let own = children.iter().map(|c| c.tree.support(primitives, v));
-                own.fold(f64::NEG_INFINITY, f64::max)
-            }
-            Self::All(children) => {
-                let own = children.iter().filter(|c| !c.negated).map(|c| c.tree.support(primitives, v));
-                own.fold(f64::INFINITY, f64::min)
-            }
-        }
+        self.fold_up(
+            |index| primitives[index as usize].form.support(v),
+            |tree, own| match tree {
+                Self::All(children) => kept(children, own).fold(f64::INFINITY, f64::min),
+                _ => own.fold(f64::NEG_INFINITY, f64::max),
+            },
+        )
     }
 
     /// The solids that it puts together: the operands of its unions, and of unions in those, or itself.
     pub fn parts(&self) -> Vec<&Self> {
-        match self {
-            Self::Any(children) if children.iter().all(|child| !child.negated) => {
-                children.iter().flat_map(|child| child.tree.parts()).collect()
+        let (mut parts, mut open) = (Vec::new(), vec![self]);
+        while let Some(tree) = open.pop() {
+            match tree {
+                Self::Any(children) if children.iter().all(|child| !child.negated) => {
+                    open.extend(children.iter().rev().map(|child| &child.tree));
+                }
+                whole => parts.push(whole),
             }
-            whole => vec![whole],
         }
+        parts
     }
 
     /// A box around the solid. A difference reaches no further than what it cuts from.
     pub fn bounds(&self, primitives: &[Primitive]) -> Bounds {
-        match self {
-            Self::Leaf(index) => primitives[*index as usize].form.bounds(),
-            Self::Any(children) => {
-                children.iter().fold(Bounds::EMPTY, |b, c| b.join(&c.tree.bounds(primitives)))
-            }
-            Self::All(children) => {
-                let mut own = children.iter().filter(|c| !c.negated).map(|c| c.tree.bounds(primitives));
-                let first = own.next().unwrap_or(Bounds::EMPTY);
-                own.fold(first, |b, c| b.meet(&c))
-            }
-        }
+        self.fold_up(
+            |index| primitives[index as usize].form.bounds(),
+            |tree, own| match tree {
+                Self::All(children) => kept(children, own).reduce(|b, c| b.meet(&c)).unwrap_or(Bounds::EMPTY),
+                _ => own.fold(Bounds::EMPTY, |b, c| b.join(&c)),
+            },
+        )
     }
+}
+
+/// Of the values of children those that are taken as they are.
+fn kept<T>(children: &[Child], values: impl Iterator<Item = T>) -> impl Iterator<Item = T> {
+    children.iter().zip(values).filter(|(child, _)| !child.negated).map(|(_, value)| value)
 }
 
 /// `stop` is the value of a child that decides the operator: true for *any*, false for *all*.
@@ -214,7 +246,7 @@ impl Expression {
     /// Lays a tree out.
     pub fn new(tree: &Tree) -> Self {
         let (mut leaves, mut nodes) = (Vec::new(), Vec::new());
-        flatten(tree, Link { node: Link::ROOT, negated: false }, &mut leaves, &mut nodes);
+        flatten(tree, &mut leaves, &mut nodes);
         Self { leaves: leaves.into(), nodes: nodes.into() }
     }
 
@@ -224,23 +256,40 @@ impl Expression {
     }
 }
 
-fn flatten(tree: &Tree, parent: Link, leaves: &mut Vec<Leaf>, nodes: &mut Vec<Node>) -> bool {
-    let (children, all) = match tree {
-        Tree::Leaf(primitive) => {
-            leaves.push(Leaf { primitive: *primitive, parent });
-            return false;
+/// An operator that is laid out, while its children are.
+struct Laying<'t> {
+    node: usize,
+    rest: std::slice::Iter<'t, Child>,
+    negated: bool,
+}
+
+/// Lays a tree out: operators before their children, primitives in file order.
+fn flatten(tree: &Tree, leaves: &mut Vec<Leaf>, nodes: &mut Vec<Node>) {
+    let mut open: Vec<Laying<'_>> = Vec::new();
+    let mut next = Some((tree, false));
+    loop {
+        let node = open.last().map_or(Link::ROOT, |laying| laying.node as u32);
+        // The value outside of all primitives, of what ends here.
+        let ended = match next {
+            Some((Tree::Leaf(primitive), negated)) => {
+                leaves.push(Leaf { primitive: *primitive, parent: Link { node, negated } });
+                Some(negated)
+            }
+            Some((operator @ (Tree::Any(children) | Tree::All(children)), negated)) => {
+                let threshold = if matches!(operator, Tree::All(_)) { children.len() as u32 } else { 1 };
+                open.push(Laying { node: nodes.len(), rest: children.iter(), negated });
+                nodes.push(Node { parent: Link { node, negated }, threshold, initial: 0 });
+                None
+            }
+            None => open.pop().map(|laying| {
+                let node = &nodes[laying.node];
+                (node.initial >= node.threshold) != laying.negated
+            }),
+        };
+        let Some(laying) = open.last_mut() else { return };
+        if ended == Some(true) {
+            nodes[laying.node].initial += 1;
         }
-        Tree::Any(children) => (children, false),
-        Tree::All(children) => (children, true),
-    };
-    let index = nodes.len();
-    let threshold = if all { children.len() as u32 } else { 1 };
-    nodes.push(Node { parent, threshold, initial: 0 });
-    for child in children {
-        let link = Link { node: index as u32, negated: child.negated };
-        if flatten(&child.tree, link, leaves, nodes) != child.negated {
-            nodes[index].initial += 1;
-        }
+        next = laying.rest.next().map(|child| (&child.tree, child.negated));
     }
-    nodes[index].initial >= threshold
 }

@@ -1,4 +1,4 @@
-//! The syntax tree: what stands where in the text, before any word has a meaning.
+//! What stands where in the text, before any word has a meaning.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -30,14 +30,18 @@ pub struct Name<'a> {
     pub span: Span,
 }
 
-/// A file: top-level assignments and calls, each in file order.
-#[derive(Debug, Default)]
-pub struct File<'a> {
-    pub assignments: Vec<(Name<'a>, Spanned<'a>)>,
-    pub calls: Vec<Call<'a>>,
+/// What the parser comes upon, in file order. Nothing holds a whole file: what is read is used and forgotten.
+#[derive(Debug)]
+pub enum Event<'a> {
+    /// A call begins; its children, if any, come before its [`Event::Close`].
+    Open(Call<'a>),
+    /// The call that was opened last, and not yet closed, ends.
+    Close,
+    /// `name = value;` at the top level.
+    Assignment(Name<'a>, Spanned<'a>),
 }
 
-/// `* name(arguments) children`
+/// `* name(arguments)` and what follows it.
 #[derive(Debug)]
 pub struct Call<'a> {
     pub modifiers: Modifiers,
@@ -45,7 +49,8 @@ pub struct Call<'a> {
     /// From the opening to the closing parenthesis.
     pub parentheses: Span,
     pub arguments: Vec<Argument<'a>>,
-    pub children: Vec<Call<'a>>,
+    /// Whether a `;` ends it, so that it has no children.
+    pub is_ended: bool,
 }
 
 /// The characters `* ! # %` before a call.
@@ -73,14 +78,17 @@ pub struct Spanned<'a> {
     pub span: Span,
 }
 
-/// A literal. Numbers are finite.
+/// A literal.
 #[derive(Debug)]
 pub enum Value<'a> {
     Undef,
     Flag(bool),
+    /// Not finite only where the reader leaves out what is wrong.
     Number(f64),
     Text(Cow<'a, str>),
     List(Vec<Spanned<'a>>),
+    /// A list inside more lists than any word takes; what is in it is not kept.
+    DeepList,
 }
 
 impl Value<'_> {
@@ -96,7 +104,7 @@ impl Value<'_> {
             Value::List(items) if items.iter().all(|item| matches!(item.value, Value::Number(_))) => {
                 format!("a list of {} number{}", items.len(), if items.len() == 1 { "" } else { "s" })
             }
-            Value::List(_) => "a list".into(),
+            Value::List(_) | Value::DeepList => "a list".into(),
         }
     }
 }

@@ -5,6 +5,8 @@ mod csg;
 mod documentation;
 mod hostile;
 mod language;
+mod leaves;
+mod nesting;
 mod polyhedra;
 
 use crate::math::{Bounds, DVec3};
@@ -55,8 +57,13 @@ fn bounds(primitive: &Primitive) -> Bounds {
     own.mapped(&primitive.map)
 }
 
-/// The structure of a scene's solids in a few letters: primitives by their place in the file.
+/// The structure of a text's solids in a few letters: primitives by their place in the file.
 fn structure(text: &str) -> String {
+    structured(&scene(text))
+}
+
+/// The structure of a scene's solids in a few letters.
+fn structured(scene: &Scene) -> String {
     fn write(solid: &Solid, next: &mut usize) -> String {
         let mut join = |solids: &[Solid], sign: &str| {
             let parts: Vec<String> = solids.iter().map(|solid| write(solid, next)).collect();
@@ -73,6 +80,5 @@ fn structure(text: &str) -> String {
         }
     }
     let mut next = 0;
-    let objects = scene(text).objects;
-    objects.iter().map(|object| write(&object.solid, &mut next)).collect::<Vec<_>>().join(", ")
+    scene.objects.iter().map(|object| write(&object.solid, &mut next)).collect::<Vec<_>>().join(", ")
 }

@@ -1,12 +1,13 @@
 //! The arguments of a call, matched with the parameters of its word and checked against what they take.
 
 use super::colors;
+use super::lost::Lost;
 use crate::math::DVec3;
 use crate::scene::Diagnostic;
 use crate::scene::diagnostic::{Reported, Sink};
 use crate::scene::language::nearest::{nearest, quoted};
 use crate::scene::language::syntax::{Argument, Call, Span, Spanned, Value};
-use crate::scene::language::vocabulary::{FRAGMENT_SETTINGS, Parameter, Takes, Word};
+use crate::scene::language::vocabulary::{FRAGMENT_SETTINGS, Meaning, Parameter, Takes, Word};
 
 /// The arguments of one call, each at its parameter.
 pub struct Arguments<'c, 'a> {
@@ -43,6 +44,10 @@ impl<'c, 'a> Arguments<'c, 'a> {
     }
 
     fn setting(&mut self, name: &str, argument: &Argument<'a>, sink: &mut Sink) -> Result<(), Reported> {
+        if sink.leaves_out() && !FRAGMENT_SETTINGS.contains(&name) {
+            // OpenSCAD passes on every variable of this kind, and most programs have some of their own.
+            return Ok(());
+        }
         let number = setting(
             name,
             argument.name.map_or(argument.value.span, |name| name.span),
@@ -121,15 +126,27 @@ impl<'c, 'a> Arguments<'c, 'a> {
     }
 
     /// The error of an argument that must be given.
-    pub fn missing(&self, name: &str, sink: &mut Sink) -> Reported {
+    pub fn missing(&self, name: &str, sink: &mut Sink) -> Lost {
         let parameter = self.word.arguments.iter().find(|parameter| parameter.name == name);
         let takes = parameter.map_or("", |parameter| parameter.takes.describe());
         let message = format!("`{}` needs `{name}`", self.word.name);
         let error = Diagnostic::error(self.call.name.span.to(self.call.parentheses), message);
-        sink.report(error.help(format!("give it: {name} = {takes}")))
+        self.refuse(error.help(format!("give it: {name} = {takes}")), Lost::Empty, sink)
     }
 
-    fn wrong(&self, parameter: &Parameter, value: &Spanned<'_>, sink: &mut Sink) -> Reported {
+    /// An error of the call; where wrong parts are left out, a note that a primitive, or what a map holds, is `lost`.
+    pub fn refuse(&self, error: Diagnostic, lost: Lost, sink: &mut Sink) -> Lost {
+        let name = self.word.name;
+        let what = match self.word.meaning {
+            Meaning::Solid(_) if sink.leaves_out() => format!("`{name}` is left out"),
+            Meaning::Map(_) if sink.leaves_out() => format!("what `{name}` holds is left out"),
+            _ => return sink.report(error).into(),
+        };
+        sink.note(Diagnostic::note(error.span, format!("{what}: {}", error.message)).label(error.label));
+        lost
+    }
+
+    fn wrong(&self, parameter: &Parameter, value: &Spanned<'_>, sink: &mut Sink) -> Lost {
         let takes = parameter.takes;
         let message = format!("`{}` of `{}` takes {}", parameter.name, self.word.name, takes.describe());
         // Of a list with one number out of range, that number is what is wrong.
@@ -143,25 +160,49 @@ impl<'c, 'a> Arguments<'c, 'a> {
         };
         let error =
             Diagnostic::error(wrong.span, message).label(format!("this is {}", wrong.value.describe()));
-        sink.report(match wrong.value {
+        match wrong.value {
             Value::Number(number) if takes == Takes::Color && number > 1.0 => {
-                error.help("of 0 to 255 take the 255th part")
+                self.refuse(error.help("of 0 to 255 take the 255th part"), Lost::Missing, sink)
             }
-            _ => error,
-        })
+            // A size of nothing makes nothing; what a text makes in place of a size nobody knows.
+            Value::Number(_) => self.refuse(error, Lost::Empty, sink),
+            _ => self.refuse(error, Lost::Missing, sink),
+        }
     }
 
     /// A number, in the range that the parameter takes.
-    pub fn number(&self, name: &str, sink: &mut Sink) -> Result<Option<f64>, Reported> {
+    pub fn number(&self, name: &str, sink: &mut Sink) -> Result<Option<f64>, Lost> {
         let Some((parameter, value)) = self.get(name) else { return Ok(None) };
         match value.value {
+            Value::Number(number) if self.is_clamped(parameter, &[number], value, sink) => {
+                Ok(Some(clamped(number)))
+            }
             Value::Number(number) if in_range(number, parameter.takes) => Ok(Some(number)),
             _ => Err(self.wrong(parameter, value, sink)),
         }
     }
 
+    /// Whether numbers that are no colour are taken as the nearest that is one, which is said: where wrong parts are left
+    /// out, a part is not left out for its colour.
+    fn is_clamped(
+        &self,
+        parameter: &Parameter,
+        numbers: &[f64],
+        value: &Spanned<'_>,
+        sink: &mut Sink,
+    ) -> bool {
+        let is_color = parameter.takes == Takes::Color || self.word.meaning == Meaning::Color;
+        let is_wrong = numbers.iter().any(|&number| !in_range(number, parameter.takes));
+        if !(is_color && is_wrong && sink.leaves_out()) {
+            return false;
+        }
+        let message = format!("a colour of `{}` is clamped to the range from 0 to 1", self.word.name);
+        sink.note(Diagnostic::note(value.span, message));
+        true
+    }
+
     /// `true` or `false`; false where not given.
-    pub fn flag(&self, name: &str, sink: &mut Sink) -> Result<bool, Reported> {
+    pub fn flag(&self, name: &str, sink: &mut Sink) -> Result<bool, Lost> {
         match self.get(name) {
             None => Ok(false),
             Some((_, Spanned { value: Value::Flag(flag), .. })) => Ok(*flag),
@@ -170,7 +211,7 @@ impl<'c, 'a> Arguments<'c, 'a> {
     }
 
     /// A text that is not empty.
-    pub fn text(&self, name: &str, sink: &mut Sink) -> Result<Option<&'c str>, Reported> {
+    pub fn text(&self, name: &str, sink: &mut Sink) -> Result<Option<&'c str>, Lost> {
         match self.get(name) {
             None => Ok(None),
             Some((_, Spanned { value: Value::Text(text), .. })) if !text.is_empty() => Ok(Some(text)),
@@ -180,7 +221,7 @@ impl<'c, 'a> Arguments<'c, 'a> {
 
     /// A point, or what the parameter takes in place of one: a number stands for three equal ones, two
     /// numbers for three whose last is `rest`.
-    pub fn triple(&self, name: &str, rest: f64, sink: &mut Sink) -> Result<Option<DVec3>, Reported> {
+    pub fn triple(&self, name: &str, rest: f64, sink: &mut Sink) -> Result<Option<DVec3>, Lost> {
         let Some((parameter, value)) = self.get(name) else { return Ok(None) };
         let takes = parameter.takes;
         let triple = match &value.value {
@@ -204,7 +245,7 @@ impl<'c, 'a> Arguments<'c, 'a> {
     }
 
     /// Two angles inside `0 < angle < 180`.
-    pub fn field(&self, name: &str, sink: &mut Sink) -> Result<Option<[f64; 2]>, Reported> {
+    pub fn field(&self, name: &str, sink: &mut Sink) -> Result<Option<[f64; 2]>, Lost> {
         let Some((parameter, value)) = self.get(name) else { return Ok(None) };
         match numbers(&value.value).as_deref() {
             Some(&[across, down]) if [across, down].iter().all(|&angle| in_range(angle, Takes::Field)) => {
@@ -215,12 +256,12 @@ impl<'c, 'a> Arguments<'c, 'a> {
     }
 
     /// A colour in linear light, and its alpha where it names one.
-    pub fn color(&self, name: &str, sink: &mut Sink) -> Result<Option<(DVec3, Option<f64>)>, Reported> {
+    pub fn color(&self, name: &str, sink: &mut Sink) -> Result<Option<(DVec3, Option<f64>)>, Lost> {
         let Some((parameter, value)) = self.get(name) else { return Ok(None) };
         match &value.value {
             Value::Text(text) => match colors::by_name(text) {
                 Some(color) => Ok(Some(color)),
-                None => Err(sink.report(no_color(text, value.span))),
+                None => Err(sink.report(no_color(text, value.span)).into()),
             },
             other => match numbers(other).as_deref() {
                 Some(rgb @ ([_, _, _] | [_, _, _, _]))
@@ -228,10 +269,19 @@ impl<'c, 'a> Arguments<'c, 'a> {
                 {
                     Ok(Some((DVec3::new(rgb[0], rgb[1], rgb[2]), rgb.get(3).copied())))
                 }
+                Some(rgb @ ([_, _, _] | [_, _, _, _])) if self.is_clamped(parameter, rgb, value, sink) => {
+                    let color = DVec3::new(rgb[0], rgb[1], rgb[2]).to_array().map(clamped);
+                    Ok(Some((DVec3::from_array(color), rgb.get(3).copied().map(clamped))))
+                }
                 _ => Err(self.wrong(parameter, value, sink)),
             },
         }
     }
+}
+
+/// The nearest share of light.
+fn clamped(number: f64) -> f64 {
+    number.max(0.0).min(1.0)
 }
 
 fn no_color(name: &str, place: Span) -> Diagnostic {
@@ -277,12 +327,13 @@ pub fn numbers(value: &Value<'_>) -> Option<Vec<f64>> {
 }
 
 fn in_range(number: f64, takes: Takes) -> bool {
-    match takes {
+    let is_allowed = match takes {
         Takes::Positive | Takes::Size => number > 0.0,
         Takes::NotNegative | Takes::Glow => number >= 0.0,
         Takes::Share | Takes::Color => (0.0..=1.0).contains(&number),
         Takes::Field => 0.0 < number && number < 180.0,
         Takes::Factor => number != 0.0,
         _ => true,
-    }
+    };
+    is_allowed && number.is_finite()
 }

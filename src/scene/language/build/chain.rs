@@ -4,7 +4,6 @@ use std::rc::Rc;
 
 use crate::math::{Bounds, DAffine3, DMat3, DVec3, is_singular, product_rest};
 use crate::scene::Diagnostic;
-use crate::scene::diagnostic::{Reported, Sink};
 use crate::scene::language::syntax::Span;
 
 /// What the numbers of a turn lost before they were there, as a share of 1: three turns by Rodrigues' formula, 9 roundings
@@ -44,25 +43,17 @@ struct Link {
 
 impl Chain {
     /// The chain with `own` below it, where that is finite and can be undone; `place` is the word of `own`.
-    pub fn then(
-        &self,
-        own: DAffine3,
-        numbers: Numbers,
-        place: Span,
-        sink: &mut Sink,
-    ) -> Result<Self, Reported> {
+    pub fn then(&self, own: DAffine3, numbers: Numbers, place: Span) -> Result<Self, Diagnostic> {
         let product = self.product * own;
         if !product.is_finite() {
             let error =
                 Diagnostic::error(place, "the numbers up to here multiply to more than a 64-bit float holds");
-            return Err(sink.report(error.label("too large with what stands above it")));
+            return Err(error.label("too large with what stands above it"));
         }
         // `own` by itself, too: what a product makes of a flat map is flat only up to rounding.
         if is_singular(&own.matrix3) || is_singular(&product.matrix3) {
             let error = Diagnostic::error(place, "the map up to here is singular: it makes solids flat");
-            return Err(
-                sink.report(error.help("a map must keep three directions apart; a scale must not be 0"))
-            );
+            return Err(error.help("a map must keep three directions apart; a scale must not be 0"));
         }
         let link = Link {
             own,
@@ -120,12 +111,11 @@ mod tests {
     const UNIT: Bounds = Bounds::new(DVec3::NEG_ONE, DVec3::ONE);
 
     fn chain(numbers: Numbers, maps: &[DAffine3]) -> Chain {
-        let mut sink = Sink::default();
         let mut chain = Chain::default();
         for &map in maps {
             chain = chain
-                .then(map, numbers, Span { start: 0, end: 0 }, &mut sink)
-                .unwrap_or_else(|Reported| panic!("{map}"));
+                .then(map, numbers, Span { start: 0, end: 0 })
+                .unwrap_or_else(|error| panic!("{map}: {error:?}"));
         }
         chain
     }

@@ -2,14 +2,15 @@
 
 use super::arguments::{Arguments, numbers};
 use super::degrees;
+use super::lost::Lost;
 use crate::math::{DAffine3, DMat3, DVec3};
 use crate::scene::Diagnostic;
-use crate::scene::diagnostic::{Reported, Sink};
+use crate::scene::diagnostic::Sink;
 use crate::scene::language::syntax::{Spanned, Value};
 use crate::scene::language::vocabulary::MapWord;
 
 /// The map of a call alone.
-pub fn map_of(word: MapWord, arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<DAffine3, Reported> {
+pub fn map_of(word: MapWord, arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<DAffine3, Lost> {
     match word {
         MapWord::Multmatrix => multmatrix(arguments, sink),
         MapWord::Translate => {
@@ -28,19 +29,22 @@ pub fn map_of(word: MapWord, arguments: &Arguments<'_, '_>, sink: &mut Sink) -> 
     }
 }
 
-fn multmatrix(arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<DAffine3, Reported> {
+fn multmatrix(arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<DAffine3, Lost> {
     let Some(value) = arguments.value("m") else { return Err(arguments.missing("m", sink)) };
     let Some(rows) = rows(value) else {
         let error = Diagnostic::error(value.span, "`m` of `multmatrix` takes 4 or 3 rows of 4 numbers");
         let label = format!("this is {}", value.value.describe());
-        return Err(
-            sink.report(error.label(label).help("[[1, 0, 0, x], [0, 1, 0, y], [0, 0, 1, z], [0, 0, 0, 1]]"))
-        );
+        let error = error.label(label).help("[[1, 0, 0, x], [0, 1, 0, y], [0, 0, 1, z], [0, 0, 0, 1]]");
+        return Err(arguments.refuse(error, Lost::Missing, sink));
     };
+    if let Some(number) = rows.iter().flatten().find(|number| !number.is_finite()) {
+        let error = Diagnostic::error(value.span, "`m` of `multmatrix` holds what is no number");
+        return Err(arguments.refuse(error.label(format!("this is {number}")), Lost::Empty, sink));
+    }
     if rows.get(3).is_some_and(|last| *last != [0.0, 0.0, 0.0, 1.0]) {
         let error = Diagnostic::error(value.span, "the last row of `multmatrix` must be [0, 0, 0, 1]");
-        return Err(sink
-            .report(error.label("this is a perspective map").help("solids are moved by affine maps only")));
+        let error = error.label("this is a perspective map").help("solids are moved by affine maps only");
+        return Err(arguments.refuse(error, Lost::Missing, sink));
     }
     let column = |axis: usize| DVec3::new(rows[0][axis], rows[1][axis], rows[2][axis]);
     Ok(DAffine3 { matrix3: DMat3::from_cols(column(0), column(1), column(2)), translation: column(3) })
@@ -55,14 +59,15 @@ fn rows(value: &Spanned<'_>) -> Option<Vec<[f64; 4]>> {
     items.iter().map(|item| numbers(&item.value)?.try_into().ok()).collect()
 }
 
-fn rotate(arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<DAffine3, Reported> {
+fn rotate(arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<DAffine3, Lost> {
     let Some(value) = arguments.value("a") else { return Err(arguments.missing("a", sink)) };
-    let Value::Number(angle) = value.value else {
+    let Value::Number(_) = value.value else {
         // `a` is there, so that the triple is, too, unless it is an error. OpenSCAD ignores `v` here.
         let angles = arguments.triple("a", 0.0, sink)?.unwrap_or_default();
         let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| about(axis, angles.dot(axis)));
         return Ok(DAffine3::from_mat3(z * y * x));
     };
+    let angle = arguments.number("a", sink)?.unwrap_or_default();
     let axis = arguments.triple("v", 0.0, sink)?.unwrap_or(DVec3::Z);
     Ok(DAffine3::from_mat3(about(axis, angle)))
 }

@@ -6,6 +6,7 @@
 use std::collections::HashMap;
 
 use super::arguments::{Arguments, numbers};
+use super::lost::Lost;
 use crate::math::DVec3;
 use crate::scene::diagnostic::{Reported, Sink};
 use crate::scene::language::nearest::{nearest, quoted};
@@ -19,6 +20,9 @@ pub struct Surface {
     /// Colour and alpha of the outermost `color`.
     tint: Option<(DVec3, f64)>,
 }
+
+/// Bytes that a material which is applied may take, in all tables.
+pub const BYTES: u64 = 4 * size_of::<Material>() as u64;
 
 /// All materials met so far.
 #[derive(Debug)]
@@ -67,12 +71,12 @@ impl Surfaces {
         above: Surface,
         arguments: &Arguments<'_, '_>,
         sink: &mut Sink,
-    ) -> Result<Surface, Reported> {
+    ) -> Result<Surface, Lost> {
         let base = match arguments.text("name", sink)? {
             None => 0,
             Some(name) => match self.defined.get(name) {
                 Some(&kind) => kind,
-                None => return Err(sink.report(self.unknown(name, arguments))),
+                None => return Err(sink.report(self.unknown(name, arguments)).into()),
             },
         };
         if arguments.other_than(&["name"]).is_none() {
@@ -118,7 +122,7 @@ impl Surfaces {
 }
 
 /// The surface under a `color`.
-pub fn tinted(above: Surface, arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<Surface, Reported> {
+pub fn tinted(above: Surface, arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<Surface, Lost> {
     // OpenSCAD writes a `color` that names no colour this way, and it has no effect there.
     const NO_COLOR: [f64; 3] = [-1.0; 3];
     let rgba = arguments.value("c").and_then(|value| numbers(&value.value));
@@ -131,7 +135,7 @@ pub fn tinted(above: Surface, arguments: &Arguments<'_, '_>, sink: &mut Sink) ->
 }
 
 /// `material` with what the arguments say in place of its own.
-fn changed(material: Material, arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<Material, Reported> {
+fn changed(material: Material, arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<Material, Lost> {
     let mut number = |name: &str, own: f64| arguments.number(name, sink).map(|given| given.unwrap_or(own));
     let (kd, ks) = (number("kd", material.kd)?, number("ks", material.ks)?);
     let (n, kr) = (number("n", material.n)?, number("kr", material.kr)?);
@@ -142,9 +146,9 @@ fn changed(material: Material, arguments: &Arguments<'_, '_>, sink: &mut Sink) -
         let message =
             format!("`kr` and `kt` add up to {}: more light than arrives would be sent on", kr + kt);
         let error = Diagnostic::error(arguments.place_of(given), message);
-        return Err(
-            sink.report(error.help("what is mirrored and what is let through are 1 together at most"))
-        );
+        return Err(sink
+            .report(error.help("what is mirrored and what is let through are 1 together at most"))
+            .into());
     }
     Ok(Material { name: material.name, color, kd, ks, n, kr, kt, index })
 }

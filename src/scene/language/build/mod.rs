@@ -1,48 +1,38 @@
-//! The syntax tree to the [`Scene`]: every word gets its meaning.
+//! Events to the [`Scene`]: every word gets its meaning as it is read.
 
 mod arguments;
 mod chain;
 mod colors;
 mod degrees;
 mod facets;
+mod frames;
+mod lost;
 mod maps;
 mod materials;
 mod operators;
 mod polyhedron;
 mod solids;
+mod survey;
 mod views;
 
 use std::collections::HashSet;
+use std::rc::Rc;
 
 use super::nearest::quoted;
-use super::syntax::{Argument, Call, File, Value};
+use super::syntax::{Call, Event};
 use super::vocabulary::{Known, Meaning, Word, look_up, nearest_word};
-use crate::scene::diagnostic::{Reported, Sink};
-use crate::scene::{Diagnostic, ReadOptions, Scene};
-use arguments::{Arguments, setting};
+use crate::scene::diagnostic::Sink;
+use crate::scene::memory::Memory;
+use crate::scene::{Diagnostic, ReadOptions, Scene, Solid};
 use chain::Chain;
 use facets::Polygons;
+use frames::Frame;
 use materials::{Surface, Surfaces};
 use polyhedron::EarClipper;
-
-/// Builds the scene of a file. Errors go to `sink`; the scene is whole where there is none.
-pub fn build(file: &File<'_>, options: &ReadOptions, sink: &mut Sink) -> Scene {
-    let mut builder = Builder {
-        sink,
-        skip_unsupported: options.skip_unsupported,
-        scene: Scene::default(),
-        surfaces: Surfaces::default(),
-        view_names: HashSet::new(),
-        has_world: false,
-        polygons: Polygons::default(),
-        clipper: EarClipper::default(),
-    };
-    builder.file(file);
-    Scene { materials: builder.surfaces.table(), ..builder.scene }
-}
+use survey::Survey;
 
 /// What the words above hand down to a word.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 struct Context {
     /// From the word's coordinates to the world's.
     maps: Chain,
@@ -51,8 +41,20 @@ struct Context {
     fragments: f64,
 }
 
-struct Builder<'s> {
-    sink: &'s mut Sink,
+/// Whether to read on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flow {
+    On,
+    /// Nothing that comes would change anything.
+    Done,
+    /// What was read means something else by what was found just now: a survey is needed.
+    Again,
+}
+
+/// Builds a scene from events. Errors go to `sink`; the scene is whole where there is none.
+pub struct Builder {
+    pub sink: Sink,
+    pub memory: Memory,
     skip_unsupported: bool,
     scene: Scene,
     surfaces: Surfaces,
@@ -60,67 +62,102 @@ struct Builder<'s> {
     has_world: bool,
     polygons: Polygons,
     clipper: EarClipper,
+    /// What is known of the whole file.
+    survey: Survey,
+    /// The calls that are open, the outermost first; below them all the scene itself.
+    frames: Vec<Frame>,
+    /// The solids that wait for their operators, in file order.
+    solids: Vec<Solid>,
+    /// How many of the open calls, the innermost ones, are passed over.
+    passed_over: usize,
+    is_out_of_memory: bool,
 }
 
-impl Builder<'_> {
-    fn file(&mut self, file: &File<'_>) {
-        let context =
-            Context { maps: Chain::default(), surface: Surface::default(), fragments: self.settings(file) };
-        // Definitions first: a material may be applied above the line that defines it.
-        for call in &file.calls {
-            if is_definition(call) && self.is_present(call) {
-                // What is wrong has gone to the sink; the other definitions are looked at, too.
-                let _ = self.define(call);
-            }
+impl Builder {
+    pub fn new(options: &ReadOptions, sink: Sink, memory: Memory) -> Self {
+        Self {
+            sink,
+            memory,
+            skip_unsupported: options.skip_unsupported,
+            scene: Scene::default(),
+            surfaces: Surfaces::default(),
+            view_names: HashSet::new(),
+            has_world: false,
+            polygons: Polygons::default(),
+            clipper: EarClipper::default(),
+            survey: Survey::default(),
+            frames: vec![Frame::scene(Rc::new(Context::default()))],
+            solids: Vec::new(),
+            passed_over: 0,
+            is_out_of_memory: false,
         }
-        let root = file.calls.iter().find_map(|call| root(call, &context));
-        match root {
-            // As in OpenSCAD: what stands above the root has no effect on it.
-            Some((call, context)) => self.open(std::slice::from_ref(call), &context),
-            None => {
-                for call in file.calls.iter().filter(|call| !is_definition(call)) {
-                    self.open(std::slice::from_ref(call), &context);
+    }
+
+    /// Takes an event, as if the text had neither definitions nor assignments nor a root, or with what a survey found
+    /// of them.
+    pub fn take(&mut self, event: &Event<'_>) -> Flow {
+        match event {
+            Event::Assignment(..) if self.survey.is_done() => {}
+            Event::Assignment(..) => return Flow::Again,
+            Event::Close => {
+                self.close();
+                if self.survey.ends_with(self.frames.len()) {
+                    return Flow::Done;
                 }
             }
+            Event::Open(call) => return self.open(call),
         }
-        if self.scene.objects.is_empty() && self.sink.is_clean() {
-            let error = Diagnostic::error(0..0, "the scene is empty: there is nothing to see in it");
-            self.sink.report(error.help("add a solid, such as `sphere(1);`"));
-        }
+        Flow::On
     }
 
-    /// `$fn` of the whole file: the last assignment counts, as in OpenSCAD.
-    fn settings(&mut self, file: &File<'_>) -> f64 {
-        let mut fragments = 0.0;
-        for (name, value) in &file.assignments {
-            if let Ok(number) = setting(name.text, name.span, value, self.sink)
-                && name.text == "$fn"
-            {
-                fragments = number.unwrap_or(0.0);
+    fn open(&mut self, call: &Call<'_>) -> Flow {
+        if self.passed_over > 0 {
+            self.pass_over(call);
+            return Flow::On;
+        }
+        if let Some(fragments) = self.survey.seek(call) {
+            match fragments {
+                survey::Found::Above => return Flow::On,
+                // As in OpenSCAD: what stands above the root has no effect on it, but for `$fn`.
+                survey::Found::Root(fragments) => {
+                    self.frames = vec![Frame::scene(Rc::new(Context { fragments, ..Context::default() }))];
+                }
             }
+        } else if !self.survey.is_done() && self.survey.is_needed_for(call, self.frames.len() == 1) {
+            return Flow::Again;
         }
-        fragments
+        if self.frames.len() == 1 && is_definition(call) {
+            self.pass_over(call);
+        } else {
+            self.child(call);
+        }
+        let is_at_an_end = self.sink.is_full() || self.is_out_of_memory;
+        let is_all = self.passed_over == 0 && self.survey.ends_with(self.frames.len());
+        if is_at_an_end || is_all { Flow::Done } else { Flow::On }
     }
 
-    fn define(&mut self, call: &Call<'_>) -> Result<(), Reported> {
-        let Some(word) = self.word(call) else { return Err(Reported) };
-        if let Some(child) = call.children.first() {
-            let error = Diagnostic::error(child.name.span, format!("`{}` takes no children", word.name));
-            return Err(self.sink.report(error.help(format!("end `{}(…)` with a `;`", word.name))));
+    /// Passes over a call and its children.
+    fn pass_over(&mut self, call: &Call<'_>) {
+        self.passed_over += usize::from(!call.is_ended);
+    }
+
+    /// What was built.
+    pub fn finish(mut self) -> (Scene, Sink) {
+        if self.scene.objects.is_empty() && self.sink.is_clean() {
+            self.sink.report(empty(&self.sink));
         }
-        let arguments = Arguments::bind(call, word, self.sink)?;
-        match word.meaning {
-            Meaning::Camera => self.camera(&arguments),
-            Meaning::Light => self.light(&arguments),
-            Meaning::World => self.world(call, &arguments),
-            _ => self.surfaces.define(&arguments, self.sink),
-        }
+        self.scene.objects.shrink_to_fit();
+        (Scene { materials: self.surfaces.table(), ..self.scene }, self.sink)
     }
 
     /// The word of a call; what is none is reported, or noted where it may be left out.
     fn word(&mut self, call: &Call<'_>) -> Option<&'static Word> {
+        let known = look_up(call.name.text);
+        if let Known::Word(word) = known {
+            return Some(word);
+        }
         let (name, span) = (quoted(call.name.text), call.name.span);
-        match look_up(call.name.text) {
+        match known {
             Known::Word(word) => return Some(word),
             Known::Unsupported(why) if self.skip_unsupported => {
                 self.sink.note(Diagnostic::note(span, format!("`{name}` is left out: {why}")));
@@ -141,31 +178,30 @@ impl Builder<'_> {
     }
 }
 
+/// The error of a scene in which nothing is left, with the first cause of that.
+fn empty(sink: &Sink) -> Diagnostic {
+    match sink.first_note() {
+        None => Diagnostic::error(0..0, "the scene is empty: there is nothing to see in it")
+            .help("add a solid, such as `sphere(1);`"),
+        Some((first, count)) => {
+            let error = Diagnostic::error(0..0, "the scene is empty: nothing is left to see in it");
+            let more = match count {
+                1 => String::new(),
+                _ => format!("; this and {} more remarks say what became of its parts", count - 1),
+            };
+            error.help(format!("{}{more}", first.message))
+        }
+    }
+}
+
 /// Whether a call at the top level is no solid: a view, a light, the world, or a material with a name.
 fn is_definition(call: &Call<'_>) -> bool {
     match look_up(call.name.text) {
         Known::Word(word) => match word.meaning {
             Meaning::Camera | Meaning::Light | Meaning::World => true,
-            Meaning::Material => call.children.is_empty(),
+            Meaning::Material => call.is_ended,
             _ => false,
         },
         _ => false,
     }
-}
-
-/// The first call marked `!`, with the settings that reach it.
-fn root<'c, 'a>(call: &'c Call<'a>, above: &Context) -> Option<(&'c Call<'a>, Context)> {
-    if call.modifiers.disable || is_definition(call) {
-        return None;
-    }
-    if call.modifiers.root {
-        return Some((call, above.clone()));
-    }
-    let own = |argument: &&Argument<'_>| argument.name.is_some_and(|name| name.text == "$fn");
-    let fragments = match call.arguments.iter().find(own).map(|argument| &argument.value.value) {
-        Some(Value::Number(number)) => *number,
-        _ => above.fragments,
-    };
-    let inner = Context { fragments, ..above.clone() };
-    call.children.iter().find_map(|child| root(child, &inner))
 }

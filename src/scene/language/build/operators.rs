@@ -1,93 +1,27 @@
 //! The words that hold others: unions opened into objects, CSG operators flattened, maps handed down.
-//!
-//! Unions are gathered by walking through them, so that no list is copied from level to level: reading
-//! stays linear in the length of the text however the text is nested.
+
+use std::rc::Rc;
 
 use super::arguments::Arguments;
 use super::chain::Numbers;
+use super::frames::{Built, Frame, Role, Run};
+use super::lost::Lost;
 use super::materials::tinted;
 use super::{Builder, Context, maps};
 use crate::scene::diagnostic::Reported;
 use crate::scene::language::syntax::Call;
-use crate::scene::language::vocabulary::{Known, MapWord, Meaning, OperatorWord, Word, look_up};
-use crate::scene::{Diagnostic, Object, Solid};
+use crate::scene::language::vocabulary::{MapWord, Meaning, OperatorWord, Word};
+use crate::scene::{Diagnostic, Object};
 
-/// What became of a call.
-enum Built {
-    Solid(Solid),
-    /// Nothing, as OpenSCAD means it: a difference from it is nothing, an intersection with it, too.
-    Empty,
-    /// Not known: the call was left out, or is an error. It takes no part in what holds it.
-    Missing,
-}
-
-/// How the solids of an `intersection` were found.
-#[derive(Default)]
-struct Meeting {
-    solids: Vec<Solid>,
-    any_empty: bool,
-    any_missing: bool,
-}
-
-/// How many children OpenSCAD would see.
-fn count_present(call: &Call<'_>) -> usize {
-    call.children.iter().filter(|child| !child.modifiers.disable && !child.modifiers.background).count()
-}
-
-/// The word of a call that holds others and means the union of them: unions, maps and surfaces do, and any
-/// operator with one operand is that operand.
-fn union_word(call: &Call<'_>) -> Option<&'static Word> {
-    let Known::Word(word) = look_up(call.name.text) else { return None };
-    match word.meaning {
-        Meaning::Operator(OperatorWord::Union) | Meaning::Map(_) | Meaning::Color | Meaning::Object => {
-            Some(word)
-        }
-        // Without children it is a definition.
-        Meaning::Material if !call.children.is_empty() => Some(word),
-        Meaning::Operator(_) if count_present(call) == 1 => Some(word),
-        _ => None,
-    }
-}
-
-impl Builder<'_> {
-    /// Opens unions down to what is no union: the objects.
-    pub(super) fn open(&mut self, calls: &[Call<'_>], context: &Context) {
-        for call in calls {
-            if !self.is_present(call) {
-                continue;
-            }
-            match union_word(call) {
-                Some(word) if word.meaning == Meaning::Object => self.object(call, word, context),
-                Some(word) => {
-                    let inner = self.enter(call, word, context).unwrap_or_else(|Reported| context.clone());
-                    self.open(&call.children, &inner);
-                }
-                None => {
-                    if let Built::Solid(solid) = self.solid(call, context) {
-                        self.scene.objects.push(Object { name: None, solid });
-                    }
-                }
-            }
-        }
-    }
-
-    fn object(&mut self, call: &Call<'_>, word: &'static Word, context: &Context) {
-        let name = self.object_name(call, word);
-        let inner = self.enter(call, word, context).unwrap_or_else(|Reported| context.clone());
-        if let (Ok(name), Built::Solid(solid)) = (name, self.united(call, &inner)) {
-            self.scene.objects.push(Object { name: Some(name), solid });
-        }
-    }
-
-    fn object_name(&mut self, call: &Call<'_>, word: &'static Word) -> Result<String, Reported> {
-        let arguments = Arguments::bind(call, word, self.sink)?;
-        let name = arguments.text("name", self.sink)?;
-        name.map(str::to_owned).ok_or_else(|| arguments.missing("name", self.sink))
+impl Builder {
+    /// Begins the scene, with `$fn` of the whole file.
+    pub(super) fn begin(&mut self, fragments: f64) {
+        self.frames = vec![Frame::scene(Rc::new(Context { fragments, ..Context::default() }))];
     }
 
     /// Whether a call takes part; says so where it is left out.
     pub(super) fn is_present(&mut self, call: &Call<'_>) -> bool {
-        if call.modifiers.disable || self.sink.is_full() {
+        if call.modifiers.disable {
             return false;
         }
         if call.modifiers.background {
@@ -97,12 +31,123 @@ impl Builder<'_> {
         !call.modifiers.background
     }
 
+    /// A call inside the innermost open one.
+    pub(super) fn child(&mut self, call: &Call<'_>) {
+        let Some(frame) = self.frames.last() else { return };
+        if let Role::Primitive(name, _) = frame.role {
+            self.no_children(name, call);
+            return self.pass_over(call);
+        }
+        let context = Rc::clone(&frame.context);
+        let is_object = matches!(frame.role, Role::Objects);
+        if !self.is_present(call) {
+            return self.pass_over(call);
+        }
+        let Some(word) = self.word(call) else { return self.lose(Lost::Missing, call) };
+        self.make_room();
+        let start = self.solids.len();
+        match word.meaning {
+            Meaning::Solid(kind) => {
+                let built = match self.primitive(kind, word, call, &context) {
+                    Ok(solid) => {
+                        self.solids.push(solid);
+                        Built::Solids(Run::One, false)
+                    }
+                    Err(lost) => Built::Nothing(lost),
+                };
+                if call.is_ended {
+                    return self.give(built, start, call.name.span);
+                }
+                self.frames.push(Frame::new(
+                    Role::Primitive(word.name, built),
+                    call.name.span,
+                    context,
+                    start,
+                ));
+            }
+            Meaning::Material if call.is_ended => self.misplaced(call),
+            Meaning::Camera | Meaning::Light | Meaning::World => self.misplaced(call),
+            _ => {
+                let role = self.role(call, word, is_object);
+                let inner = match self.enter(call, word, &context) {
+                    Ok(inner) => inner,
+                    // What is below a wrong map is left out. Where it is an error, errors below it are looked for, too.
+                    Err(lost) if self.sink.leaves_out() && self.sink.is_clean() => {
+                        return self.lose(lost, call);
+                    }
+                    Err(_) => context,
+                };
+                self.frames.push(Frame::new(role, call.name.span, inner, start));
+                if call.is_ended {
+                    self.close_frame();
+                }
+            }
+        }
+    }
+
+    /// Passes over a call that is an operand without a solid.
+    fn lose(&mut self, lost: Lost, call: &Call<'_>) {
+        self.give(Built::Nothing(lost), self.solids.len(), call.name.span);
+        self.pass_over(call);
+    }
+
+    fn misplaced(&mut self, call: &Call<'_>) {
+        let name = call.name.text;
+        // What holds it may be braces, or one word before it: `rotate(90) light(…);`.
+        let error = Diagnostic::error(call.name.span, format!("`{name}` can not be part of another call"));
+        let help = match name {
+            "material" => {
+                "define materials at the top level; to apply one, write what it is for in place of the `;`"
+            }
+            _ => "write it at the top level, with no word before it and no braces around it",
+        };
+        self.sink.report(error.help(help));
+        self.lose(Lost::Missing, call);
+    }
+
+    fn role(&mut self, call: &Call<'_>, word: &'static Word, is_object: bool) -> Role {
+        match word.meaning {
+            Meaning::Object if is_object => {
+                Role::Object(self.object_name(call, word).ok().map(String::into_boxed_str))
+            }
+            Meaning::Object => {
+                let message =
+                    "`object` is inside another solid: it is part of that, without a name of its own";
+                self.sink.note(Diagnostic::note(call.name.span, message));
+                Role::Operator(OperatorWord::Union)
+            }
+            Meaning::Operator(operator @ (OperatorWord::Difference | OperatorWord::Intersection)) => {
+                Role::Operator(operator)
+            }
+            _ if is_object => Role::Objects,
+            _ => Role::Operator(OperatorWord::Union),
+        }
+    }
+
+    fn object_name(&mut self, call: &Call<'_>, word: &'static Word) -> Result<String, Reported> {
+        let arguments = Arguments::bind(call, word, &mut self.sink)?;
+        let name = arguments.text("name", &mut self.sink)?;
+        self.memory.take(name.map_or(0, str::len) as u64);
+        name.map(str::to_owned).ok_or_else(|| arguments.missing("name", &mut self.sink).into())
+    }
+
     /// What a word hands down to its children.
-    fn enter(&mut self, call: &Call<'_>, word: &'static Word, above: &Context) -> Result<Context, Reported> {
-        let sink = &mut *self.sink;
+    fn enter(
+        &mut self,
+        call: &Call<'_>,
+        word: &'static Word,
+        above: &Rc<Context>,
+    ) -> Result<Rc<Context>, Lost> {
+        let sink = &mut self.sink;
         let arguments = Arguments::bind(call, word, sink)?;
         let fragments = arguments.fragments.unwrap_or(above.fragments);
-        let mut inner = Context { fragments, ..above.clone() };
+        let mut inner = match word.meaning {
+            // Most groups hand down what they were given.
+            Meaning::Operator(_) | Meaning::Object if arguments.fragments.is_none() => {
+                return Ok(Rc::clone(above));
+            }
+            _ => Context { fragments, ..Context::clone(above) },
+        };
         match word.meaning {
             Meaning::Map(map) => {
                 let numbers = match map {
@@ -110,152 +155,47 @@ impl Builder<'_> {
                     MapWord::Translate | MapWord::Scale | MapWord::Multmatrix => Numbers::Written,
                 };
                 let map = maps::map_of(map, &arguments, sink)?;
-                inner.maps = above.maps.then(map, numbers, call.name.span, sink)?;
+                let maps = above.maps.then(map, numbers, call.name.span);
+                inner.maps = maps.map_err(|error| arguments.refuse(error, Lost::Empty, sink))?;
             }
             Meaning::Color => inner.surface = tinted(above.surface, &arguments, sink)?,
-            Meaning::Material => inner.surface = self.surfaces.apply(above.surface, &arguments, sink)?,
+            Meaning::Material => {
+                self.memory.take(super::materials::BYTES);
+                inner.surface = self.surfaces.apply(above.surface, &arguments, sink)?;
+            }
             _ => {}
         }
-        Ok(inner)
+        Ok(Rc::new(inner))
     }
 
-    /// The solid of a call inside a solid.
-    fn solid(&mut self, call: &Call<'_>, context: &Context) -> Built {
-        let Some(word) = self.word(call) else { return Built::Missing };
-        match word.meaning {
-            Meaning::Solid(kind) => match self.primitive(kind, word, call, context) {
-                Ok(solid) => Built::Solid(solid),
-                Err(Reported) => Built::Missing,
-            },
-            Meaning::Material if call.children.is_empty() => self.misplaced(call),
-            Meaning::Camera | Meaning::Light | Meaning::World => self.misplaced(call),
-            _ => {
-                let inner = self.enter(call, word, context).unwrap_or_else(|Reported| context.clone());
-                match word.meaning {
-                    Meaning::Operator(OperatorWord::Difference) => self.difference(call, &inner),
-                    Meaning::Operator(OperatorWord::Intersection) => self.intersection(call, &inner),
-                    _ => self.united(call, &inner),
+    /// The innermost open call ends.
+    pub(super) fn close(&mut self) {
+        if self.passed_over > 0 {
+            self.passed_over -= 1;
+        } else if !self.survey.leave() {
+            self.close_frame();
+        }
+    }
+
+    fn close_frame(&mut self) {
+        // The scene itself stays open.
+        let Some(frame) = self.frames.pop_if(|frame| frame.place.end > 0) else { return };
+        let (start, place) = (frame.start, frame.place);
+        match frame.role {
+            Role::Objects => {}
+            Role::Primitive(_, built) => self.give(built, start, place),
+            Role::Operator(_) => {
+                let built = self.ended(&frame);
+                self.give(built, start, place);
+            }
+            Role::Object(ref name) => {
+                let name = name.clone();
+                if let Built::Solids(run, _) = self.ended(&frame) {
+                    let solid = self.solid(start, run);
+                    let objects = solid.map(|solid| Object { name: name.map(String::from), solid });
+                    self.scene.objects.extend(objects);
                 }
             }
         }
-    }
-
-    fn misplaced(&mut self, call: &Call<'_>) -> Built {
-        let name = call.name.text;
-        let error = Diagnostic::error(call.name.span, format!("`{name}` stands inside braces"));
-        let help = match name {
-            "material" => {
-                "define materials at the top level; to apply one, write what it is for in place of the `;`"
-            }
-            _ => "move it to the top level",
-        };
-        self.sink.report(error.help(help));
-        Built::Missing
-    }
-
-    fn united(&mut self, call: &Call<'_>, context: &Context) -> Built {
-        let mut solids = Vec::new();
-        let any_missing = self.unite(&call.children, context, &mut solids);
-        joined(solids, Solid::Union, any_missing)
-    }
-
-    /// Puts the operands of a union into `solids`; tells whether any was left out.
-    fn unite(&mut self, calls: &[Call<'_>], context: &Context, solids: &mut Vec<Solid>) -> bool {
-        let mut any_missing = false;
-        for call in calls {
-            if !self.is_present(call) {
-                continue;
-            }
-            if let Some(word) = union_word(call) {
-                self.note_lost_name(call, word);
-                let inner = self.enter(call, word, context).unwrap_or_else(|Reported| context.clone());
-                any_missing |= self.unite(&call.children, &inner, solids);
-                continue;
-            }
-            match self.solid(call, context) {
-                Built::Solid(solid) => solids.push(solid),
-                Built::Empty => {}
-                Built::Missing => any_missing = true,
-            }
-        }
-        any_missing
-    }
-
-    fn note_lost_name(&mut self, call: &Call<'_>, word: &Word) {
-        if word.meaning == Meaning::Object {
-            let message = "`object` is inside another solid: it is part of that, without a name of its own";
-            self.sink.note(Diagnostic::note(call.name.span, message));
-        }
-    }
-
-    fn difference(&mut self, call: &Call<'_>, context: &Context) -> Built {
-        let Some(first) = call.children.iter().position(|child| self.is_present(child)) else {
-            return Built::Empty;
-        };
-        let rest = &call.children[first + 1..];
-        let mut solids = match self.solid(&call.children[first], context) {
-            // (A − B) − C is A − B − C.
-            Built::Solid(Solid::Difference(solids)) => solids,
-            Built::Solid(solid) => vec![solid],
-            nothing => {
-                // The others are read even where there is nothing to take them from: their errors are errors.
-                self.unite(rest, context, &mut Vec::new());
-                return nothing;
-            }
-        };
-        self.unite(rest, context, &mut solids);
-        joined(solids, Solid::Difference, false)
-    }
-
-    fn intersection(&mut self, call: &Call<'_>, context: &Context) -> Built {
-        let mut meeting = Meeting::default();
-        self.intersect(&call.children, context, &mut meeting);
-        if meeting.any_empty {
-            return Built::Empty;
-        }
-        joined(meeting.solids, Solid::Intersection, meeting.any_missing)
-    }
-
-    /// Puts the operands of an intersection into `meeting`.
-    fn intersect(&mut self, calls: &[Call<'_>], context: &Context, meeting: &mut Meeting) {
-        for call in calls {
-            if !self.is_present(call) {
-                continue;
-            }
-            if let Some(word) = intersection_word(call) {
-                self.note_lost_name(call, word);
-                let inner = self.enter(call, word, context).unwrap_or_else(|Reported| context.clone());
-                self.intersect(&call.children, &inner, meeting);
-                continue;
-            }
-            match self.solid(call, context) {
-                Built::Solid(solid) => meeting.solids.push(solid),
-                Built::Empty => meeting.any_empty = true,
-                Built::Missing => meeting.any_missing = true,
-            }
-        }
-    }
-}
-
-/// The word of a call that means the intersection of its children: any operator with one operand does, too.
-fn intersection_word(call: &Call<'_>) -> Option<&'static Word> {
-    match look_up(call.name.text) {
-        Known::Word(word) => match (count_present(call), word.meaning) {
-            (0, _) => None,
-            (1, _) => union_word(call),
-            (_, Meaning::Operator(OperatorWord::Intersection)) => Some(word),
-            _ => None,
-        },
-        _ => None,
-    }
-}
-
-/// One solid is itself; none is nothing, or not known where some were left out.
-fn joined(mut solids: Vec<Solid>, join: impl Fn(Vec<Solid>) -> Solid, any_missing: bool) -> Built {
-    match (solids.len(), any_missing) {
-        (0, true) => Built::Missing,
-        (0, false) => Built::Empty,
-        (1, _) => solids.pop().map_or(Built::Empty, Built::Solid),
-        _ => Built::Solid(join(solids)),
     }
 }

@@ -6,9 +6,10 @@ use std::sync::Arc;
 use earcut::Earcut;
 
 use super::arguments::{Arguments, numbers};
+use super::lost::Lost;
 use super::maps::unit;
 use crate::math::{Bounds, DVec2, DVec3};
-use crate::scene::diagnostic::{Reported, Sink};
+use crate::scene::diagnostic::Sink;
 use crate::scene::language::syntax::{Span, Spanned, Value, short};
 use crate::scene::{Diagnostic, Mesh, Shape};
 
@@ -19,6 +20,9 @@ pub struct EarClipper {
     /// Simple faces take far less, but are not known as such before.
     budget: f64,
 }
+
+/// The side of a cell of OpenSCAD's grid (`GRID_FINE`), in the scene's unit: 2⁻²⁰. Points in one cell are one point there.
+const GRID: f64 = 1.0 / (1 << 20) as f64;
 
 /// Cubed corners of a scene's faces: a quarter of a second at worst; one face of 1,700 corners.
 const EAR_CLIPPING_BUDGET: f64 = 5e9;
@@ -44,93 +48,171 @@ impl EarClipper {
     }
 }
 
+/// Bytes that reading a `polyhedron` call takes at most beside its values, by the number of those.
+pub fn bytes(arguments: &Arguments<'_, '_>) -> u64 {
+    // A point, its places in the lists and in the map of points; a corner's share of triangles, and of the sets of them
+    // and of their edges.
+    const OF_POINT: u64 = 120;
+    const OF_CORNER: u64 = 120;
+    let items = |name: &str| match arguments.value(name).map(|value| &value.value) {
+        Some(Value::List(items)) => items.as_slice(),
+        _ => &[],
+    };
+    let corners = |face: &Spanned<'_>| match &face.value {
+        Value::List(corners) => corners.len() as u64,
+        _ => 0,
+    };
+    let faces = items("faces").iter().chain(items("triangles"));
+    OF_POINT * items("points").len() as u64 + OF_CORNER * faces.map(corners).sum::<u64>()
+}
+
 /// The mesh of a `polyhedron` call.
 pub fn polyhedron(
     arguments: &Arguments<'_, '_>,
     clipper: &mut EarClipper,
     sink: &mut Sink,
-) -> Result<Shape, Reported> {
+) -> Result<Shape, Lost> {
     let Some(points) = arguments.value("points") else { return Err(arguments.missing("points", sink)) };
     let faces = match (arguments.value("faces"), arguments.value("triangles")) {
         (Some(faces), None) | (None, Some(faces)) => faces,
         (None, None) => return Err(arguments.missing("faces", sink)),
         (Some(_), Some(triangles)) => {
             let error = Diagnostic::error(triangles.span, "`faces` and `triangles` exclude each other");
-            return Err(sink.report(error.help("`triangles` is the old name of `faces`")));
+            return Err(sink.report(error.help("`triangles` is the old name of `faces`")).into());
         }
     };
-    let corners = Corners::read(points, sink)?;
-    let mut triangles = Vec::new();
-    for face in items(faces, "faces", "a list of faces, each a list of indices", sink)? {
-        let polygon = corners.polygon(face, sink)?;
-        triangulate(&corners.points, &polygon, clipper, |triangle| {
-            triangles.push((triangle, face.span));
-        });
+    let call = Call { arguments, points, faces };
+    let exact = call.surface(Merging::Equal, clipper, sink)?;
+    let Some(open) = &exact.open else { return Ok(exact.shape()) };
+    // Points that a program computed twice differ in their last digits; to OpenSCAD they are one.
+    if let Ok(welded) = call.surface(Merging::Near, clipper, &mut Sink::new(true))
+        && welded.open.is_none()
+    {
+        let message =
+            "points of `polyhedron` closer than 2^-20 count as one, as in OpenSCAD: else it were not closed";
+        sink.note(Diagnostic::note(points.span, message));
+        return Ok(welded.shape());
     }
-    cancel_pairs(&mut triangles);
-    if triangles.is_empty() {
-        let error = Diagnostic::error(faces.span, "the faces of the polyhedron enclose nothing");
-        return Err(sink.report(error));
-    }
-    if let Some((edge, place)) = open_edge(&triangles) {
-        let [a, b] = edge.map(|index| {
-            let [x, y, z] = corners.points[index as usize].to_array().map(short);
-            format!("[{x}, {y}, {z}]")
-        });
-        let error = Diagnostic::error(place, "the polyhedron is not closed")
-            .label(format!("nothing meets its edge from {a} to {b}"));
-        return Err(
-            sink.report(error.help("every edge must belong to two faces: add the face that is missing"))
-        );
-    }
-    let triangles = triangles.into_iter().map(|(triangle, _)| triangle).collect();
-    Ok(Shape::Mesh(Arc::new(Mesh { points: corners.points, triangles })))
+    let error = Diagnostic::error(open.face, "the polyhedron is not closed")
+        .label(format!("nothing meets its edge from {} to {}", open.from, open.to))
+        .help("every edge must belong to two faces: add the face that is missing");
+    Err(arguments.refuse(error, Lost::Missing, sink))
 }
 
-/// The points of a polyhedron, equal ones merged.
-struct Corners {
+/// The arguments of a `polyhedron`.
+struct Call<'c, 'a> {
+    arguments: &'c Arguments<'c, 'a>,
+    points: &'c Spanned<'a>,
+    faces: &'c Spanned<'a>,
+}
+
+/// Which points count as one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Merging {
+    /// Equal ones.
+    Equal,
+    /// Those in one cell, or in neighbouring cells, of OpenSCAD's grid.
+    Near,
+}
+
+/// The triangles of a polyhedron, and an edge that is open, if there is one.
+struct Surface {
     points: Vec<DVec3>,
-    /// For each point of the text its place in `points`.
-    merged: Vec<u32>,
+    triangles: Vec<([u32; 3], Span)>,
+    open: Option<OpenEdge>,
 }
 
-impl Corners {
-    fn read(list: &Spanned<'_>, sink: &mut Sink) -> Result<Self, Reported> {
-        let mut corners = Self { points: Vec::new(), merged: Vec::new() };
-        let mut places = HashMap::new();
-        for item in items(list, "points", "a list of points [x, y, z]", sink)? {
+struct OpenEdge {
+    from: String,
+    to: String,
+    /// The face that has it.
+    face: Span,
+}
+
+impl Surface {
+    fn shape(self) -> Shape {
+        let mut triangles: Vec<_> = self.triangles.into_iter().map(|(triangle, _)| triangle).collect();
+        triangles.shrink_to_fit();
+        let mut points = self.points;
+        points.shrink_to_fit();
+        Shape::Mesh(Arc::new(Mesh { points, triangles }))
+    }
+}
+
+impl Call<'_, '_> {
+    fn surface(&self, merging: Merging, clipper: &mut EarClipper, sink: &mut Sink) -> Result<Surface, Lost> {
+        let corners = self.corners(merging, sink)?;
+        let mut triangles = Vec::new();
+        for face in self.items(self.faces, "faces", "a list of faces, each a list of indices", sink)? {
+            let Some(polygon) = self.polygon(&corners, face, sink)? else { continue };
+            triangulate(&corners.points, &polygon, clipper, |triangle| {
+                triangles.push((triangle, face.span));
+            });
+        }
+        cancel_pairs(&mut triangles);
+        if triangles.is_empty() {
+            let error = Diagnostic::error(self.faces.span, "the faces of the polyhedron enclose nothing");
+            return Err(self.arguments.refuse(error, Lost::Empty, sink));
+        }
+        let open = open_edge(&triangles).map(|(edge, face)| {
+            let [from, to] = edge.map(|index| {
+                let [x, y, z] = corners.points[index as usize].to_array().map(short);
+                format!("[{x}, {y}, {z}]")
+            });
+            OpenEdge { from, to, face }
+        });
+        Ok(Surface { points: corners.points, triangles, open })
+    }
+
+    fn corners(&self, merging: Merging, sink: &mut Sink) -> Result<Corners, Lost> {
+        let mut corners = Corners::default();
+        for item in self.items(self.points, "points", "a list of points [x, y, z]", sink)? {
             let Some(&[x, y, z]) = numbers(&item.value).as_deref() else {
                 let error = Diagnostic::error(item.span, "a point of `polyhedron` is [x, y, z]");
-                return Err(sink.report(error.label(format!("this is {}", item.value.describe()))));
+                let error = error.label(format!("this is {}", item.value.describe()));
+                return Err(self.arguments.refuse(error, Lost::Missing, sink));
             };
             // Adding 0 makes −0 and 0 the same point.
             let point = DVec3::new(x, y, z) + DVec3::ZERO;
-            let next = corners.points.len() as u32;
-            let place = *places.entry(point.to_array().map(f64::to_bits)).or_insert_with(|| {
-                corners.points.push(point);
-                next
-            });
-            corners.merged.push(place);
+            if !point.is_finite() {
+                let error = Diagnostic::error(item.span, "a point of `polyhedron` is no place");
+                return Err(self.arguments.refuse(error, Lost::Missing, sink));
+            }
+            corners.add(point, merging);
         }
         Ok(corners)
     }
 
-    /// The corners of a face, without neighbours that are the same point. Fewer than three: no area.
-    fn polygon(&self, face: &Spanned<'_>, sink: &mut Sink) -> Result<Vec<u32>, Reported> {
-        let indices = items(face, "faces", "a list of faces, each a list of indices", sink)?;
+    /// The corners of a face, without neighbours that are the same point. Fewer than three: no area. None where the face
+    /// is left out.
+    fn polygon(
+        &self,
+        corners: &Corners,
+        face: &Spanned<'_>,
+        sink: &mut Sink,
+    ) -> Result<Option<Vec<u32>>, Lost> {
+        let indices = self.items(face, "faces", "a list of faces, each a list of indices", sink)?;
+        let refuse = |error: Diagnostic, sink: &mut Sink| {
+            if !sink.leaves_out() {
+                return Err(sink.report(error).into());
+            }
+            let message = format!("a face of `polyhedron` is left out: {}", error.message);
+            sink.note(Diagnostic::note(error.span, message).label(error.label));
+            Ok(None)
+        };
         if indices.len() < 3 {
             let message = format!("a face has {} corners", indices.len());
-            return Err(sink.report(Diagnostic::error(face.span, message).help("a face needs three or more")));
+            return refuse(Diagnostic::error(face.span, message).help("a face needs three or more"), sink);
         }
         let mut polygon: Vec<u32> = Vec::with_capacity(indices.len());
         for index in indices {
             let place = match index.value {
                 Value::Number(number) if number >= 0.0 && number.fract() == 0.0 => {
-                    self.merged.get(number as usize).copied()
+                    corners.merged.get(number as usize).copied()
                 }
                 _ => None,
             };
-            let Some(place) = place else { return Err(sink.report(self.no_point(index))) };
+            let Some(place) = place else { return refuse(corners.no_point(index), sink) };
             if polygon.last() != Some(&place) {
                 polygon.push(place);
             }
@@ -138,7 +220,62 @@ impl Corners {
         while polygon.len() > 1 && polygon.first() == polygon.last() {
             polygon.pop();
         }
-        Ok(polygon)
+        Ok(Some(polygon))
+    }
+
+    fn items<'l, 'a>(
+        &self,
+        list: &'l Spanned<'a>,
+        name: &str,
+        takes: &str,
+        sink: &mut Sink,
+    ) -> Result<&'l [Spanned<'a>], Lost> {
+        if let Value::List(items) = &list.value {
+            return Ok(items);
+        }
+        let error = Diagnostic::error(list.span, format!("`{name}` of `polyhedron` takes {takes}"));
+        let error = error.label(format!("this is {}", list.value.describe()));
+        Err(self.arguments.refuse(error, Lost::Missing, sink))
+    }
+}
+
+/// The points of a polyhedron, those that count as one merged.
+#[derive(Default)]
+struct Corners {
+    points: Vec<DVec3>,
+    /// For each point of the text its place in `points`.
+    merged: Vec<u32>,
+    /// The place in `points` by coordinates, or by the cell of the grid.
+    places: HashMap<[i64; 3], u32>,
+}
+
+impl Corners {
+    fn add(&mut self, point: DVec3, merging: Merging) {
+        let known = match merging {
+            Merging::Equal => point.to_array().map(|x| x.to_bits().cast_signed()),
+            Merging::Near => self.cell(point),
+        };
+        let next = self.points.len() as u32;
+        let place = *self.places.entry(known).or_insert_with(|| {
+            self.points.push(point);
+            next
+        });
+        self.merged.push(place);
+    }
+
+    /// The cell of OpenSCAD's grid in which a point is: the nearest in which one is already, of its own and the
+    /// neighbouring ones, as in `Grid3d::align`.
+    fn cell(&self, point: DVec3) -> [i64; 3] {
+        let own = (point / GRID).round();
+        // Farther out than 2^43 the grid is finer than the numbers, and a cell holds one point.
+        let own = own.to_array().map(|x| x as i64);
+        let around = |i: i64| [i % 3, i / 3 % 3, i / 9].map(|step| step - 1);
+        let cells = (0..27).map(|i| around(i)).map(|step| {
+            let cell = [0, 1, 2].map(|axis| own[axis].saturating_add(step[axis]));
+            (step.map(i64::abs).iter().sum::<i64>(), cell)
+        });
+        let known = cells.filter(|(_, cell)| self.places.contains_key(cell));
+        known.min_by_key(|&(distance, _)| distance).map_or(own, |(_, cell)| cell)
     }
 
     fn no_point(&self, index: &Spanned<'_>) -> Diagnostic {
@@ -149,19 +286,6 @@ impl Corners {
             count => error.help(format!("points are numbered from 0 to {}", count - 1)),
         }
     }
-}
-
-fn items<'c, 'a>(
-    list: &'c Spanned<'a>,
-    name: &str,
-    takes: &str,
-    sink: &mut Sink,
-) -> Result<&'c [Spanned<'a>], Reported> {
-    if let Value::List(items) = &list.value {
-        return Ok(items);
-    }
-    let error = Diagnostic::error(list.span, format!("`{name}` of `polyhedron` takes {takes}"));
-    Err(sink.report(error.label(format!("this is {}", list.value.describe()))))
 }
 
 /// Cuts a face into triangles whose edges, counted modulo 2, are exactly the face's own: so that a surface

@@ -3,15 +3,17 @@
 use super::arguments::Arguments;
 use super::chain::Numbers;
 use super::facets::Polygons;
+use super::lost::Lost;
 use super::{Builder, Context, facets, polyhedron};
 use crate::math::{DAffine3, DMat3, DVec3, Placement};
-use crate::scene::diagnostic::{Reported, Sink};
+use crate::scene::diagnostic::Sink;
 use crate::scene::language::syntax::Call;
 use crate::scene::language::vocabulary::{SolidWord, Word};
+use crate::scene::memory::{ASSEMBLED, ASSEMBLED_TRIANGLE};
 use crate::scene::model::is_within_reach;
-use crate::scene::{Diagnostic, Primitive, REACH, Shape, Solid};
+use crate::scene::{Diagnostic, Object, Primitive, REACH, Shape, Solid};
 
-impl Builder<'_> {
+impl Builder {
     /// The primitive of a call.
     pub(super) fn primitive(
         &mut self,
@@ -19,12 +21,8 @@ impl Builder<'_> {
         word: &'static Word,
         call: &Call<'_>,
         context: &Context,
-    ) -> Result<Solid, Reported> {
-        let sink = &mut *self.sink;
-        if let Some(child) = call.children.first() {
-            let error = Diagnostic::error(child.name.span, format!("`{}` takes no children", word.name));
-            return Err(sink.report(error.help(format!("end `{}(…)` with a `;`", word.name))));
-        }
+    ) -> Result<Solid, Lost> {
+        let sink = &mut self.sink;
         let arguments = Arguments::bind(call, word, sink)?;
         let mut round = Round {
             sides: facets::sides(arguments.fragments.unwrap_or(context.fragments)),
@@ -36,24 +34,50 @@ impl Builder<'_> {
             SolidWord::Cylinder => cylinder(&arguments, &mut round, sink)?,
             SolidWord::Cone => cone(&arguments, &mut round, sink)?,
             SolidWord::Polyhedron => {
+                let bytes = polyhedron::bytes(&arguments);
+                if !self.memory.has_room_for(bytes) {
+                    return Err(self.no_room(bytes, call));
+                }
                 (polyhedron::polyhedron(&arguments, &mut self.clipper, sink)?, DAffine3::IDENTITY)
             }
         };
-        let maps = context.maps.then(local, Numbers::Written, call.name.span, sink)?;
+        let refuse = |error, sink: &mut Sink| arguments.refuse(error, Lost::Empty, sink);
+        let maps = match context.maps.then(local, Numbers::Written, call.name.span) {
+            Ok(maps) => maps,
+            Err(error) => return Err(refuse(error, sink)),
+        };
         let map = *maps.product();
         let bounds = shape.bounds().mapped(&map);
         if !is_within_reach(&bounds) {
             let message = format!("it reaches farther than {REACH:e} from the origin");
             let error = Diagnostic::error(call.name.span, message);
-            return Err(sink.report(error.label("too large, or too far away")));
+            return Err(refuse(error.label("too large, or too far away"), sink));
         }
         if Placement::new(&map).is_none() {
             let error = Diagnostic::error(call.name.span, "it is smaller than a 64-bit float holds");
-            return Err(sink.report(error.label("too small, or too flat")));
+            return Err(refuse(error.label("too small, or too flat"), sink));
         }
         let material = self.surfaces.id(context.surface);
         let displacement = maps.error(&shape.bounds());
+        let own = match &shape {
+            Shape::Mesh(mesh) => {
+                let bytes = size_of_val(mesh.points.as_slice()) + size_of_val(mesh.triangles.as_slice());
+                bytes as u64 + ASSEMBLED_TRIANGLE * mesh.triangles.len() as u64
+            }
+            _ => 0,
+        };
+        let bytes = own + size_of::<Object>() as u64 + ASSEMBLED;
+        if !self.memory.has_room_for(bytes) {
+            return Err(self.no_room(bytes, call));
+        }
+        self.memory.take(bytes);
         Ok(Solid::Primitive(Primitive::new(shape, map, material).displaced(displacement)))
+    }
+
+    /// The error of a primitive for which there is no memory: it is the last that is read.
+    fn no_room(&mut self, bytes: u64, call: &Call<'_>) -> Lost {
+        self.is_out_of_memory = true;
+        self.memory.refuse(bytes, call.parentheses.end, &mut self.sink).into()
     }
 }
 
@@ -88,23 +112,23 @@ fn placed(at: DVec3, semi: DVec3) -> DAffine3 {
 fn centre_and_half_sizes(
     arguments: &Arguments<'_, '_>,
     sink: &mut Sink,
-) -> Result<Option<(DVec3, DVec3)>, Reported> {
+) -> Result<Option<(DVec3, DVec3)>, Lost> {
     let (at, semi) = (arguments.triple("at", 0.0, sink)?, arguments.triple("semi", 0.0, sink)?);
     match (semi, arguments.other_than(&["at", "semi"])) {
         (Some(semi), None) => Ok(Some((at.unwrap_or_default(), semi))),
         (Some(_), Some((name, place))) => {
             let error = Diagnostic::error(place, format!("`{name}` and `semi` exclude each other"));
-            Err(sink.report(error.help(format!("`semi` has all sizes: leave `{name}` out"))))
+            Err(sink.report(error.help(format!("`semi` has all sizes: leave `{name}` out"))).into())
         }
         (None, _) if at.is_some() => {
             let error = Diagnostic::error(arguments.place_of("at"), "`at` stands without `semi`");
-            Err(sink.report(error.help("give the half-sizes, semi = [a, b, c]; or use `translate`")))
+            Err(sink.report(error.help("give the half-sizes, semi = [a, b, c]; or use `translate`")).into())
         }
         (None, _) => Ok(None),
     }
 }
 
-fn cube(arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<(Shape, DAffine3), Reported> {
+fn cube(arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<(Shape, DAffine3), Lost> {
     if let Some((at, semi)) = centre_and_half_sizes(arguments, sink)? {
         return Ok((Shape::Cube, placed(at, semi)));
     }
@@ -118,7 +142,7 @@ fn sphere(
     arguments: &Arguments<'_, '_>,
     round: &mut Round<'_>,
     sink: &mut Sink,
-) -> Result<(Shape, DAffine3), Reported> {
+) -> Result<(Shape, DAffine3), Lost> {
     let shape = round.sphere();
     if let Some((at, semi)) = centre_and_half_sizes(arguments, sink)? {
         return Ok((shape, placed(at, semi)));
@@ -133,10 +157,10 @@ fn radius(
     diameter: &str,
     radius: &str,
     sink: &mut Sink,
-) -> Result<Option<f64>, Reported> {
+) -> Result<Option<f64>, Lost> {
     if let (Some(_), Some(place)) = (arguments.value(radius), arguments.value(diameter)) {
         let error = Diagnostic::error(place.span, format!("`{radius}` and `{diameter}` exclude each other"));
-        return Err(sink.report(error.help("give the radius or the diameter")));
+        return Err(sink.report(error.help("give the radius or the diameter")).into());
     }
     match arguments.number(diameter, sink)? {
         Some(diameter) => Ok(Some(diameter * 0.5)),
@@ -148,7 +172,7 @@ fn cylinder(
     arguments: &Arguments<'_, '_>,
     round: &mut Round<'_>,
     sink: &mut Sink,
-) -> Result<(Shape, DAffine3), Reported> {
+) -> Result<(Shape, DAffine3), Lost> {
     if let Some((at, semi)) = centre_and_half_sizes(arguments, sink)? {
         return Ok((round.frustum(1.0, 1.0), placed(at, semi)));
     }
@@ -160,7 +184,7 @@ fn cylinder(
     if largest == 0.0 {
         let place = arguments.place_of(if arguments.value("r1").is_some() { "r1" } else { "d1" });
         let error = Diagnostic::error(place, "both ends of the cylinder are 0");
-        return Err(sink.report(error.help("one end may be a point, not both")));
+        return Err(arguments.refuse(error.help("one end may be a point, not both"), Lost::Empty, sink));
     }
     upright(arguments, round.frustum(bottom / largest, top / largest), largest, sink)
 }
@@ -171,7 +195,7 @@ fn upright(
     shape: Shape,
     radius: f64,
     sink: &mut Sink,
-) -> Result<(Shape, DAffine3), Reported> {
+) -> Result<(Shape, DAffine3), Lost> {
     let half = arguments.number("h", sink)?.unwrap_or(1.0) * 0.5;
     let middle = if arguments.flag("center", sink)? { 0.0 } else { half };
     Ok((shape, placed(DVec3::new(0.0, 0.0, middle), DVec3::new(radius, radius, half))))
@@ -181,7 +205,7 @@ fn cone(
     arguments: &Arguments<'_, '_>,
     round: &mut Round<'_>,
     sink: &mut Sink,
-) -> Result<(Shape, DAffine3), Reported> {
+) -> Result<(Shape, DAffine3), Lost> {
     let shape = round.frustum(1.0, 0.0);
     if let Some((apex, semi)) = centre_and_half_sizes(arguments, sink)? {
         // The paper's cone fills −c ≤ Z ≤ 0 below its apex, half of the box that its half-sizes span.

@@ -8,9 +8,9 @@ use crate::scene::language::nearest::quoted;
 use crate::scene::language::syntax::Call;
 use crate::scene::{Anchor, Camera, CameraError, Diagnostic, FieldSpan, Light, World};
 
-impl Builder<'_> {
+impl Builder {
     pub(super) fn camera(&mut self, arguments: &Arguments<'_, '_>) -> Result<(), Reported> {
-        let sink = &mut *self.sink;
+        let sink = &mut self.sink;
         let name = arguments.text("name", sink)?;
         let eye = arguments.triple("eye", 0.0, sink)?.ok_or_else(|| arguments.missing("eye", sink))?;
         let target = arguments.triple("target", 0.0, sink)?.unwrap_or_default();
@@ -42,7 +42,7 @@ impl Builder<'_> {
     }
 
     pub(super) fn light(&mut self, arguments: &Arguments<'_, '_>) -> Result<(), Reported> {
-        let sink = &mut *self.sink;
+        let sink = &mut self.sink;
         let at = arguments.triple("at", 0.0, sink)?.ok_or_else(|| arguments.missing("at", sink))?;
         let intensity = arguments.number("intensity", sink)?.unwrap_or(1.0);
         let color = arguments.color("color", sink)?.map_or(DVec3::ONE, |(color, _)| color);
@@ -51,7 +51,7 @@ impl Builder<'_> {
     }
 
     pub(super) fn world(&mut self, call: &Call<'_>, arguments: &Arguments<'_, '_>) -> Result<(), Reported> {
-        let sink = &mut *self.sink;
+        let sink = &mut self.sink;
         if std::mem::replace(&mut self.has_world, true) {
             let error = Diagnostic::error(call.name.span, "there are two worlds").label("the second one");
             return Err(sink.report(error.help("put all its arguments into one")));

@@ -55,12 +55,12 @@ fn files_that_can_not_be_read() {
 }
 
 #[test]
-fn nesting_deeper_than_512() {
+fn nesting_deeper_than_2000() {
     let nested = |depth: usize| format!("{}cube(1);{}", "difference() {".repeat(depth), "}".repeat(depth));
-    assert!(read("test", nested(512).as_bytes(), &ReadOptions::default()).is_ok());
-    let expected = "test:1:7182: error: nested deeper than 512 levels: one level too many\n  \
+    assert!(read("test", nested(2000).as_bytes(), &ReadOptions::default()).is_ok());
+    let expected = "test:1:28014: error: nested deeper than 2000 levels: one level too many\n  \
          help: put parts side by side, not inside each other";
-    assert_eq!(errors(&nested(513)), expected);
+    assert_eq!(errors(&nested(2001)), expected);
     for opener in ["translate([0, 0, 1]) ", "cube([", "cube(", "union() ", "{", "!", "-"] {
         // Any answer will do, as long as there is one.
         let _ = read("test", opener.repeat(1 << 16).as_bytes(), &ReadOptions::default());
@@ -85,11 +85,13 @@ fn unsupported_words_can_be_left_out() {
         scene.notes,
         [
             "line 2: `hull` is left out: only OpenSCAD can work its shape out",
-            "line 3: `text` is left out: it is flat, and ray13 shows solids"
+            "line 3: `text` is left out: it is flat, and ray13 shows solids",
+            "line 3: a hole of `difference` stays filled: what cuts it is left out"
         ]
     );
-    // What is drilled into something unknown is not shown, and what meets something unknown is shown whole.
-    let text = b"difference() { hull() cube(1); cube(2); } intersection() { hull() cube(1); sphere(2); }";
+    // What is drilled into something unknown is not shown, and neither is what only meets something unknown.
+    let text =
+        b"cube(9); difference() { hull() cube(1); cube(2); } intersection() { hull() cube(1); sphere(2); }";
     let scene = read("test", text, &skipping).expect("a scene");
     assert_eq!(scene.objects.len(), 1);
     let nothing = read("test", b"hull() cube(1);", &skipping).expect_err("nothing is left").to_string();

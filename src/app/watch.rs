@@ -109,13 +109,15 @@ impl Shared {
         let idle = self.changed.wait_while(self.lock(), |state| state.now == Now::Idle);
         let state = idle.unwrap_or_else(PoisonError::into_inner);
         let piece = state.piece;
-        let same = |state: &mut State| state.now == Now::Working && state.piece == piece;
-        let ticked = self.changed.wait_timeout_while(state, TICK, same);
-        let (mut state, _) = ticked.unwrap_or_else(PoisonError::into_inner);
-        match state.now {
-            Now::Closed => Wait::Closed,
-            _ if same(&mut state) => Wait::Tick(state),
-            _ => Wait::Idle,
+        let same = |state: &State| state.now == Now::Working && state.piece == piece;
+        let ticked = self.changed.wait_timeout_while(state, TICK, |state| same(state));
+        let (state, _) = ticked.unwrap_or_else(PoisonError::into_inner);
+        if state.now == Now::Closed {
+            Wait::Closed
+        } else if same(&state) {
+            Wait::Tick(state)
+        } else {
+            Wait::Idle
         }
     }
 }

@@ -16,7 +16,11 @@ use ray13::frame::{Frame, Request, Studio};
 use ray13::math::DAffine3;
 use ray13::scene::{Camera, Material, MaterialId, Object, Primitive, Scene, Shape, Solid};
 
-const SMALLEST: Size = Size { columns: 80, rows: 25 };
+/// The smallest screen with every panel.
+const SMALLEST: Size = Size { columns: 80, rows: 24 };
+
+/// What is taken for the size of a terminal that reports none.
+const USUAL: Size = Size { columns: 80, rows: 25 };
 
 const VIEWER: &str = env!("CARGO_BIN_EXE_ray13");
 
@@ -85,6 +89,11 @@ fn the_screen_follows_the_size_of_the_terminal() {
     pty.resize(Size { columns: 120, rows: 40 });
     pty.wait_for("the larger screen", Reading::drawn);
     pty.resize(Size { columns: 40, rows: 10 });
+    pty.wait_for("title, picture and keys", |pty| {
+        let text = pty.text();
+        pty.row(0).starts_with("═ RAY13 ═") && pty.row(9).contains("1Help") && !text.contains(['║', '│'])
+    });
+    pty.resize(Size { columns: 15, rows: 4 });
     pty.wait_for("the picture alone", |pty| {
         let text = pty.text();
         !text.contains(['║', '═', '│']) && text.chars().any(|c| !c.is_whitespace())
@@ -96,7 +105,7 @@ fn the_screen_follows_the_size_of_the_terminal() {
 #[test]
 fn a_terminal_without_a_size_is_taken_as_80_by_25() {
     let mut pty = Pty::start(&[VIEWER, SCENE], Size { columns: 0, rows: 0 });
-    pty.wait_for("the first picture", |pty| pty.size() == SMALLEST && pty.drawn());
+    pty.wait_for("the first picture", |pty| pty.size() == USUAL && pty.drawn());
 }
 
 #[test]

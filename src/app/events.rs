@@ -10,6 +10,7 @@ use ratatui::crossterm::event::KeyEvent;
 use super::fence::Fence;
 use super::input::{self, Answer, Input};
 use crate::frame::Frame;
+use crate::stage::Step;
 
 /// Something that happened.
 #[derive(Debug)]
@@ -20,6 +21,10 @@ pub enum Event {
     Answer(Answer),
     /// The terminal has another size.
     Resized,
+    /// Something takes long, and is so far.
+    Working(Step),
+    /// The scene is there, or why there is none.
+    Loaded,
     /// A picture is finished.
     Drawn(Box<Frame>),
     /// The tracing thread panicked; its message is out.

@@ -5,6 +5,9 @@
 //! traces the picture that was asked for last. They wake by the clock only while something is waited for, the
 //! rest of a key or the terminal's answer: at rest the program does nothing and sends nothing.
 
+mod around;
+mod caption;
+mod charset;
 mod encoder;
 mod events;
 mod fence;
@@ -13,32 +16,42 @@ mod identity;
 mod input;
 mod keys;
 mod layout;
+mod loading;
 mod model;
 mod motion;
 mod pacing;
 mod painter;
 mod screen;
+mod shown;
 #[cfg(unix)]
 mod signals;
+mod status;
+mod suspend;
 mod terminal;
 mod theme;
 mod tracer;
 mod viewer;
+mod watch;
 
 use std::env;
 use std::io;
-use std::sync::{Arc, mpsc};
+use std::sync::Arc;
+use std::sync::mpsc::{self, Receiver, Sender};
 
 use ratatui::crossterm::style::force_color_output;
 
 use crate::glyph::{GlyphMode, Palette};
+use crate::output::Capabilities;
 use crate::plan::Options;
 use crate::scene::Camera;
+use crate::stage::Progress;
 use crate::tone::Tone;
 
 pub(crate) use encoder::Encoder;
-use events::Inbox;
+use events::{Event, Inbox};
 use identity::Identity;
+pub use loading::Opening;
+use loading::{Loading, Waited};
 use model::Model;
 use pacing::Pacing;
 pub use painter::Painter;
@@ -63,6 +76,8 @@ pub struct Settings {
     pub palette: Palette,
     /// Light to level.
     pub tone: Tone,
+    /// What the terminal can be told and what it can draw.
+    pub terminal: Capabilities,
 }
 
 /// Why the viewer ended other than by a key.
@@ -88,29 +103,104 @@ pub enum AppError {
 ///
 /// # Errors See [`AppError`].
 pub fn run(painter: impl Painter + 'static, settings: Settings) -> Result<(), AppError> {
-    // The caller has decided about colours, NO_COLOR included; crossterm shall not decide again.
-    force_color_output(true);
+    run_shared(&Arc::new(painter), settings)
+}
+
+/// The same with a painter that is asked for something afterwards.
+///
+/// # Errors
+/// See [`AppError`].
+pub fn run_shared<P: Painter + 'static>(painter: &Arc<P>, settings: Settings) -> Result<(), AppError> {
+    let session = Session::start(&settings.terminal, mpsc::channel())?;
+    session.show(painter, settings)
+}
+
+/// The same with a scene that is still to be read, on another thread, while the screen shows how far that is; a short
+/// time passes before it shows anything. Gives the painter back; nothing where the person quits before it is there.
+///
+/// # Errors
+/// What reading gives, with the terminal given back; and see [`AppError`].
+pub fn open<P: Painter + 'static, E: From<AppError> + Send + 'static>(
+    opening: &Opening,
+    load: impl FnOnce(&Progress) -> Result<(P, Settings), E> + Send + 'static,
+) -> Result<Option<Arc<P>>, E> {
     let (sender, events) = mpsc::channel();
-    let mut terminal = Terminal::take()?;
-    #[cfg(unix)]
-    signals::listen(sender.clone(), terminal.hold())?;
-    events::listen_to_terminal(sender.clone(), terminal.hold().fence())?;
-    let mut inbox = Inbox::new(events);
-    let painter = Arc::new(painter);
-    let tracer = Tracer::start(painter.clone(), sender)?;
-    let model = Model::new(&*painter, settings, terminal::window());
-    let pacing = look_ahead(&mut terminal, &mut inbox)?;
-    let mut viewer = Viewer::new(&*painter, model, tracer, &mut terminal, &mut inbox, pacing);
-    let end = viewer.run();
-    drop(viewer);
-    drop(terminal);
-    match end? {
-        End::Quit => Ok(()),
-        End::Signal(signal) => {
-            #[cfg(unix)]
-            signals::end_by(signal);
-            #[cfg(not(unix))]
-            std::process::exit(128 + signal);
+    let mut loading = Loading::start(load, sender.clone()).map_err(AppError::from)?;
+    let (session, loaded) = if let Some(loaded) = loading.done_at_once() {
+        let (painter, settings) = loaded?;
+        (Session::start(&settings.terminal, (sender, events))?, Ok((painter, settings)))
+    } else {
+        let mut session = Session::start(&opening.terminal, (sender, events))?;
+        match loading.wait(opening, &mut session.terminal, &mut session.inbox) {
+            Ok(Waited::Loaded(loaded)) => (session, loaded),
+            Ok(Waited::Ended(end)) => {
+                session.end(Ok(end))?;
+                return Ok(None);
+            }
+            Err(error) => {
+                session.end(Err(error))?;
+                return Ok(None);
+            }
+        }
+    };
+    match loaded {
+        Ok((painter, settings)) => {
+            let painter = Arc::new(painter);
+            session.show(&painter, settings)?;
+            Ok(Some(painter))
+        }
+        Err(error) => {
+            session.end(Ok(End::Quit))?;
+            Err(error)
+        }
+    }
+}
+
+/// The terminal while it is ours, and what happens there.
+struct Session {
+    terminal: Terminal,
+    inbox: Inbox,
+    sender: Sender<Event>,
+}
+
+impl Session {
+    /// Takes the terminal and listens to it.
+    fn start(
+        capabilities: &Capabilities,
+        (sender, events): (Sender<Event>, Receiver<Event>),
+    ) -> Result<Self, AppError> {
+        // The caller has decided about colours, NO_COLOR included; crossterm shall not decide again.
+        force_color_output(true);
+        let terminal = Terminal::take(capabilities)?;
+        #[cfg(unix)]
+        signals::listen(sender.clone(), terminal.hold())?;
+        events::listen_to_terminal(sender.clone(), terminal.hold().fence())?;
+        Ok(Self { terminal, inbox: Inbox::new(events), sender })
+    }
+
+    /// Shows the painter's pictures until the end.
+    fn show<P: Painter + 'static>(mut self, painter: &Arc<P>, settings: Settings) -> Result<(), AppError> {
+        let tracer = Tracer::start(painter.clone(), self.sender.clone())?;
+        let model = Model::new(&**painter, settings, terminal::window());
+        let (terminal, inbox) = (&mut self.terminal, &mut self.inbox);
+        let pacing = look_ahead(terminal, inbox)?;
+        let mut viewer = Viewer::new(&**painter, model, tracer, terminal, inbox, pacing);
+        let end = viewer.run();
+        drop(viewer);
+        self.end(end)
+    }
+
+    /// Gives the terminal back.
+    fn end(self, end: Result<End, AppError>) -> Result<(), AppError> {
+        drop(self.terminal);
+        match end? {
+            End::Quit => Ok(()),
+            End::Signal(signal) => {
+                #[cfg(unix)]
+                signals::end_by(signal);
+                #[cfg(not(unix))]
+                std::process::exit(128 + signal);
+            }
         }
     }
 }

@@ -127,7 +127,7 @@ impl Model {
             Action::Home => self.go_home(painter),
             Action::ShadingDown => self.settings.options.shading = self.shading(usize::checked_sub),
             Action::ShadingUp => self.settings.options.shading = self.shading(usize::checked_add),
-            Action::NextGlyphs => self.settings.glyphs = after(&GlyphMode::ALL, self.settings.glyphs),
+            Action::NextGlyphs => self.settings.glyphs = self.next_glyphs(),
             Action::Help => self.help = true,
             // What was open has been closed above.
             Action::Close => {}
@@ -163,6 +163,16 @@ impl Model {
             let picture = Picture { dots: request.dots, dot_aspect: request.dot_aspect };
             Lens::new(&self.camera, &picture).field()
         })
+    }
+
+    /// How to get back to where something is to be seen, in words behind those that say so; empty where nobody has
+    /// gone anywhere.
+    pub const fn way_back(&self) -> &'static str {
+        match (self.moved, self.settings.camera.is_some()) {
+            (true, _) => ". Home goes back",
+            (false, true) => ". Tab goes to the view",
+            (false, false) => "",
+        }
     }
 
     /// What is told of a picture beside it.
@@ -206,6 +216,14 @@ impl Model {
         let view = || painter.camera(self.settings.view, aspect);
         self.camera = self.settings.camera.clone().unwrap_or_else(view);
         self.moved = false;
+    }
+
+    /// The next set of characters that the terminal draws; the present one where it draws no other.
+    fn next_glyphs(&self) -> GlyphMode {
+        let now = self.settings.glyphs;
+        let drawn = |glyphs: &GlyphMode| *glyphs == now || self.settings.terminal.draws(*glyphs);
+        let all: Vec<_> = GlyphMode::ALL.into_iter().filter(drawn).collect();
+        after(&all, now)
     }
 
     /// The shading model one step away, or the present one where there is none.

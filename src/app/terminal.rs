@@ -10,11 +10,11 @@ use std::time::{Duration, Instant};
 
 use ratatui::buffer::Buffer;
 use ratatui::crossterm::Command;
-use ratatui::crossterm::cursor::{Hide, Show};
+use ratatui::crossterm::cursor::{Hide, MoveTo, Show};
 use ratatui::crossterm::style::ResetColor;
 use ratatui::crossterm::terminal::{
-    BeginSynchronizedUpdate, EndSynchronizedUpdate, EnterAlternateScreen, LeaveAlternateScreen,
-    disable_raw_mode, enable_raw_mode, window_size,
+    BeginSynchronizedUpdate, Clear, ClearType, EndSynchronizedUpdate, EnterAlternateScreen,
+    LeaveAlternateScreen, disable_raw_mode, enable_raw_mode, window_size,
 };
 use ratatui::layout::{Rect, Size};
 
@@ -23,13 +23,14 @@ use super::events::{Event, Inbox};
 use super::fence::{self, Fence};
 use super::input::Answer;
 use super::model::Window;
+use crate::output::Capabilities;
 
 /// Asks a terminal to say that it has come this far (DSR 5, ECMA-48): every terminal since the VT100 answers.
 const STATUS_REQUEST: &[u8] = b"\x1b[5n";
 
 type Hook = dyn Fn(&PanicHookInfo<'_>) + Send + Sync;
 
-/// A terminal in raw mode on its alternate screen, and what stands on it. Dropping it gives it back.
+/// A terminal in raw mode on its alternate screen, where it has one, and what stands on it. Dropping it gives it back.
 pub struct Terminal {
     hold: Hold,
     hook: Arc<Hook>,
@@ -41,7 +42,7 @@ pub struct Terminal {
 
 /// What is ours of the terminal at the moment; shared by all threads that may have to give it back. Nothing
 /// is written to a screen that is not ours.
-#[derive(Clone, Default)]
+#[derive(Clone)]
 pub struct Hold {
     ours: Arc<Mutex<Ours>>,
     fence: Fence,
@@ -51,6 +52,8 @@ pub struct Hold {
 struct Ours {
     screen: bool,
     modes: bool,
+    /// Whether there is no other screen than the shell's: it is cleared at the end, and the shell goes on at its top.
+    only_screen: bool,
 }
 
 /// What came back when a terminal was asked.
@@ -65,8 +68,9 @@ pub struct Replies {
 
 impl Terminal {
     /// Takes the terminal. From now on a panic on any thread gives it back before its message is printed.
-    pub fn take() -> io::Result<Self> {
-        let hold = Hold::default();
+    pub fn take(capabilities: &Capabilities) -> io::Result<Self> {
+        let ours = Ours { only_screen: !capabilities.alternate_screen, ..Ours::default() };
+        let hold = Hold { ours: Arc::new(Mutex::new(ours)), fence: Fence::default() };
         let hook: Arc<Hook> = Arc::from(panic::take_hook());
         panic::set_hook(Box::new({
             let (hold, hook) = (hold.clone(), hook.clone());
@@ -187,7 +191,10 @@ impl Hold {
             disable_raw_mode()?;
         }
         enable_raw_mode()?;
-        *ours = Ours { screen: true, modes: true };
+        (ours.screen, ours.modes) = (true, true);
+        if ours.only_screen {
+            return send(&commands(&[&ResetColor, &Hide]));
+        }
         // The alternate screen keeps colours with the cursor, and gives them back: they may be those of our
         // last picture, after a stop that nobody could prepare.
         send(&commands(&[&ResetColor, &EnterAlternateScreen, &Hide]))
@@ -228,7 +235,7 @@ impl Hold {
     }
 
     fn lock(&self) -> MutexGuard<'_, Ours> {
-        // Two flags are whole after any panic.
+        // Flags are whole after any panic.
         self.ours.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -245,14 +252,13 @@ impl Ours {
             return Ok(());
         }
         // A panic may have come in the middle of an update.
-        send(&commands(&[
-            &EndSynchronizedUpdate,
-            &ResetColor,
-            &Show,
-            &LeaveAlternateScreen,
-            &ResetColor,
-            &Show,
-        ]))
+        let mut bytes = commands(&[&EndSynchronizedUpdate, &ResetColor, &Show]);
+        bytes.extend(if self.only_screen {
+            commands(&[&Clear(ClearType::All), &MoveTo(0, 0)])
+        } else {
+            commands(&[&LeaveAlternateScreen, &ResetColor, &Show])
+        });
+        send(&bytes)
     }
 }
 

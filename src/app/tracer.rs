@@ -8,6 +8,7 @@ use std::thread;
 
 use super::Painter;
 use super::events::Event;
+use super::watch::Watch;
 use crate::frame::Request;
 
 /// The way to the tracing thread. Dropping it ends the thread after the picture in hand.
@@ -22,16 +23,20 @@ impl Tracer {
     pub fn start(painter: Arc<dyn Painter>, events: Sender<Event>) -> io::Result<Self> {
         let mailbox = Arc::new(Mailbox::default());
         let inbox = mailbox.clone();
+        let watch = Watch::start(painter.progress(), events.clone())?;
         thread::Builder::new().name("tracer".to_owned()).spawn(move || {
             while let Some(request) = inbox.take() {
+                watch.begin();
                 // What a panicking painter leaves half done is not looked at again: the program ends.
                 let drawn = panic::catch_unwind(AssertUnwindSafe(|| painter.draw(&request)));
+                watch.end();
                 let panicked = drawn.is_err();
                 let event = drawn.map_or(Event::Panicked, |frame| Event::Drawn(Box::new(frame)));
                 if events.send(event).is_err() || panicked {
-                    return;
+                    break;
                 }
             }
+            watch.close();
         })?;
         Ok(Self { mailbox, asked: None })
     }
@@ -150,6 +155,11 @@ mod tests {
         (Tracer::start(Arc::new(slow), sender).unwrap(), begun, finish, events)
     }
 
+    /// What came of a picture; on a busy machine there may be word before that it takes long.
+    fn done(events: &Receiver<Event>) -> Event {
+        events.iter().find(|event| !matches!(event, Event::Working(_))).expect("an end")
+    }
+
     #[test]
     fn only_the_latest_of_the_waiting_requests_is_drawn() {
         let (mut tracer, begun, finish, events) = start();
@@ -162,7 +172,7 @@ mod tests {
         assert_eq!(begun.recv().unwrap(), 9);
         finish.send(()).unwrap();
         for width in [1, 9] {
-            let Event::Drawn(frame) = events.recv().unwrap() else { panic!("a picture") };
+            let Event::Drawn(frame) = done(&events) else { panic!("a picture") };
             assert_eq!(frame.cells.expect("they were asked for").size().width, width);
         }
     }
@@ -185,7 +195,7 @@ mod tests {
         let (mut tracer, begun, finish, events) = start();
         drop(finish); // the order to finish never comes, and the painter panics
         tracer.ask(request(1));
-        assert!(matches!(events.recv().unwrap(), Event::Panicked));
+        assert!(matches!(done(&events), Event::Panicked));
         assert!(events.recv().is_err(), "the thread has dropped its sender");
         assert_eq!(begun.recv().unwrap(), 1);
     }

@@ -9,13 +9,14 @@ use super::identity::Identity;
 use super::input::Answer;
 use super::model::{Effect, Model, Subject};
 use super::pacing::Pacing;
-use super::screen::{self, Shown};
-#[cfg(unix)]
-use super::signals;
+use super::screen;
+use super::shown::Shown;
+use super::suspend::suspend;
 use super::terminal::{self, Terminal};
 use super::tracer::Tracer;
 use super::{AppError, Painter, keys};
 use crate::frame::{Frame, Request};
+use crate::stage::Step;
 
 /// Model, picture and terminal together.
 pub struct Viewer<'a> {
@@ -26,6 +27,8 @@ pub struct Viewer<'a> {
     inbox: &'a mut Inbox,
     pacing: Pacing,
     shown: Option<Shown>,
+    /// How far the next picture is, where it takes long.
+    working: Option<Step>,
     /// What is told beside the picture that is shown.
     subject: Subject,
     /// What is to be told beside the picture that is being traced; absent while none is.
@@ -62,6 +65,7 @@ impl<'a> Viewer<'a> {
             inbox,
             pacing,
             shown: None,
+            working: None,
             subject,
             next_subject: None,
             waits: false,
@@ -80,7 +84,11 @@ impl<'a> Viewer<'a> {
             let mut finished = None;
             while let Some(event) = next {
                 match event {
-                    Event::Drawn(frame) => finished = Some(frame),
+                    Event::Drawn(frame) => {
+                        finished = Some(frame);
+                        self.working = None;
+                    }
+                    Event::Working(step) => self.working = Some(step),
                     event => {
                         if let Some(end) = self.take_in(event)? {
                             return Ok(end);
@@ -97,7 +105,7 @@ impl<'a> Viewer<'a> {
         match event {
             Event::Key(key) => match self.model.update(self.painter, keys::action(key)) {
                 Effect::None => {}
-                Effect::Suspend => self.suspend()?,
+                Effect::Suspend => suspend(self.terminal)?,
                 Effect::Quit => return Ok(Some(End::Quit)),
             },
             Event::Answer(Answer::Status) => self.pacing.answered(Instant::now()),
@@ -108,7 +116,7 @@ impl<'a> Viewer<'a> {
                 }
             }
             Event::Resized => self.model.resize(self.painter, terminal::window()),
-            Event::Stopped => self.suspend()?,
+            Event::Stopped => suspend(self.terminal)?,
             Event::Continued => {
                 self.terminal.retake()?;
                 self.pacing.forget();
@@ -118,7 +126,7 @@ impl<'a> Viewer<'a> {
             Event::HungUp => return Err(AppError::HungUp),
             Event::Failed(error) => return Err(error.into()),
             Event::Panicked => return Err(AppError::Panicked),
-            Event::Drawn(_) => {}
+            Event::Drawn(_) | Event::Working(_) | Event::Loaded => {}
         }
         Ok(None)
     }
@@ -185,23 +193,7 @@ impl<'a> Viewer<'a> {
 
     fn screen(&self, shown: Option<&Shown>) -> Buffer {
         let mut buffer = Buffer::empty(self.model.layout.screen);
-        screen::draw(&self.model.with(self.subject.clone()), shown, &mut buffer);
+        screen::draw(&self.model.with(self.subject.clone()), shown, self.working, &mut buffer);
         buffer
-    }
-
-    /// Gives the terminal back and stops; [`Event::Continued`] takes it again.
-    #[cfg(unix)]
-    fn suspend(&mut self) -> Result<(), AppError> {
-        if signals::can_stop() {
-            self.terminal.hold().release()?;
-            signals::stop()?;
-        }
-        Ok(())
-    }
-
-    #[cfg(not(unix))]
-    #[expect(clippy::unused_self, clippy::unnecessary_wraps, reason = "one signature for all systems")]
-    fn suspend(&mut self) -> Result<(), AppError> {
-        Ok(())
     }
 }

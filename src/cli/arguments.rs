@@ -23,7 +23,7 @@ pub struct Arguments {
     pub viewer: ViewerArguments,
 }
 
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct ViewerArguments {
     /// The scene: a file of the scene language, OpenSCAD's .csg or NFF, - for standard input, or the name of an
     /// embedded scene
@@ -65,7 +65,7 @@ pub enum Command {
     },
 }
 
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct SceneArguments {
     /// The scene: a file, - for standard input, or the name of an embedded scene
     pub file: String,
@@ -77,7 +77,7 @@ pub struct SceneArguments {
     pub memory: Option<u64>,
 }
 
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct RenderArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
@@ -97,7 +97,7 @@ pub struct RenderArguments {
     pub stats: Option<StatsFormat>,
 }
 
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct BenchArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
@@ -108,7 +108,7 @@ pub struct BenchArguments {
     pub json: bool,
 }
 
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct PlanArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
@@ -123,7 +123,7 @@ pub struct PlanArguments {
 }
 
 /// What decides the picture.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct PictureArguments {
     /// Options that belong together; any that is given besides has the last word
     #[arg(long, value_enum)]
@@ -164,9 +164,9 @@ pub struct PictureArguments {
     #[arg(long, value_enum, default_value = "auto")]
     pub precision: PrecisionName,
     /// Characters of the picture
-    #[arg(long, value_enum, default_value = "blocks")]
+    #[arg(long, value_enum, default_value = "auto")]
     pub glyphs: Glyphs,
-    /// Colours of the picture [default: dos; mono where `NO_COLOR` is set and in txt]
+    /// Colours of the picture [default: dos; mono in txt, where `NO_COLOR` is set, and where the terminal has no grays]
     #[arg(long, value_enum)]
     pub palette: Option<PaletteName>,
     /// How light becomes a level [default: lightness]
@@ -178,7 +178,7 @@ pub struct PictureArguments {
 }
 
 /// Where the picture is seen from. What is not given is the view's.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct CameraArguments {
     /// A view of the scene, by its name [default: the first; the whole scene where it has none]
     #[arg(long, value_name = "NAME")]

@@ -5,6 +5,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use super::{Diagnostic, Diagnostics, Scene, language, memory, nff};
+use crate::stage::Progress;
 
 /// The largest file that is read: 256 MiB.
 pub const MAX_FILE_BYTES: u64 = 256 << 20;
@@ -34,6 +35,8 @@ pub struct ReadOptions {
     pub skip_unsupported: bool,
     /// The format, where the name must not decide.
     pub format: Option<Format>,
+    /// Where to write how far the reading is, for who watches.
+    pub progress: Option<Progress>,
     /// Bytes of memory that the scene, and what will show it, may take; as many as there are where it is not given.
     pub memory: Option<u64>,
 }

@@ -109,10 +109,10 @@ impl Pty {
         });
 
         let mut shell = Command::new("sh");
-        for variable in ["NO_COLOR", "RUST_BACKTRACE", "TMUX", "STY"] {
+        for variable in ["NO_COLOR", "RUST_BACKTRACE", "TMUX", "STY", "COLORTERM"] {
             shell.env_remove(variable);
         }
-        shell.env("TERM", "xterm-256color");
+        shell.env("TERM", "xterm-256color").env("LC_ALL", "C.UTF-8");
         shell.arg("-c").arg(script).arg("sh").arg(&pipe);
         shell.arg(size.columns.to_string()).arg(size.rows.to_string()).args(command);
         let process = UnixProcess::spawn_command(shell).unwrap();

@@ -24,6 +24,7 @@ pub use reference::reference;
 use super::diagnostic::{Reported, Sink};
 use super::memory::Memory;
 use super::{Diagnostics, ReadOptions, Scene};
+use crate::stage::{Progress, Task};
 use build::{Builder, Flow};
 use parser::{Parser, Reading};
 use syntax::Event;
@@ -34,12 +35,13 @@ pub(super) fn read(name: &str, text: &str, options: &ReadOptions) -> Result<Scen
     let builder = || Builder::new(options, Sink::new(leaves_out), Memory::new(options.memory, text.len()));
     let mut built = builder();
     let mut grammar = Sink::new(leaves_out);
-    if let Ok(Flow::Again) = each(text, &mut built, &mut grammar, Builder::take) {
+    let progress = options.progress.as_ref();
+    if let Ok(Flow::Again) = each(text, progress, &mut built, &mut grammar, Builder::take) {
         built = builder();
         grammar = Sink::new(leaves_out);
-        if each(text, &mut built, &mut grammar, Builder::survey).is_ok() && grammar.is_clean() {
+        if each(text, progress, &mut built, &mut grammar, Builder::survey).is_ok() && grammar.is_clean() {
             built.surveyed();
-            let _ = each(text, &mut built, &mut Sink::new(leaves_out), Builder::take);
+            let _ = each(text, progress, &mut built, &mut Sink::new(leaves_out), Builder::take);
         }
     }
     if !grammar.is_clean() {
@@ -54,10 +56,14 @@ pub(super) fn read(name: &str, text: &str, options: &ReadOptions) -> Result<Scen
 /// Gives each event of a text to `f`, until that has enough; mistakes of the grammar go to `grammar`.
 fn each(
     text: &str,
+    progress: Option<&Progress>,
     builder: &mut Builder,
     grammar: &mut Sink,
     f: impl Fn(&mut Builder, &Event<'_>) -> Flow,
 ) -> Result<Flow, Reported> {
+    if let Some(progress) = progress {
+        progress.begin(Task::Reading, text.len() as u64);
+    }
     let mut parser = Parser::new(text);
     loop {
         let mut reading = Reading { sink: &mut *grammar, memory: &mut builder.memory };
@@ -67,6 +73,9 @@ fn each(
             flow => return Ok(flow),
         }
         if let Event::Open(call) = event {
+            if let Some(progress) = progress {
+                progress.reach(call.name.span.start as u64);
+            }
             parser.recycle(call);
         }
     }

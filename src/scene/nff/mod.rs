@@ -19,6 +19,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use crate::math::DVec3;
+use crate::stage::Task;
 
 use super::diagnostic::{Reported, Sink};
 use super::{Camera, Diagnostic, Diagnostics, ReadOptions, Scene};
@@ -67,8 +68,16 @@ fn in_stretches(text: &str, bytes: usize, options: &ReadOptions) -> Option<Reade
     if stretches.len() == 1 {
         return None;
     }
+    let progress = options.progress.as_ref();
+    if let Some(progress) = progress {
+        progress.begin(Task::Reading, text.len() as u64);
+    }
     let read = stretches.into_par_iter().map(|stretch| {
+        let length = stretch.len();
         let reader = Reader::of(text, stretch, options);
+        if let Some(progress) = progress {
+            progress.advance(length as u64);
+        }
         reader.sink.is_clean().then_some(reader)
     });
     let readers: Vec<Reader> = read.collect::<Option<_>>()?;

@@ -1,0 +1,23 @@
+//! The picture on the screen, with what it took to get there.
+
+use std::time::Duration;
+
+use crate::frame::Frame;
+
+/// The last finished picture and what it took to send it.
+#[derive(Clone, Debug)]
+pub struct Shown {
+    /// The picture.
+    pub frame: Frame,
+    /// Bytes to the terminal; 0 until they are known.
+    pub bytes: usize,
+    /// The time it took to draw the screen and turn it into these bytes.
+    pub display: Duration,
+}
+
+impl Shown {
+    /// From the request to the bytes, in milliseconds.
+    pub fn total_ms(&self) -> f64 {
+        self.frame.total.as_secs_f64() * 1e3 + self.display.as_secs_f64() * 1e3
+    }
+}

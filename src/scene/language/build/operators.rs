@@ -142,12 +142,13 @@ impl Builder<'_> {
 
     fn misplaced(&mut self, call: &Call<'_>) -> Built {
         let name = call.name.text;
-        let error = Diagnostic::error(call.name.span, format!("`{name}` stands inside braces"));
+        // What holds it may be braces, or one word before it: `rotate(90) light(…);`.
+        let error = Diagnostic::error(call.name.span, format!("`{name}` can not be part of another call"));
         let help = match name {
             "material" => {
                 "define materials at the top level; to apply one, write what it is for in place of the `;`"
             }
-            _ => "move it to the top level",
+            _ => "write it at the top level, with no word before it and no braces around it",
         };
         self.sink.report(error.help(help));
         Built::Missing

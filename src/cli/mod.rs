@@ -3,25 +3,27 @@
 mod arguments;
 mod bench;
 mod diagnostics;
+mod effects;
 mod error;
 mod input;
 mod manual;
+mod parse;
 mod picture;
 mod plan;
 mod render;
 mod stats;
 mod values;
+mod write;
 
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, IsTerminal};
 use std::process::ExitCode;
-
-use clap::Parser;
 
 use crate::app::{self, Settings};
 use crate::scene::embedded;
 
 use arguments::{Arguments, Command, SceneArguments, ViewerArguments};
 use error::CliError;
+use write::print;
 
 /// The scene that the program shows when it is given none.
 const FIRST_SCENE: &str = "hanyang";
@@ -29,7 +31,7 @@ const FIRST_SCENE: &str = "hanyang";
 /// Runs the command line: exit code 0 for done, 1 where writing or the terminal failed, 2 for bad input or
 /// arguments. Errors go to standard error.
 pub fn run() -> ExitCode {
-    match command(Arguments::parse()) {
+    match parse::parse().and_then(|arguments| arguments.map_or(Ok(()), command)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             error.report();
@@ -58,6 +60,7 @@ fn view(arguments: &ViewerArguments) -> Result<(), CliError> {
     if !io::stdout().is_terminal() {
         return render::still(file, arguments.skip_unsupported, picture);
     }
+    let no_effects = effects::check(picture, &effects::Shown::Viewer)?;
     // The viewer shows what it can, and says on the screen what it left out.
     let scene = input::read(file, true)?;
     let notes = scene.notes.clone();
@@ -68,11 +71,12 @@ fn view(arguments: &ViewerArguments) -> Result<(), CliError> {
         view: view.unwrap_or(0),
         camera: picture.moves_camera().then(|| picture.camera(&studio, 1.6)).transpose()?,
         options: picture.options()?,
-        glyphs: picture.glyphs.into(),
+        glyphs: picture.glyph_mode(),
         palette: picture.palette(),
         tone: picture.tone(),
     };
     app::run(studio, settings)?;
+    input::say(&no_effects);
     input::say(&notes);
     Ok(())
 }
@@ -113,14 +117,4 @@ fn scenes(name: Option<&str>) -> Result<(), CliError> {
         CliError::Input(format!("there is no embedded scene `{name}`; there are {}", names.join(", ")))
     })?;
     print(scene.text.as_bytes())
-}
-
-/// Writes to standard output. A reader that has seen enough is no error.
-fn print(bytes: &[u8]) -> Result<(), CliError> {
-    let mut out = io::stdout().lock();
-    match out.write_all(bytes).and_then(|()| out.flush()) {
-        Err(e) if e.kind() == io::ErrorKind::BrokenPipe => Ok(()),
-        Err(e) => Err(CliError::Output(format!("standard output could not be written: {e}"))),
-        Ok(()) => Ok(()),
-    }
 }

@@ -5,7 +5,7 @@ use clap::ValueEnum;
 use crate::frame::{Request, Studio, Wants, pcat};
 use crate::glyph::{CELL_ASPECT, ColorDepth, GlyphMode, Palette};
 use crate::math::Size;
-use crate::plan::{EngineChoice, Options, PrecisionChoice, Shading, StructureChoice};
+use crate::plan::{CUTOFF, DEPTH, EngineChoice, Options, PrecisionChoice, Shading, StructureChoice};
 use crate::scene::{Camera, FieldSpan, Scene};
 use crate::tone::Tone;
 
@@ -15,6 +15,19 @@ use super::values::MOST_DOTS;
 
 /// The screen that is assumed where there is none.
 const SCREEN: Size = Size::new(80, 25);
+
+/// The dots of pixels and raw values where no size is given: those of a PC's largest graphics screen of the time, and in
+/// the shape of [`SCREEN`], whose cells are twice as high as wide.
+const PIXELS: Size = Size::new(640, 400);
+
+/// How large a picture is for which no size is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unsized {
+    /// As many dots as the terminal's cells have.
+    Screen,
+    /// [`PIXELS`].
+    Pixels,
+}
 
 /// The glyph modes by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -168,13 +181,13 @@ impl PictureArguments {
         let structure = if engine == EngineChoice::Fast { StructureChoice::Auto } else { preset.structure };
         let options = Options {
             shading: shading.unwrap_or(preset.shading),
-            depth: self.depth,
-            cutoff: self.cutoff,
+            depth: self.depth.unwrap_or(DEPTH),
+            cutoff: self.cutoff.unwrap_or(CUTOFF),
             shadows: self.shadows || (preset.shadows && !self.no_shadows),
             structure: self.structure.map_or(structure, Into::into),
             engine,
             precision: self.precision.into(),
-            samples: self.samples,
+            samples: self.samples.unwrap_or(1),
             color: false,
             threads: self.threads.map_or(0, usize::from),
         };
@@ -210,14 +223,27 @@ impl PictureArguments {
         }
     }
 
+    /// The characters.
+    pub fn glyph_mode(&self) -> GlyphMode {
+        self.glyphs.map_or_else(GlyphMode::default, Into::into)
+    }
+
     /// The request for one picture.
-    pub fn request(&self, studio: &Studio, palette: Palette, wants: Wants) -> Result<Request, CliError> {
-        let glyphs = GlyphMode::from(self.glyphs);
+    pub fn request(
+        &self,
+        studio: &Studio,
+        palette: Palette,
+        wants: Wants,
+        size: Unsized,
+    ) -> Result<Request, CliError> {
+        let glyphs = self.glyph_mode();
         let per_cell = glyphs.dots_per_cell();
         let (dots, dot_aspect) = if let Some(dots) = self.dots {
             (dots, 1.0)
         } else if let (None, Some(Preset::Pcat)) = (self.cells, self.preset) {
             (pcat::DOTS, pcat::dot_aspect())
+        } else if let (None, Unsized::Pixels) = (self.cells, size) {
+            (PIXELS, 1.0)
         } else {
             let cells = self.cells.unwrap_or_else(screen);
             let dots = Size::new(cells.width * per_cell.width, cells.height * per_cell.height);
@@ -273,6 +299,15 @@ impl CameraArguments {
             || self.up.is_some()
             || self.field.is_some()
             || self.zoom.is_some()
+    }
+
+    /// Whether all is given that a view says.
+    pub fn replaces_view(&self) -> bool {
+        self.eye.is_some()
+            && self.target.is_some()
+            && self.up.is_some()
+            && self.field.is_some()
+            && self.zoom.is_some()
     }
 
     /// The index of the view that is named.

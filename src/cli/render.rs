@@ -1,14 +1,12 @@
 //! Stills.
 
-use std::fs;
-use std::io::{self, IsTerminal, Write};
-use std::path::Path;
+use std::io::{self, IsTerminal};
 use std::sync::Arc;
 use std::time::Instant;
 
 use clap::ValueEnum;
 
-use crate::frame::{Frame, Request, Wants};
+use crate::frame::{Frame, Nothing, Request, Wants};
 use crate::glyph::Palette;
 use crate::math::Grid;
 use crate::output::{self, Pixels};
@@ -16,20 +14,28 @@ use crate::plan::PrecisionChoice;
 use crate::tone::Tone;
 
 use super::arguments::{Channel, Format, PictureArguments, RenderArguments};
-use super::error::CliError;
-use super::{input, print, stats};
+use super::effects::{self, Still};
+use super::error::{CliError, tell};
+use super::picture::Unsized;
+use super::write::{Destination, print};
+use super::{input, stats};
 
 /// Draws one still and writes it.
 pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
-    let format = arguments.format.map_or_else(|| format_of(arguments.output.as_deref()), Ok)?;
-    check(format, arguments.channel)?;
+    let to = Destination::new(arguments.output.as_deref());
+    to.check(&arguments.scene.file)?;
+    let format = arguments.format.map_or_else(|| format_of(&to), Ok)?;
+    let still = Still { format, channel: arguments.channel, levels: arguments.levels };
+    let notes = effects::check(&arguments.picture, &effects::Shown::Still(still))?;
+    input::say(&notes);
     let reading = Instant::now();
     let scene = input::read(&arguments.scene.file, arguments.scene.skip_unsupported)?;
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
     let read = reading.elapsed();
-    let wants = wants(format, arguments.channel);
-    let mut request = arguments.picture.request(&studio, palette(&arguments.picture, format), wants)?;
+    let size = if format.is_pixels() { Unsized::Pixels } else { Unsized::Screen };
+    let palette = palette(&arguments.picture, format);
+    let mut request = arguments.picture.request(&studio, palette, wants(&still), size)?;
     // Raw values are for whoever computes with them.
     if format == Format::Pfm && request.options.precision == PrecisionChoice::Auto {
         request.options.precision = PrecisionChoice::Double;
@@ -40,43 +46,67 @@ pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
         return Err(CliError::Input(format!("{over}: use --structure tree")));
     }
     let writing = Instant::now();
-    let bytes = encoded(&frame, &request, format, arguments.channel)?;
+    let look = Look::new(&still, &arguments.picture);
+    let bytes = encoded(&frame, &request, format, look)?;
     frame.times[crate::stage::Stage::Display] = writing.elapsed();
-    match &arguments.output {
-        Some(path) => write_file(path, &bytes)?,
-        None => print(&bytes)?,
-    }
-    if let Some(form) = arguments.stats {
-        stats::say(&frame, &studio.built(), form);
+    to.write(&bytes)?;
+    let nothing = studio.nothing_in_view(&request, &frame);
+    match arguments.stats {
+        Some(form) => stats::say(&frame, &studio.built(), nothing, form),
+        None => say_nothing(nothing),
     }
     Ok(())
 }
 
 /// One still on standard output, which is no terminal: characters only.
 pub fn still(file: &str, skip_unsupported: bool, picture: &PictureArguments) -> Result<(), CliError> {
+    let still = Still { format: Format::Txt, channel: None, levels: false };
+    let notes = effects::check(picture, &effects::Shown::Still(still))?;
+    input::say(&notes);
     let scene = input::read(file, skip_unsupported)?;
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
-    let request = picture.request(&studio, palette(picture, Format::Txt), Wants::CELLS)?;
+    let palette = palette(picture, Format::Txt);
+    let request = picture.request(&studio, palette, Wants::CELLS, Unsized::Screen)?;
     let frame = studio.draw(&request);
-    print(&encoded(&frame, &request, Format::Txt, None)?)
+    print(&encoded(&frame, &request, Format::Txt, Look::Toned)?)?;
+    say_nothing(studio.nothing_in_view(&request, &frame));
+    Ok(())
 }
 
-/// Refuses a channel that the format does not hold.
-fn check(format: Format, channel: Option<Channel>) -> Result<(), CliError> {
-    let message = match (format, channel) {
-        (_, None) | (Format::Pfm, _) | (Format::Png | Format::Pgm | Format::Ppm, Some(Channel::Light)) => {
-            return Ok(());
+/// Says why a picture is all background.
+fn say_nothing(nothing: Option<Nothing>) {
+    if let Some(why) = nothing {
+        tell(&format!("nothing in view: {why}"));
+    }
+}
+
+/// What is shown of light in pixels and raw values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Look {
+    /// As the tone shows it.
+    Toned,
+    /// The grays of the levels.
+    Levels,
+    /// A channel as it is.
+    Raw(Channel),
+}
+
+impl Look {
+    /// What is asked for. The picture of 1986 had levels; a colour has none.
+    fn new(still: &Still, picture: &PictureArguments) -> Self {
+        match still.channel {
+            Some(channel) => Self::Raw(channel),
+            None if still.format == Format::Pfm => Self::Raw(Channel::Light),
+            None if still.levels || picture.preset.is_some() => Self::Levels,
+            None => Self::Toned,
         }
-        (_, Some(Channel::Light)) => "--channel light needs --format png, pgm, ppm or pfm",
-        (_, Some(_)) => "this --channel needs --format pfm: the other formats hold the picture itself",
-    };
-    Err(CliError::Input(message.into()))
+    }
 }
 
 /// What the format shows of a picture.
-fn wants(format: Format, channel: Option<Channel>) -> Wants {
-    match (format, channel) {
+fn wants(still: &Still) -> Wants {
+    match (still.format, still.channel) {
         (Format::Txt | Format::Ans, _) => Wants::CELLS,
         (_, Some(Channel::Depth)) => Wants { depth: true, ..Wants::LIGHT },
         (_, Some(Channel::Normal)) => Wants { normal: true, ..Wants::LIGHT },
@@ -92,8 +122,8 @@ fn palette(picture: &PictureArguments, format: Format) -> Palette {
 
 /// The format that a file's ending names. A file without one holds text; an ending that names no format is an error,
 /// since text in a `.jpg` would be found out late.
-fn format_of(path: Option<&Path>) -> Result<Format, CliError> {
-    let Some(path) = path else {
+fn format_of(to: &Destination) -> Result<Format, CliError> {
+    let Destination::File(path) = to else {
         return Ok(if io::stdout().is_terminal() { Format::Ans } else { Format::Txt });
     };
     let Some(ending) = path.extension() else { return Ok(Format::Txt) };
@@ -111,35 +141,30 @@ fn format_of(path: Option<&Path>) -> Result<Format, CliError> {
 }
 
 /// The whole still in memory, so that an error leaves nothing half-written.
-fn encoded(
-    frame: &Frame,
-    request: &Request,
-    format: Format,
-    channel: Option<Channel>,
-) -> Result<Vec<u8>, CliError> {
+fn encoded(frame: &Frame, request: &Request, format: Format, look: Look) -> Result<Vec<u8>, CliError> {
     let mut out = Vec::new();
     let done = match format {
         Format::Txt => wanted(frame.cells.as_ref()).and_then(|cells| output::text(cells, &mut out)),
         Format::Ans => wanted(frame.cells.as_ref()).and_then(|cells| output::ansi(cells, &mut out)),
         Format::Levels => output::levels(&frame.levels(request.tone), &mut out),
         Format::Png => {
-            let drawn = output::png(&pixels(frame, request, channel), &mut out);
+            let drawn = output::png(&pixels(frame, request, look), &mut out);
             drawn.map_err(|e| io::Error::other(e.to_string()))
         }
-        Format::Pgm => output::pgm(&grays(frame, request, channel), &mut out),
-        Format::Ppm => output::ppm(&pixels(frame, request, channel), &mut out),
-        Format::Pfm => match channel.unwrap_or(Channel::Light) {
-            Channel::Light => match &frame.color {
+        Format::Pgm => output::pgm(&grays(frame, request, look), &mut out),
+        Format::Ppm => output::ppm(&pixels(frame, request, look), &mut out),
+        Format::Pfm => match look {
+            Look::Toned | Look::Levels | Look::Raw(Channel::Light) => match &frame.color {
                 Some(color) => output::pfm_vectors(color, &mut out),
                 None => output::pfm_gray(&frame.light, &mut out),
             },
-            Channel::Depth => {
+            Look::Raw(Channel::Depth) => {
                 wanted(frame.depth.as_ref()).and_then(|depth| output::pfm_gray(depth, &mut out))
             }
-            Channel::Normal => {
+            Look::Raw(Channel::Normal) => {
                 wanted(frame.normal.as_ref()).and_then(|normal| output::pfm_vectors(normal, &mut out))
             }
-            Channel::Object => wanted(frame.object.as_ref())
+            Look::Raw(Channel::Object) => wanted(frame.object.as_ref())
                 .and_then(|object| output::pfm_gray(&object.map(|&n| f64::from(n)), &mut out)),
         },
     };
@@ -152,49 +177,22 @@ fn wanted<T>(grid: Option<&Arc<Grid<T>>>) -> io::Result<&Grid<T>> {
     grid.map(Arc::as_ref).ok_or_else(|| io::Error::other("it lacks what it was drawn for"))
 }
 
-/// Colours where they are wanted, as the tone shows them or as they are; else grays.
-fn pixels(frame: &Frame, request: &Request, channel: Option<Channel>) -> Pixels {
-    let tone = if channel.is_some() { Tone::Lightness } else { request.tone };
+/// Colours where they are wanted; else grays.
+fn pixels(frame: &Frame, request: &Request, look: Look) -> Pixels {
     match &frame.color {
-        Some(color) => Pixels::of_colors(color, tone),
-        None => Pixels::Gray(grays(frame, request, channel)),
+        Some(color) => Pixels::of_colors(color, tone(request, look)),
+        None => Pixels::Gray(grays(frame, request, look)),
     }
 }
 
-/// The levels' grays, or the light itself where it is asked for.
-fn grays(frame: &Frame, request: &Request, channel: Option<Channel>) -> Grid<u8> {
-    match channel {
-        Some(_) => output::grays_of_light(&frame.light),
-        None => output::grays_of_levels(&frame.levels(request.tone)),
+fn grays(frame: &Frame, request: &Request, look: Look) -> Grid<u8> {
+    match look {
+        Look::Levels => output::grays_of_levels(&frame.levels(request.tone)),
+        Look::Toned | Look::Raw(_) => output::grays_of_light(&frame.light, tone(request, look)),
     }
 }
 
-/// Writes beside the place and moves there at the end, so that the file is whole or as it was. A link is written
-/// through, and a file that was there keeps its permissions. What is no plain file, a pipe or a device, is written
-/// straight.
-fn write_file(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
-    let failed = |e: io::Error| CliError::Output(format!("{} could not be written: {e}", path.display()));
-    let open = || fs::File::options().write(true).open(path);
-    let (place, permissions) = match fs::metadata(path) {
-        Ok(found) if found.is_dir() => return Err(failed(io::ErrorKind::IsADirectory.into())),
-        Ok(found) if !found.is_file() => {
-            let written = open().and_then(|mut out| out.write_all(bytes).and_then(|()| out.flush()));
-            return written.map_err(failed);
-        }
-        Ok(found) => {
-            // A move asks the folder for permission only; the file must allow it too.
-            open().map_err(failed)?;
-            (fs::canonicalize(path).map_err(failed)?, Some(found.permissions()))
-        }
-        Err(_) => (path.to_owned(), None),
-    };
-    // Not made from the file's own name, which may be as long as names can be.
-    let part = place.with_file_name(format!("ray13-{}.part", std::process::id()));
-    let written = fs::write(&part, bytes)
-        .and_then(|()| permissions.map_or(Ok(()), |own| fs::set_permissions(&part, own)))
-        .and_then(|()| fs::rename(&part, &place));
-    written.map_err(|e| {
-        let _ = fs::remove_file(&part);
-        failed(e)
-    })
+/// Raw light has no tone.
+fn tone(request: &Request, look: Look) -> Tone {
+    if matches!(look, Look::Raw(_)) { Tone::Lightness } else { request.tone }
 }

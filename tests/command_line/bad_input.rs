@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::{BALL, fails, folder, run, scene, text};
+use super::{BALL, fails, run, scene, text};
 
 #[test]
 fn has_exit_code_2_and_a_place() {

@@ -58,7 +58,7 @@ const fn row(option: &'static str, verdict: Verdict, holds: fn(&Given) -> bool, 
 }
 
 /// The viewer's lines come when it has ended, too late to change anything: what it does not follow is refused.
-const ROWS: [Row; 28] = [
+const ROWS: [Row; 26] = [
     row("cells", Refused, |g| g.is_viewer() && g.picture.cells.is_some(), FILLS),
     row("dots", Refused, |g| g.is_viewer() && g.picture.dots.is_some(), FILLS),
     row(
@@ -143,18 +143,6 @@ const ROWS: [Row; 28] = [
         Said,
         |g| !g.raw() && g.picture.cutoff.is_some() && g.picture.depth == Some(0),
         "--depth 0 follows no ray",
-    ),
-    row(
-        "shadows",
-        Said,
-        |g| !g.raw() && g.picture.shadows && g.picture.preset.is_none(),
-        "pictures have shadows unless a preset leaves them out",
-    ),
-    row(
-        "no-shadows",
-        Said,
-        |g| !g.raw() && g.picture.no_shadows && g.picture.preset.is_some(),
-        "--preset pcat has no shadows anyway",
     ),
     row(
         "view",
@@ -255,5 +243,52 @@ impl Given<'_> {
 
     fn sends_on(&self) -> bool {
         self.picture.options().is_ok_and(|options| options.shading == Shading::Whitted)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::{CommandFactory, Parser};
+
+    use super::*;
+    use crate::cli::arguments::Arguments;
+
+    fn checked(arguments: &[&str], shown: &Shown) -> Result<Vec<String>, String> {
+        let arguments = [&["ray13", "die"], arguments].concat();
+        let parsed = Arguments::try_parse_from(arguments).expect("arguments");
+        check(&parsed.viewer.picture, shown).map_err(|e| e.to_string())
+    }
+
+    /// A line on standard error would be seen when the viewer has ended.
+    #[test]
+    fn the_viewer_refuses_sizes() {
+        for size in ["--cells", "--dots"] {
+            let refused = checked(&[size, "80x25"], &Shown::Viewer).expect_err("no effect");
+            assert!(refused.contains(size) && refused.contains("fills its terminal"), "{refused}");
+            assert_eq!(checked(&[size, "80x25"], &Shown::Cells), Ok(Vec::new()));
+        }
+        assert_eq!(checked(&["--samples", "2", "--zoom", "3"], &Shown::Viewer), Ok(Vec::new()));
+    }
+
+    #[test]
+    fn what_mirrors_do_is_said_to_be_of_no_effect_without_them() {
+        let lines = checked(&["--shading", "3", "--depth", "2", "--cutoff", "0"], &Shown::Cells);
+        let lines = lines.expect("nothing is refused");
+        assert!(lines.len() == 2 && lines.iter().all(|line| line.contains("--shading 4")), "{lines:?}");
+        assert_eq!(checked(&["--depth", "2"], &Shown::Cells), Ok(Vec::new()));
+        assert_eq!(
+            checked(&["--preset", "pcat", "--depth", "2"], &Shown::Cells).map(|lines| lines.len()),
+            Ok(1)
+        );
+    }
+
+    #[test]
+    fn every_row_names_an_option() {
+        let program = Arguments::command();
+        let render = program.find_subcommand("render").expect("the command");
+        for row in &ROWS {
+            let name = row.option.split(' ').next();
+            assert!(render.get_arguments().any(|argument| argument.get_long() == name), "{}", row.option);
+        }
     }
 }

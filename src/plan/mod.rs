@@ -6,7 +6,7 @@ mod explain;
 mod options;
 mod precision;
 
-pub use cost::Cost;
+pub use cost::{Cost, Sample};
 pub use explain::{Reasons, StagePlan, Term};
 pub use options::{
     CUTOFF, DEPTH, EngineChoice, Options, OptionsError, PrecisionChoice, Shading, StructureChoice,

@@ -69,3 +69,33 @@ fn arguments_out_of_range_are_explained() {
     let message = fails(&run(&["render", "hanyan"]), 2);
     assert!(message.contains("hanyang"), "{message}");
 }
+
+// From a first user: the message for `--zoom -1` spoke of `--`, that for a second scene of a subcommand.
+#[test]
+fn each_have_a_message_of_their_own() {
+    let (_, file) = scene("messages", BALL);
+    for (option, value, says) in [
+        ("--zoom", "-1", "above 0"),
+        ("--cells", "-3x5", "WIDTHxHEIGHT"),
+        ("--dots", "-8x-8", "WIDTHxHEIGHT"),
+        ("--field", "-40x25", "above 0"),
+        ("--cutoff", "-1", "0 or more"),
+        ("--samples", "-1", "1..=64"),
+        ("--depth", "-1", "0..=64"),
+        ("--threads", "-2", "1..=1024"),
+        ("--shading", "-1", "1..=4"),
+        ("--eye", "-1", "X,Y,Z"),
+    ] {
+        let message = fails(&run(&["render", &file, option, value]), 2);
+        assert!(message.contains(option) && message.contains(says), "{message}");
+        assert!(!message.contains("'--'") && !message.contains("'-- "), "{message}");
+    }
+    for two in [&["die", "hanyang"][..], &["render", "die", "hanyang"], &["--zoom", "2", "die", "hanyang"]] {
+        let message = fails(&run(two), 2);
+        assert!(message.contains("one scene at a time") && message.contains("hanyang"), "{message}");
+    }
+    let message = fails(&run(&["rendre", "die"]), 2);
+    assert!(message.contains("`rendre`") && message.contains("render, bench"), "{message}");
+    let message = fails(&run(&["die", "render"]), 2);
+    assert!(message.contains("ray13 render FILE"), "{message}");
+}

@@ -63,3 +63,55 @@ fn is_not_a_reader_that_has_seen_enough() {
     assert_ne!(output.status.code(), Some(101));
     assert_ne!(output.status.code(), Some(2), "{message}");
 }
+
+// From a first user: the picture took the place of the scene.
+#[test]
+fn is_never_the_scene_itself() {
+    let (folder, file) = scene("own", BALL);
+    let (link, hard) = (folder.join("link.png"), folder.join("hard.txt"));
+    let beside = folder.join("beside");
+    fs::create_dir(&beside).unwrap();
+    let around = beside.join("../given.scene");
+    let mut names = vec![file.clone(), around.to_str().unwrap().to_owned()];
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink(&file, &link).unwrap();
+        fs::hard_link(&file, &hard).unwrap();
+        names.extend([&link, &hard].map(|path| path.to_str().unwrap().to_owned()));
+    }
+    for read in &names {
+        for written in &names {
+            let message = fails(&run(&["render", read, "-o", written, "--format", "txt"]), 2);
+            assert!(message.contains("the file that the scene is read from"), "{message}");
+        }
+    }
+    assert_eq!(fs::read_to_string(&file).unwrap(), BALL);
+}
+
+#[cfg(unix)]
+#[test]
+fn is_never_the_scene_itself_by_redirection() {
+    let (folder, file) = scene("redirected", BALL);
+    let read = fs::File::open(&file).unwrap();
+    let output = ray13().args(["render", "-", "-o", &file, "--format", "txt"]).stdin(read).output().unwrap();
+    fails(&output, 2);
+    let appended = fs::File::options().append(true).open(&file).unwrap();
+    let output = ray13().args(["render", &file]).stdout(appended).output().unwrap();
+    fails(&output, 2);
+    assert_eq!(fs::read_to_string(&file).unwrap(), BALL);
+    // Another file may be appended to, and a scene inside the program has none.
+    let other = folder.join("other.txt");
+    for from in [file.as_str(), "die"] {
+        let out = fs::File::create(&other).unwrap();
+        assert!(ray13().args(["render", from]).stdout(out).status().unwrap().success());
+    }
+}
+
+#[test]
+fn is_not_a_dash() {
+    let (folder, file) = scene("dash", BALL);
+    let picture = ["render", &file, "--cells", "9x4", "--format", "ans"];
+    let output = ray13().args(picture).args(["-o", "-"]).current_dir(&folder).output().unwrap();
+    assert_eq!(done(&output), done(&run(&picture)));
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 1, "a file was made");
+}

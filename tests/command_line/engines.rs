@@ -33,7 +33,9 @@ mod an_engine {
 
     #[test]
     fn shows_the_same_picture() {
-        let picture = |engine: &str| done(&run(&["render", "glass", "--format", "pfm", "--engine", engine]));
+        let picture = |engine: &str| {
+            done(&run(&["render", "glass", "--format", "pfm", "--dots", "160x100", "--engine", engine]))
+        };
         assert!(picture("fast") == picture("exact"));
     }
 

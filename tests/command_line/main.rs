@@ -3,6 +3,7 @@
 mod bad_arguments;
 mod bad_input;
 mod bad_output;
+mod effects;
 mod engines;
 mod plan;
 mod scenes;

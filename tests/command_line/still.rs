@@ -36,7 +36,8 @@ fn comes_in_every_format() {
     // One gray a dot, in both.
     assert!(pgm[13..].iter().zip(ppm[13..].chunks(3)).all(|(&gray, rgb)| rgb == [gray; 3]));
     let thirteen = [0, 42, 60, 74, 85, 114, 136, 154, 170, 196, 218, 237, 255];
-    assert!(pgm[13..].iter().all(|gray| thirteen.contains(gray)));
+    let levels = done(&run(&["render", &file, "--dots", "20x16", "--format", "pgm", "--levels"]));
+    assert!(levels[13..].iter().all(|gray| thirteen.contains(gray)));
     assert!(format("ans").contains(&0x1b));
     assert!(!format("txt").contains(&0x1b));
     assert!(!format("levels").contains(&0x1b));
@@ -61,12 +62,11 @@ fn has_colours_when_asked() {
     // Bit depth and colour type of the header chunk.
     assert_eq!(still(&["--format", "png", "--palette", "color"])[24..26], [8, 2]);
     assert_eq!(still(&["--format", "png"])[24..26], [8, 0]);
-    let levels = still(&["--format", "levels"]);
-    assert_eq!(still(&["--format", "levels", "--palette", "color"]), levels);
 }
 
+// From a first user: the picture that `-o x.png` made was posterised, of 160 × 100 dots.
 #[test]
-fn holds_light_in_place_of_levels_when_asked() {
+fn of_pixels_holds_the_lights_own_grays_unless_levels_are_asked_for() {
     let (_, file) = scene("light", BALL);
     let still = |more: &[&str]| {
         let arguments = [&["render", &file, "--dots", "60x60"][..], more].concat();
@@ -78,11 +78,78 @@ fn holds_light_in_place_of_levels_when_asked() {
         grays.dedup();
         grays.len()
     };
-    assert!(grays(&still(&["--format", "pgm"])) <= 13);
-    assert!(grays(&still(&["--format", "pgm", "--channel", "light"])) > 13);
-    for format in ["png", "ppm"] {
-        assert_ne!(still(&["--format", format]), still(&["--format", format, "--channel", "light"]));
+    let plain = still(&["--format", "pgm"]);
+    assert!(grays(&plain) > 13);
+    assert!(grays(&still(&["--format", "pgm", "--levels"])) <= 13);
+    assert_ne!(still(&["--format", "pgm", "--tone", "even"]), plain);
+    for format in ["png", "pgm", "ppm"] {
+        let plain = still(&["--format", format]);
+        assert_eq!(plain, still(&["--format", format, "--channel", "light"]));
+        assert_ne!(plain, still(&["--format", format, "--levels"]));
     }
+    // The picture of 1986 had levels.
+    let preset = |more: &[&str]| still(&[&["--format", "pgm", "--preset", "pcat"][..], more].concat());
+    assert_eq!(preset(&[]), preset(&["--levels"]));
+    assert_ne!(preset(&[]), preset(&["--channel", "light"]));
+}
+
+#[test]
+fn of_pixels_has_640_by_400_unless_a_size_is_given() {
+    let (_, file) = scene("pixels", BALL);
+    let header = |more: &[&str]| {
+        let bytes = done(&run(&[&["render", &file][..], more].concat()));
+        let lines = bytes.split(|&b| b == b'\n').take(2);
+        lines.map(|line| text(line)).collect::<Vec<_>>().join(" ")
+    };
+    assert_eq!(header(&["--format", "pgm"]), "P5 640 400");
+    assert_eq!(header(&["--format", "ppm"]), "P6 640 400");
+    assert_eq!(header(&["--format", "pfm"]), "Pf 640 400");
+    assert_eq!(header(&["--format", "pgm", "--cells", "20x10"]), "P5 40 40");
+    assert_eq!(header(&["--format", "pgm", "--cells", "20x10", "--glyphs", "shade"]), "P5 20 10");
+    assert_eq!(header(&["--format", "pgm", "--preset", "pcat"]), "P5 164 188");
+    let png = done(&run(&["render", &file, "--format", "png"]));
+    assert_eq!(png[16..24], [0, 0, 2, 128, 0, 0, 1, 144]);
+}
+
+// From a first user: a blank screen, and no word of why.
+#[test]
+fn that_is_all_background_says_why() {
+    let (_, file) = scene("nothing", BALL);
+    let nothing = scene("vanished", "difference() { sphere(1); cube(9, center = true); }\n").1;
+    let view = |eye: &'static str, target: &'static str| ["--eye", eye, "--target", target];
+    let cases = [
+        (&file, view("0,-5,0", "0,-9,0"), "the scene lies behind the eye"),
+        (&file, view("0,-5,0", "5,-5,0"), "the scene lies outside of the field"),
+        (&file, view("1e300,0,0", "0,0,0"), "3e299 times as far away as the scene is large"),
+        (&file, view("0,9e5,0", "0,0,0"), "times as far away as the scene is large"),
+        (&nothing, view("0,-5,0", "0,0,0"), "nothing"),
+    ];
+    for (file, view, why) in cases {
+        for start in [&["render"][..], &[]] {
+            let output = run(&[start, &[file], &["--cells", "8x4"], &view].concat());
+            let said = text(&output.stderr);
+            if output.status.code() == Some(2) {
+                // A scene that holds nothing may be refused before it is drawn.
+                assert_eq!(file, &nothing, "{said}");
+                continue;
+            }
+            assert_eq!(output.status.code(), Some(0), "{said}");
+            assert!(said.contains("nothing in view: ") && said.contains(why), "{said}");
+            assert!(text(&output.stdout).trim().is_empty());
+        }
+    }
+    let stats = |form: &str, eye: &str| {
+        let size = ["--cells", "8x4", "--stats", form, "--target", "0,0,0", "--eye", eye];
+        text(&run(&[&["render", &file], &size[..]].concat()).stderr)
+    };
+    let json =
+        |eye: &str| serde_json::from_str::<serde_json::Value>(&stats("json", eye)).expect("JSON alone");
+    assert!(json("1e300,0,0")["nothing_in_view"].as_str().unwrap().contains("far away"));
+    assert_eq!(json("1e300,0,0")["primary_hits"], 0);
+    let seen = json("5,0,0");
+    assert!(seen["nothing_in_view"].is_null() && seen.get("nothing_in_view").is_some(), "{seen}");
+    assert!(stats("text", "1e300,0,0").contains("nothing_in_view"));
+    assert!(!stats("text", "5,0,0").contains("nothing_in_view"));
 }
 
 #[test]

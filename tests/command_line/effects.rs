@@ -6,7 +6,8 @@ use super::{run, scene, text};
 const SHINING: &str = "camera(name = \"front\", eye = [0, -9, 3], field = [30, 20]); camera(name = \"side\", eye = [9, -3, 3]);\n\
     world(k = 1); light(at = [5, -9, 9], intensity = 9, color = [1, 0.5, 0.5]);\n\
     material(kd = 0.4, ks = 0.3, kr = 0.5, n = 6, color = [1, 0.6, 0.2]) cube(2, center = true);\n\
-    material(kd = 0.4, ks = 0.3, kr = 0.5, n = 6) translate([2.5, 0, 0]) sphere(1.3);\n";
+    material(kd = 0.4, ks = 0.3, kr = 0.5, n = 6) translate([2.5, 0, 0]) sphere(1.3);\n\
+    material(kd = 0.9) translate([-6, -6, -2]) cube([12, 12, 0.5]);\n";
 
 const FORMATS: [&[&str]; 12] = [
     &["--format", "txt"],
@@ -67,7 +68,7 @@ fn every_option_has_one_or_says_that_it_has_none() {
     let (_, file) = scene("effects", SHINING);
     let mut said = 0;
     for format in FORMATS {
-        let plain = ["render", &file, "--dots", "24x16"];
+        let plain = ["render", &file, "--dots", "48x32"];
         let plain = [&plain[..], format].concat();
         let picture = run(&plain);
         assert!(picture.status.success(), "{format:?}: {}", text(&picture.stderr));

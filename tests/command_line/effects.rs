@@ -35,7 +35,7 @@ const OPTIONS: [&[&str]; 22] = [
     &["--shading", "1"],
     &["--no-shadows"],
     &["--depth", "0"],
-    &["--cutoff", "0.9"],
+    &["--cutoff", "9"],
     &["--samples", "3"],
     &["--glyphs", "half"],
     &["--glyphs", "ascii"],

@@ -6,7 +6,6 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
 use crate::math::{DVec3, Size};
-use crate::plan::{CUTOFF, DEPTH};
 
 use super::picture::{EngineName, Glyphs, PaletteName, PrecisionName, Preset, StructureName, ToneName};
 use super::values;
@@ -86,10 +85,13 @@ pub struct RenderArguments {
     /// How the picture is written [default: by the ending of -o; else ans on a terminal, txt elsewhere]
     #[arg(long, value_enum)]
     pub format: Option<Format>,
-    /// Raw values in place of levels: light in png, pgm, ppm and pfm, all others in pfm only [default: light in pfm]
+    /// Raw values: light in png, pgm, ppm and pfm, all others in pfm only [default: light in these]
     #[arg(long, value_enum)]
     pub channel: Option<Channel>,
-    /// Write to this file [default: standard output]
+    /// The grays of the 13 levels in png, pgm and ppm, in place of the light's own (as in --preset pcat)
+    #[arg(long)]
+    pub levels: bool,
+    /// Write to this file, never one that the scene is read from; - is standard output, as is nothing
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Say on standard error what was counted and how long it took
@@ -128,32 +130,34 @@ pub struct PictureArguments {
     /// Options that belong together; any that is given besides has the last word
     #[arg(long, value_enum)]
     pub preset: Option<Preset>,
-    /// Size of a still in character cells; the viewer fills its terminal [default: the terminal's, else 80x25]
-    #[arg(long, value_name = "WxH", value_parser = values::size)]
+    /// Size of a still in character cells; the viewer fills its terminal [default: the terminal's, else 80x25; of png, pgm, ppm
+    /// and pfm --dots 640x400]
+    #[arg(long, value_name = "WxH", value_parser = values::size, allow_hyphen_values = true)]
     pub cells: Option<Size>,
     /// Size of a still in traced dots, which are then square
-    #[arg(long, value_name = "WxH", value_parser = values::size, conflicts_with = "cells")]
+    #[arg(long, value_name = "WxH", value_parser = values::size, allow_hyphen_values = true, conflicts_with = "cells")]
     pub dots: Option<Size>,
     #[command(flatten)]
     pub camera: CameraArguments,
     /// The paper's illumination model: 1 diffuse, 2 with depth (in a scene with `world(k = …)`), 3 with highlights, 4 with mirrors and glass [default: 4]
-    #[arg(long, value_name = "1..4", value_parser = clap::value_parser!(u8).range(1..=4))]
+    #[arg(long, value_name = "1..4", value_parser = clap::value_parser!(u8).range(1..=4), allow_hyphen_values = true)]
     pub shading: Option<u8>,
-    /// Follow mirror and Snell rays for so many generations
-    #[arg(long, value_name = "N", default_value_t = DEPTH, value_parser = clap::value_parser!(u32).range(0..=64))]
-    pub depth: u32,
+    /// Follow mirror and Snell rays for so many generations [default: 5]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=64), allow_hyphen_values = true)]
+    pub depth: Option<u32>,
     /// Follow a mirror or Snell ray only while it can still change the light of its dot by so much; 0 follows all
-    #[arg(long, value_name = "F", default_value_t = CUTOFF, value_parser = values::not_negative)]
-    pub cutoff: f64,
+    /// [default: 0.011]
+    #[arg(long, value_name = "F", value_parser = values::not_negative, allow_hyphen_values = true)]
+    pub cutoff: Option<f64>,
     /// Lights shine through everything
     #[arg(long)]
     pub no_shadows: bool,
     /// Lights are hidden by what stands before them, as they are unless a preset says otherwise
     #[arg(long, overrides_with = "no_shadows")]
     pub shadows: bool,
-    /// Rays per dot along each axis
-    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=64))]
-    pub samples: u32,
+    /// Rays per dot along each axis [default: 1]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64), allow_hyphen_values = true)]
+    pub samples: Option<u32>,
     /// How space is cut into cells [default: auto]
     #[arg(long, value_enum)]
     pub structure: Option<StructureName>,
@@ -163,9 +167,9 @@ pub struct PictureArguments {
     /// Digits of what rays from the eye meet; the exact engine always has all
     #[arg(long, value_enum, default_value = "auto")]
     pub precision: PrecisionName,
-    /// Characters of the picture
-    #[arg(long, value_enum, default_value = "auto")]
-    pub glyphs: Glyphs,
+    /// Characters of the picture [default: auto]
+    #[arg(long, value_enum)]
+    pub glyphs: Option<Glyphs>,
     /// Colours of the picture [default: dos; mono in txt, where `NO_COLOR` is set, and where the terminal has no grays]
     #[arg(long, value_enum)]
     pub palette: Option<PaletteName>,
@@ -173,7 +177,7 @@ pub struct PictureArguments {
     #[arg(long, value_enum)]
     pub tone: Option<ToneName>,
     /// Worker threads [default: one per processor]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_hyphen_values = true)]
     pub threads: Option<u16>,
 }
 
@@ -193,10 +197,10 @@ pub struct CameraArguments {
     #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
     pub up: Option<DVec3>,
     /// Full angles across and down, in degrees; the picture contains them
-    #[arg(long, value_name = "AxB", value_parser = values::field)]
+    #[arg(long, value_name = "AxB", value_parser = values::field, allow_hyphen_values = true)]
     pub field: Option<[f64; 2]>,
     /// Divides the tangents of both angles
-    #[arg(long, value_name = "F", value_parser = values::positive)]
+    #[arg(long, value_name = "F", value_parser = values::positive, allow_hyphen_values = true)]
     pub zoom: Option<f64>,
 }
 
@@ -209,14 +213,21 @@ pub enum Format {
     Ans,
     /// One character per dot, 0 to 9 and A to C: the form to keep in a test
     Levels,
-    /// One pixel per dot, at its level's gray, or in colour with --palette color
+    /// One pixel per dot, of the light's own gray, or in colour with --palette color
     Png,
-    /// One pixel per dot, at its level's gray, as a portable gray map
+    /// One pixel per dot, of the light's own gray, as a portable gray map
     Pgm,
     /// The same as png, as a portable pixel map
     Ppm,
     /// Raw values of --channel, as floats
     Pfm,
+}
+
+impl Format {
+    /// Whether it has one pixel, or one raw value, per dot.
+    pub const fn is_pixels(self) -> bool {
+        matches!(self, Self::Png | Self::Pgm | Self::Ppm | Self::Pfm)
+    }
 }
 
 /// Raw values.

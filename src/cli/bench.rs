@@ -14,7 +14,9 @@ use crate::widget::Picture;
 
 use super::arguments::BenchArguments;
 use super::error::CliError;
-use super::{input, print, stats};
+use super::picture::Unsized;
+use super::write::print;
+use super::{effects, input, stats};
 
 /// Frames are drawn until both are reached: enough for a median, long enough for a clock.
 const FRAMES: usize = 5;
@@ -25,6 +27,7 @@ const TURN: f64 = 5.0;
 
 /// Measures a scene and prints the figures.
 pub fn run(arguments: &BenchArguments) -> Result<(), CliError> {
+    input::say(&effects::check(&arguments.picture, &effects::Shown::Cells)?);
     let reading = Instant::now();
     let scene = input::read(&arguments.scene.file, arguments.scene.skip_unsupported, arguments.scene.memory)?;
     input::say(&scene.notes);
@@ -32,7 +35,7 @@ pub fn run(arguments: &BenchArguments) -> Result<(), CliError> {
     let studio = input::studio(scene)?;
     // A size in dots is that of a picture without characters.
     let wants = if arguments.picture.dots.is_some() { Wants::LIGHT } else { Wants::CELLS };
-    let request = arguments.picture.request(&studio, arguments.picture.look(None), wants)?;
+    let request = arguments.picture.request(&studio, arguments.picture.look(None), wants, Unsized::Screen)?;
 
     let mut frame = studio.draw(&request);
     let mut times = Vec::new();

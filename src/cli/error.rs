@@ -11,6 +11,9 @@ pub enum CliError {
     /// Bad input or arguments: exit code 2.
     #[error("error: {0}")]
     Input(String),
+    /// Arguments that clap refuses, in its words: exit code 2.
+    #[error("{0}")]
+    Arguments(String),
     /// A scene that is no scene, already rendered with its places: exit code 2.
     #[error("{0}")]
     Scene(String),
@@ -26,7 +29,7 @@ impl CliError {
     /// The exit code.
     pub fn exit_code(&self) -> ExitCode {
         match self {
-            Self::Input(_) | Self::Scene(_) => ExitCode::from(2),
+            Self::Input(_) | Self::Arguments(_) | Self::Scene(_) => ExitCode::from(2),
             Self::Output(_) | Self::Viewer(_) => ExitCode::from(1),
         }
     }

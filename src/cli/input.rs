@@ -1,5 +1,8 @@
 //! Scenes from files, from standard input and from within the program.
 
+#[cfg(unix)]
+use std::fs::File;
+use std::fs::Metadata;
 use std::io::{IsTerminal, Read};
 use std::path::Path;
 
@@ -51,6 +54,28 @@ pub fn read_watched(
             None => Err(CliError::Scene(format!("{error}{}", embedded_names(file)))),
         },
     }
+}
+
+/// What the system tells of the file that a scene is read from, be it that standard input is one; nothing of a scene inside
+/// the program.
+pub fn metadata(file: &str) -> Option<Metadata> {
+    if file == "-" { standard_input() } else { std::fs::metadata(file).ok() }
+}
+
+#[cfg(unix)]
+fn standard_input() -> Option<Metadata> {
+    use std::os::fd::AsFd;
+    File::from(std::io::stdin().as_fd().try_clone_to_owned().ok()?).metadata().ok()
+}
+
+#[cfg(not(unix))]
+fn standard_input() -> Option<Metadata> {
+    None
+}
+
+/// Whether there is a file of this name, or an embedded scene.
+pub fn is_scene(name: &str) -> bool {
+    name == "-" || Path::new(name).exists() || named(name).is_some()
 }
 
 fn named(name: &str) -> Option<&'static EmbeddedScene> {

@@ -6,7 +6,7 @@ use clap_mangen::Man;
 
 use super::arguments::Arguments;
 use super::error::CliError;
-use super::print;
+use super::write::print;
 
 /// The script that makes a shell complete arguments.
 pub fn completions(shell: Shell) -> Result<(), CliError> {

@@ -3,22 +3,23 @@
 mod arguments;
 mod bench;
 mod diagnostics;
+mod effects;
 mod error;
 mod input;
 mod manual;
 mod memory;
+mod parse;
 mod picture;
 mod plan;
 mod render;
 mod stats;
 mod terminal;
 mod values;
+mod write;
 
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, IsTerminal};
 use std::process::ExitCode;
 use std::sync::Arc;
-
-use clap::Parser;
 
 use crate::app::{self, Opening, Settings};
 use crate::frame::Studio;
@@ -27,6 +28,7 @@ use crate::stage::Progress;
 
 use arguments::{Arguments, Command, SceneArguments, ViewerArguments};
 use error::{CliError, tell};
+use write::print;
 
 /// The scene that the program shows when it is given none.
 const FIRST_SCENE: &str = "hanyang";
@@ -34,7 +36,7 @@ const FIRST_SCENE: &str = "hanyang";
 /// Runs the command line: exit code 0 for done, 1 where writing or the terminal failed, 2 for bad input or
 /// arguments. Errors go to standard error.
 pub fn run() -> ExitCode {
-    match command(Arguments::parse()) {
+    match parse::parse().and_then(|arguments| arguments.map_or(Ok(()), command)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             error.report();
@@ -66,6 +68,7 @@ fn view(arguments: &ViewerArguments) -> Result<(), CliError> {
         tell(&terminal::why_a_still());
         return still();
     }
+    let no_effects = effects::check(picture, &effects::Shown::Viewer)?;
     let look = picture.look(Some(&terminal));
     let opening = Opening { title: input::title(file), palette: look.palette, terminal };
     let viewed = if file == "-" && io::stdin().is_terminal() {
@@ -80,6 +83,7 @@ fn view(arguments: &ViewerArguments) -> Result<(), CliError> {
         app::open(opening, move |progress| load(&arguments, &file, &known, progress))?
     };
     if let Some(studio) = viewed {
+        input::say(&no_effects);
         input::say(&studio.scene().notes);
     }
     Ok(())
@@ -146,14 +150,4 @@ fn scenes(name: Option<&str>) -> Result<(), CliError> {
         CliError::Input(format!("there is no embedded scene `{name}`; there are {}", names.join(", ")))
     })?;
     print(scene.text.as_bytes())
-}
-
-/// Writes to standard output. A reader that has seen enough is no error.
-fn print(bytes: &[u8]) -> Result<(), CliError> {
-    let mut out = io::stdout().lock();
-    match out.write_all(bytes).and_then(|()| out.flush()) {
-        Err(e) if e.kind() == io::ErrorKind::BrokenPipe => Ok(()),
-        Err(e) => Err(CliError::Output(format!("standard output could not be written: {e}"))),
-        Ok(()) => Ok(()),
-    }
 }

@@ -6,7 +6,7 @@ use crate::frame::{Request, Studio, Wants, pcat};
 use crate::glyph::{CELL_ASPECT, GlyphMode, Palette};
 use crate::math::Size;
 use crate::output::Capabilities;
-use crate::plan::{EngineChoice, Options, PrecisionChoice, Shading, StructureChoice};
+use crate::plan::{CUTOFF, DEPTH, EngineChoice, Options, PrecisionChoice, Shading, StructureChoice};
 use crate::scene::{Camera, FieldSpan, Scene};
 use crate::tone::Tone;
 
@@ -17,6 +17,19 @@ use super::values::MOST_DOTS;
 
 /// The screen that is assumed where there is none.
 const SCREEN: Size = Size::new(80, 25);
+
+/// The dots of pixels and raw values where no size is given: those of a PC's largest graphics screen of the time, and in
+/// the shape of [`SCREEN`], whose cells are twice as high as wide.
+const PIXELS: Size = Size::new(640, 400);
+
+/// How large a picture is for which no size is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unsized {
+    /// As many dots as the terminal's cells have.
+    Screen,
+    /// [`PIXELS`].
+    Pixels,
+}
 
 /// The glyph modes by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -184,13 +197,13 @@ impl PictureArguments {
         let structure = if engine == EngineChoice::Fast { StructureChoice::Auto } else { preset.structure };
         let options = Options {
             shading: shading.unwrap_or(preset.shading),
-            depth: self.depth,
-            cutoff: self.cutoff,
+            depth: self.depth.unwrap_or(DEPTH),
+            cutoff: self.cutoff.unwrap_or(CUTOFF),
             shadows: self.shadows || (preset.shadows && !self.no_shadows),
             structure: self.structure.map_or(structure, Into::into),
             engine,
             precision: self.precision.into(),
-            samples: self.samples,
+            samples: self.samples.unwrap_or(1),
             color: false,
             threads: self.threads.map_or(0, usize::from),
         };
@@ -216,7 +229,7 @@ impl PictureArguments {
 
     /// Characters and colours asked for; else those that `terminal` has, where a terminal is meant.
     pub fn look(&self, terminal: Option<&Capabilities>) -> Look {
-        Look { glyphs: self.glyphs.mode(terminal), palette: self.palette(terminal) }
+        Look { glyphs: self.glyphs.unwrap_or(Glyphs::Auto).mode(terminal), palette: self.palette(terminal) }
     }
 
     /// The palette asked for; else what the terminal and `NO_COLOR` (<https://no-color.org>) leave.
@@ -235,13 +248,21 @@ impl PictureArguments {
     }
 
     /// The request for one picture.
-    pub fn request(&self, studio: &Studio, look: Look, wants: Wants) -> Result<Request, CliError> {
+    pub fn request(
+        &self,
+        studio: &Studio,
+        look: Look,
+        wants: Wants,
+        size: Unsized,
+    ) -> Result<Request, CliError> {
         let Look { glyphs, palette } = look;
         let per_cell = glyphs.dots_per_cell();
         let (dots, dot_aspect) = if let Some(dots) = self.dots {
             (dots, 1.0)
         } else if let (None, Some(Preset::Pcat)) = (self.cells, self.preset) {
             (pcat::DOTS, pcat::dot_aspect())
+        } else if let (None, Unsized::Pixels) = (self.cells, size) {
+            (PIXELS, 1.0)
         } else {
             let cells = self.cells.unwrap_or_else(screen);
             let dots = Size::new(cells.width * per_cell.width, cells.height * per_cell.height);
@@ -288,6 +309,15 @@ impl CameraArguments {
             || self.up.is_some()
             || self.field.is_some()
             || self.zoom.is_some()
+    }
+
+    /// Whether all is given that a view says.
+    pub fn replaces_view(&self) -> bool {
+        self.eye.is_some()
+            && self.target.is_some()
+            && self.up.is_some()
+            && self.field.is_some()
+            && self.zoom.is_some()
     }
 
     /// The index of the view that is named.

@@ -10,17 +10,21 @@ use crate::stage::Stage;
 
 use super::arguments::PlanArguments;
 use super::error::CliError;
+use super::picture::Unsized;
 use super::stats::ms;
-use super::{input, print};
+use super::write::print;
+use super::{effects, input};
 
 /// Explains a picture; draws it only where that is asked for.
 pub fn run(arguments: &PlanArguments) -> Result<(), CliError> {
+    input::say(&effects::check(&arguments.picture, &effects::Shown::Cells)?);
     let reading = Instant::now();
     let scene = input::read(&arguments.scene.file, arguments.scene.skip_unsupported, arguments.scene.memory)?;
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
     let read = reading.elapsed();
-    let request = arguments.picture.request(&studio, arguments.picture.look(None), Wants::CELLS)?;
+    let request =
+        arguments.picture.request(&studio, arguments.picture.look(None), Wants::CELLS, Unsized::Screen)?;
     let stages = studio.explain(&request);
     let threads = match request.options.threads {
         0 => std::thread::available_parallelism().map_or(1, usize::from),

@@ -1,8 +1,6 @@
 //! Stills.
 
-use std::fs;
-use std::io::{self, IsTerminal, Write};
-use std::path::Path;
+use std::io::{self, IsTerminal};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -16,24 +14,30 @@ use crate::plan::PrecisionChoice;
 use crate::tone::Tone;
 
 use super::arguments::{Channel, Format, PictureArguments, RenderArguments};
-use super::error::CliError;
-use super::picture::Look;
-use super::{input, print, stats, terminal};
+use super::effects::{self, Still};
+use super::error::{CliError, tell};
+use super::picture::{Look, Unsized};
+use super::write::{Destination, print};
+use super::{input, stats, terminal};
 
 /// Draws one still and writes it.
 pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
-    let format = arguments.format.map_or_else(|| format_of(arguments.output.as_deref()), Ok)?;
-    check(format, arguments.channel)?;
+    let to = Destination::new(arguments.output.as_deref());
+    to.check(&arguments.scene.file)?;
+    let format = arguments.format.map_or_else(|| format_of(&to), Ok)?;
+    let still = Still { format, channel: arguments.channel, levels: arguments.levels };
+    let notes = effects::check(&arguments.picture, &effects::Shown::Still(still))?;
+    input::say(&notes);
     let reading = Instant::now();
     let scene = input::read(&arguments.scene.file, arguments.scene.skip_unsupported, arguments.scene.memory)?;
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
     let read = reading.elapsed();
-    let wants = wants(format, arguments.channel);
     // What goes into a file is not for the terminal that the command runs in.
     let terminal = if arguments.output.is_some() { None } else { terminal::of_output() };
     let look = look(&arguments.picture, format, terminal.as_ref());
-    let mut request = arguments.picture.request(&studio, look, wants)?;
+    let size = if format.is_pixels() { Unsized::Pixels } else { Unsized::Screen };
+    let mut request = arguments.picture.request(&studio, look, wants(&still), size)?;
     // Raw values are for whoever computes with them.
     if format == Format::Pfm && request.options.precision == PrecisionChoice::Auto {
         request.options.precision = PrecisionChoice::Double;
@@ -44,14 +48,13 @@ pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
         return Err(CliError::Input(format!("{over}: use --structure tree")));
     }
     let writing = Instant::now();
-    let bytes = encoded(&frame, &request, format, arguments.channel)?;
+    let values = Values::new(&still, &arguments.picture);
+    let bytes = encoded(&frame, &request, format, values)?;
     frame.times[crate::stage::Stage::Display] = writing.elapsed();
-    match &arguments.output {
-        Some(path) => write_file(path, &bytes)?,
-        None => print(&bytes)?,
-    }
-    if let Some(form) = arguments.stats {
-        stats::say(&frame, &studio.built(), form);
+    to.write(&bytes)?;
+    match arguments.stats {
+        Some(form) => stats::say(&frame, &studio.built(), form),
+        None => say_nothing(&frame),
     }
     Ok(())
 }
@@ -63,30 +66,53 @@ pub fn still(
     memory: Option<u64>,
     picture: &PictureArguments,
 ) -> Result<(), CliError> {
+    let still = Still { format: Format::Txt, channel: None, levels: false };
+    let notes = effects::check(picture, &effects::Shown::Still(still))?;
+    input::say(&notes);
     let scene = input::read(file, skip_unsupported, memory)?;
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
     let look = look(picture, Format::Txt, terminal::of_output().as_ref());
-    let request = picture.request(&studio, look, Wants::CELLS)?;
+    let request = picture.request(&studio, look, Wants::CELLS, Unsized::Screen)?;
     let frame = studio.draw(&request);
-    print(&encoded(&frame, &request, Format::Txt, None)?)
+    print(&encoded(&frame, &request, Format::Txt, Values::Toned)?)?;
+    say_nothing(&frame);
+    Ok(())
 }
 
-/// Refuses a channel that the format does not hold.
-fn check(format: Format, channel: Option<Channel>) -> Result<(), CliError> {
-    let message = match (format, channel) {
-        (_, None) | (Format::Pfm, _) | (Format::Png | Format::Pgm | Format::Ppm, Some(Channel::Light)) => {
-            return Ok(());
+/// Says why a picture is all background.
+fn say_nothing(frame: &Frame) {
+    if let Some(why) = frame.nothing {
+        tell(&why.to_string());
+    }
+}
+
+/// What is shown of light in pixels and raw values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Values {
+    /// As the tone shows it.
+    Toned,
+    /// The grays of the levels.
+    Levels,
+    /// A channel as it is.
+    Raw(Channel),
+}
+
+impl Values {
+    /// What is asked for. The picture of 1986 had levels; a colour has none.
+    fn new(still: &Still, picture: &PictureArguments) -> Self {
+        match still.channel {
+            Some(channel) => Self::Raw(channel),
+            None if still.format == Format::Pfm => Self::Raw(Channel::Light),
+            None if still.levels || picture.preset.is_some() => Self::Levels,
+            None => Self::Toned,
         }
-        (_, Some(Channel::Light)) => "--channel light needs --format png, pgm, ppm or pfm",
-        (_, Some(_)) => "this --channel needs --format pfm: the other formats hold the picture itself",
-    };
-    Err(CliError::Input(message.into()))
+    }
 }
 
 /// What the format shows of a picture.
-fn wants(format: Format, channel: Option<Channel>) -> Wants {
-    match (format, channel) {
+fn wants(still: &Still) -> Wants {
+    match (still.format, still.channel) {
         (Format::Txt | Format::Ans, _) => Wants::CELLS,
         (_, Some(Channel::Depth)) => Wants { depth: true, ..Wants::LIGHT },
         (_, Some(Channel::Normal)) => Wants { normal: true, ..Wants::LIGHT },
@@ -103,8 +129,8 @@ fn look(picture: &PictureArguments, format: Format, terminal: Option<&Capabiliti
 
 /// The format that a file's ending names. A file without one holds text; an ending that names no format is an error,
 /// since text in a `.jpg` would be found out late.
-fn format_of(path: Option<&Path>) -> Result<Format, CliError> {
-    let Some(path) = path else {
+fn format_of(to: &Destination) -> Result<Format, CliError> {
+    let Destination::File(path) = to else {
         return Ok(if io::stdout().is_terminal() { Format::Ans } else { Format::Txt });
     };
     let Some(ending) = path.extension() else { return Ok(Format::Txt) };
@@ -122,35 +148,30 @@ fn format_of(path: Option<&Path>) -> Result<Format, CliError> {
 }
 
 /// The whole still in memory, so that an error leaves nothing half-written.
-fn encoded(
-    frame: &Frame,
-    request: &Request,
-    format: Format,
-    channel: Option<Channel>,
-) -> Result<Vec<u8>, CliError> {
+fn encoded(frame: &Frame, request: &Request, format: Format, values: Values) -> Result<Vec<u8>, CliError> {
     let mut out = Vec::new();
     let done = match format {
         Format::Txt => wanted(frame.cells.as_ref()).and_then(|cells| output::text(cells, &mut out)),
         Format::Ans => wanted(frame.cells.as_ref()).and_then(|cells| output::ansi(cells, &mut out)),
         Format::Levels => output::levels(&frame.levels(request.tone), &mut out),
         Format::Png => {
-            let drawn = output::png(&pixels(frame, request, channel), &mut out);
+            let drawn = output::png(&pixels(frame, request, values), &mut out);
             drawn.map_err(|e| io::Error::other(e.to_string()))
         }
-        Format::Pgm => output::pgm(&grays(frame, request, channel), &mut out),
-        Format::Ppm => output::ppm(&pixels(frame, request, channel), &mut out),
-        Format::Pfm => match channel.unwrap_or(Channel::Light) {
-            Channel::Light => match &frame.color {
+        Format::Pgm => output::pgm(&grays(frame, request, values), &mut out),
+        Format::Ppm => output::ppm(&pixels(frame, request, values), &mut out),
+        Format::Pfm => match values {
+            Values::Toned | Values::Levels | Values::Raw(Channel::Light) => match &frame.color {
                 Some(color) => output::pfm_vectors(color, &mut out),
                 None => output::pfm_gray(&frame.light, &mut out),
             },
-            Channel::Depth => {
+            Values::Raw(Channel::Depth) => {
                 wanted(frame.depth.as_ref()).and_then(|depth| output::pfm_gray(depth, &mut out))
             }
-            Channel::Normal => {
+            Values::Raw(Channel::Normal) => {
                 wanted(frame.normal.as_ref()).and_then(|normal| output::pfm_vectors(normal, &mut out))
             }
-            Channel::Object => wanted(frame.object.as_ref())
+            Values::Raw(Channel::Object) => wanted(frame.object.as_ref())
                 .and_then(|object| output::pfm_gray(&object.map(|&n| f64::from(n)), &mut out)),
         },
     };
@@ -163,49 +184,22 @@ fn wanted<T>(grid: Option<&Arc<Grid<T>>>) -> io::Result<&Grid<T>> {
     grid.map(Arc::as_ref).ok_or_else(|| io::Error::other("it lacks what it was drawn for"))
 }
 
-/// Colours where they are wanted, as the tone shows them or as they are; else grays.
-fn pixels(frame: &Frame, request: &Request, channel: Option<Channel>) -> Pixels {
-    let tone = if channel.is_some() { Tone::Lightness } else { request.tone };
+/// Colours where they are wanted; else grays.
+fn pixels(frame: &Frame, request: &Request, values: Values) -> Pixels {
     match &frame.color {
-        Some(color) => Pixels::of_colors(color, tone),
-        None => Pixels::Gray(grays(frame, request, channel)),
+        Some(color) => Pixels::of_colors(color, tone(request, values)),
+        None => Pixels::Gray(grays(frame, request, values)),
     }
 }
 
-/// The levels' grays, or the light itself where it is asked for.
-fn grays(frame: &Frame, request: &Request, channel: Option<Channel>) -> Grid<u8> {
-    match channel {
-        Some(_) => output::grays_of_light(&frame.light),
-        None => output::grays_of_levels(&frame.levels(request.tone)),
+fn grays(frame: &Frame, request: &Request, values: Values) -> Grid<u8> {
+    match values {
+        Values::Levels => output::grays_of_levels(&frame.levels(request.tone)),
+        Values::Toned | Values::Raw(_) => output::grays_of_light(&frame.light, tone(request, values)),
     }
 }
 
-/// Writes beside the place and moves there at the end, so that the file is whole or as it was. A link is written
-/// through, and a file that was there keeps its permissions. What is no plain file, a pipe or a device, is written
-/// straight.
-fn write_file(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
-    let failed = |e: io::Error| CliError::Output(format!("{} could not be written: {e}", path.display()));
-    let open = || fs::File::options().write(true).open(path);
-    let (place, permissions) = match fs::metadata(path) {
-        Ok(found) if found.is_dir() => return Err(failed(io::ErrorKind::IsADirectory.into())),
-        Ok(found) if !found.is_file() => {
-            let written = open().and_then(|mut out| out.write_all(bytes).and_then(|()| out.flush()));
-            return written.map_err(failed);
-        }
-        Ok(found) => {
-            // A move asks the folder for permission only; the file must allow it too.
-            open().map_err(failed)?;
-            (fs::canonicalize(path).map_err(failed)?, Some(found.permissions()))
-        }
-        Err(_) => (path.to_owned(), None),
-    };
-    // Not made from the file's own name, which may be as long as names can be.
-    let part = place.with_file_name(format!("ray13-{}.part", std::process::id()));
-    let written = fs::write(&part, bytes)
-        .and_then(|()| permissions.map_or(Ok(()), |own| fs::set_permissions(&part, own)))
-        .and_then(|()| fs::rename(&part, &place));
-    written.map_err(|e| {
-        let _ = fs::remove_file(&part);
-        failed(e)
-    })
+/// Raw light has no tone.
+fn tone(request: &Request, values: Values) -> Tone {
+    if matches!(values, Values::Raw(_)) { Tone::Lightness } else { request.tone }
 }

@@ -10,9 +10,13 @@ use crate::stage::Stage;
 use super::arguments::StatsFormat;
 use super::error::tell;
 
-/// Says the figures on standard error.
+/// Says the figures on standard error, and why there is nothing in view where there is nothing.
 pub fn say(frame: &Frame, built: &Built, form: StatsFormat) {
-    let figures = figures(frame, built);
+    let mut figures = figures(frame, built);
+    // A program finds the key whether there is something in view or not; a person reads what there is to say.
+    if frame.nothing.is_some() || form == StatsFormat::Json {
+        figures.insert("nothing_in_view".to_owned(), json!(frame.nothing.map(|why| why.to_string())));
+    }
     match form {
         StatsFormat::Json => tell(&Value::Object(figures).to_string()),
         StatsFormat::Text => tell(lines(&figures).trim_end()),

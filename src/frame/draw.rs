@@ -10,7 +10,7 @@ use crate::lattice::Structure;
 use crate::math::{Bounds, DVec3, Grid};
 use crate::plan::{Channels, EngineChoice, Plan, Precision};
 use crate::shade::{Channel, Shader, TileHits};
-use crate::stage::{Counts, Meter, Silent, Stage, StageTimes, Stopwatch, Task};
+use crate::stage::{Counts, Meter, Progress, Silent, Stage, StageTimes, Stopwatch, Task};
 use crate::trace::{Exact, Fast};
 use crate::view::{Lens, Picture, TILE, Tile, tiles};
 
@@ -67,7 +67,7 @@ impl Studio {
             let mut frame = frame.unwrap_or_else(|| self.traced(request, hits.as_ref()));
             if cells_lack(&frame) {
                 let dithering = Instant::now();
-                frame.cells = Some(Arc::new(composed(&frame, request)));
+                frame.cells = Some(Arc::new(composed(&frame.light, frame.color.as_deref(), request)));
                 frame.times[Stage::Dither] = dithering.elapsed();
             }
             frame
@@ -91,10 +91,11 @@ impl Studio {
         let (structure, over_budget) = self.structure(plan.structure);
         let tracing = Instant::now();
         let mut dots = PictureDots::new(request, self.given_up());
-        let view = Viewed { studio: self, plan: &plan, lens: &lens, wants: request.wants, hits };
+        let view = Viewed { studio: self, plan: &plan, lens: &lens, hits };
+        let whole = Whole { dots: &mut dots, wants: request.wants, progress: &self.progress };
         let (counts, sampled) = match plan.channels {
-            Channels::Gray => view.trace::<f64>(structure, &mut dots),
-            Channels::Three => view.trace::<DVec3>(structure, &mut dots),
+            Channels::Gray => view.work::<f64, _>(structure, whole),
+            Channels::Three => view.work::<DVec3, _>(structure, whole),
         };
         let trace = tracing.elapsed();
         let mut times = shared_out(&sampled, trace);
@@ -133,23 +134,26 @@ impl Studio {
 }
 
 /// A picture that is to be traced.
-struct Viewed<'a> {
-    studio: &'a Studio,
-    plan: &'a Plan,
-    lens: &'a Lens,
-    wants: Wants,
+pub(super) struct Viewed<'a> {
+    pub studio: &'a Studio,
+    pub plan: &'a Plan,
+    pub lens: &'a Lens,
     /// By tile, where they are kept.
-    hits: Option<&'a [OnceLock<TileHits>]>,
+    pub hits: Option<&'a [OnceLock<TileHits>]>,
+}
+
+/// What is done by the plan's engine, whichever that is.
+pub(super) trait Work<C: Channel> {
+    /// What comes of it.
+    type Done;
+
+    /// Does it.
+    fn by<T: Tracer<C>>(self, tracer: &T) -> Self::Done;
 }
 
 impl Viewed<'_> {
-    /// Traces all dots, by the plan's engine. Gives what was counted, and the times of the tiles that were
-    /// timed.
-    fn trace<C: Channel + 'static>(
-        &self,
-        structure: Structure,
-        dots: &mut PictureDots,
-    ) -> (Counts, StageTimes) {
+    /// Has work done by the plan's engine.
+    pub fn work<C: Channel + 'static, W: Work<C>>(&self, structure: Structure, work: W) -> W::Done {
         let Self { studio, plan, lens, .. } = *self;
         let (scene, assembly) = (studio.scene(), &studio.assembly);
         let way = farthest(assembly.datum.inward_near(lens.eye), &assembly.limit);
@@ -159,29 +163,40 @@ impl Viewed<'_> {
                 .in_singles(plan.precision == Precision::Single);
             let shader = &Shader::<_, C>::new(scene, assembly, plan, &engine);
             let (samples, spare) = (plan.samples, &studio.spare);
-            let sampler = Blocks { assembly, shader, lens, way, samples, hits: self.hits, spare };
-            self.trace_by(&sampler, dots)
+            work.by(&Blocks { assembly, shader, lens, way, samples, hits: self.hits, spare })
         } else {
             let engine = Exact::new(assembly, structure);
             let shader = &Shader::<_, C>::new(scene, assembly, plan, &engine);
-            self.trace_by(&Points { assembly, shader, lens, way, samples: plan.samples }, dots)
+            work.by(&Points { assembly, shader, lens, way, samples: plan.samples })
         }
     }
+}
 
-    fn trace_by<C: Channel, T: Tracer<C>>(&self, tracer: &T, dots: &mut PictureDots) -> (Counts, StageTimes) {
+/// All dots of a picture.
+struct Whole<'a> {
+    dots: &'a mut PictureDots,
+    wants: Wants,
+    progress: &'a Progress,
+}
+
+impl<C: Channel> Work<C> for Whole<'_> {
+    /// What was counted, and the times of the tiles that were timed.
+    type Done = (Counts, StageTimes);
+
+    fn by<T: Tracer<C>>(self, tracer: &T) -> Self::Done {
+        let Self { dots, wants, progress } = self;
         let size = dots.light.size();
         let bands = dots.bands();
         // Of workers that have no tile in hand. Taken anew for each tile, since rayon would make more memories
         // than it has threads.
         let workers = Mutex::new(Vec::new());
-        let progress = &self.studio.progress;
         let tiles = tiles(size);
         progress.begin(Task::Tracing, tiles.len() as u64);
         let idle = || workers.lock().unwrap_or_else(PoisonError::into_inner);
         let drawn = tiles.into_par_iter().map(|tile| {
             let taken = idle().pop();
             // Behind a pointer: it is large, and handed on with every tile.
-            let mut worker = taken.unwrap_or_else(|| Box::new((tracer.memory(), TileDots::new(self.wants))));
+            let mut worker = taken.unwrap_or_else(|| Box::new((tracer.memory(), TileDots::new(wants))));
             let (memory, dots) = &mut *worker;
             dots.fit(&tile);
             let measured = if is_timed(&tile) {
@@ -211,12 +226,12 @@ impl Viewed<'_> {
 }
 
 /// The characters of a picture.
-fn composed(frame: &Frame, request: &Request) -> Grid<Cell> {
-    match (&frame.color, request.palette) {
+pub(super) fn composed(light: &Grid<f64>, color: Option<&Grid<DVec3>>, request: &Request) -> Grid<Cell> {
+    match (color, request.palette) {
         (Some(color), Palette::Color(depth)) => {
             glyph::compose_color(color, request.glyphs, depth, request.tone)
         }
-        _ => glyph::compose(&frame.light, request.glyphs, request.palette, request.tone),
+        _ => glyph::compose(light, request.glyphs, request.palette, request.tone),
     }
 }
 
@@ -226,7 +241,7 @@ fn farthest(p: DVec3, b: &Bounds) -> f64 {
 }
 
 /// Shares the time of tracing out among the stages as the timed tiles spent theirs.
-fn shared_out(sampled: &StageTimes, trace: Duration) -> StageTimes {
+pub(super) fn shared_out(sampled: &StageTimes, trace: Duration) -> StageTimes {
     let mut times = StageTimes::default();
     let all = sampled.total().as_secs_f64();
     if all > 0.0 {

@@ -7,25 +7,18 @@ use crate::tone::Tone;
 
 use super::{Request, Space, Studio};
 
-/// Nanoseconds of one thread for the levels and characters of a dot: the middle of what `plan --run` shows.
-const COMPOSE: f64 = 14.0;
-
 impl Studio {
     /// All eleven stages of the picture that [`Studio::draw`] draws of the same request: which it needs, which it
-    /// leaves out, why, and what each is expected to cost. Builds the structure, where it was not built before, and traces
-    /// nothing.
+    /// leaves out, why, and what each is expected to cost on this machine: some blocks of dots, at most some thousand rays, are
+    /// traced to see that. Builds the structure, where it was not built before; what that took is what LATTICE costs.
     pub fn explain(&self, request: &Request) -> Vec<StagePlan> {
         let (lens, plan) = self.plan(request);
         let mut stages = plan.explain(self.scene(), &self.assembly, &lens, request.dots);
         let (structure, over_budget) = self.structure(plan.structure);
-        let nodes = match Space::of(&structure) {
-            Space::Whole => 0,
-            Space::Lattice([x, y, z]) => x.saturating_mul(y).saturating_mul(z),
-            Space::Tree(nodes) | Space::Boxes(nodes) => nodes,
-        };
-        let costs = plan.costs(self.scene(), &self.assembly, &lens, request.dots, nodes);
+        let sample = self.sample(request, (&lens, &plan), structure);
+        let costs = plan.costs(&sample, request.dots);
         for stage in &mut stages {
-            stage.cost = costs(stage.stage);
+            stage.cost = costs(stage.stage).filter(|_| stage.needed);
         }
         let built = match Space::of(&structure) {
             Space::Whole => None,
@@ -33,23 +26,22 @@ impl Studio {
             Space::Tree(1) | Space::Boxes(1) => Some("1 node".to_owned()),
             Space::Tree(nodes) | Space::Boxes(nodes) => Some(format!("{nodes} nodes")),
         };
+        let objects = self.assembly.objects.len() as f64;
         for stage in stages.iter_mut().filter(|s| s.stage == Stage::Lattice) {
+            if stage.needed && objects > 0.0 {
+                let each = self.built().cutting.as_secs_f64() * 1e9 / objects;
+                stage.cost = Some(Cost { count: objects, of: "object", each, shared: false });
+            }
             if let Some(over) = &over_budget {
                 stage.why += &format!("; {over} → tree");
             }
             if let Some(built) = &built {
                 stage.why += &format!(": {built}");
-                let objects = 0..self.assembly.objects.len() as u32;
-                stage.terms.push(sub_lattices(objects.filter(|&o| structure.sub(o).is_some()).count()));
+                let all = 0..self.assembly.objects.len() as u32;
+                stage.terms.push(sub_lattices(all.filter(|&o| structure.sub(o).is_some()).count()));
             }
         }
-        let compose = request.wants.cells.then(|| Cost {
-            count: request.dots.area() as f64,
-            of: "dot",
-            each: COMPOSE,
-            shared: true,
-        });
-        stages.push(StagePlan { cost: compose, ..levels(request) });
+        stages.push(StagePlan { cost: costs(Stage::Dither), ..levels(request) });
         stages.push(characters(request));
         stages
     }

@@ -9,6 +9,7 @@ mod nothing;
 pub mod pcat;
 mod points;
 mod request;
+mod sample;
 mod spare;
 mod studio;
 

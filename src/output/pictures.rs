@@ -46,9 +46,9 @@ pub fn grays_of_levels(levels: &Grid<Level>) -> Grid<u8> {
     levels.map(|level| bytes[usize::from(level.get())])
 }
 
-/// The light itself, clamped to 0 to 1, as an sRGB byte.
-pub fn grays_of_light(light: &Grid<f64>) -> Grid<u8> {
-    light.map(|&light| srgb_of_light(light))
+/// The light as the tone shows it, clamped to 0 to 1, as an sRGB byte: the light itself by [`Tone::Lightness`].
+pub fn grays_of_light(light: &Grid<f64>, tone: Tone) -> Grid<u8> {
+    light.map(|&light| srgb_of_light(tone.shown(light)))
 }
 
 /// An 8-bit PNG, gray or of three channels as the pixels are, marked as sRGB.
@@ -178,7 +178,7 @@ mod tests {
     #[test]
     fn portable_maps_are_a_header_and_bytes() {
         let light = Grid::from_values(Size::new(1, 3), vec![0.0, 0.214_041, 9.0]);
-        let gray = grays_of_light(&light);
+        let gray = grays_of_light(&light, Tone::Lightness);
         let mut out = Vec::new();
         pgm(&gray, &mut out).expect("a vector takes every byte");
         assert_eq!(out, b"P5\n1 3\n255\n\x00\x7f\xff");

@@ -6,7 +6,7 @@ mod explain;
 mod options;
 mod precision;
 
-pub use cost::Cost;
+pub use cost::{Cost, Sample};
 pub use explain::{Reasons, StagePlan, Term};
 pub use options::{
     CUTOFF, DEPTH, EngineChoice, Options, OptionsError, PrecisionChoice, Shading, StructureChoice,
@@ -119,7 +119,7 @@ impl Plan {
             scene.lights.iter().filter(|l| l.intensity > 0.0).map(|light| lamp(light, lens)).collect()
         };
         let lit = if lamps.is_empty() { Err(Absent::Light) } else { Ok(()) };
-        let engine = engine(options);
+        let engine = options.traced_by();
         let (structure, cut) = suitable(assembly, options.structure, engine);
         let secondary = from_model(Shading::Whitted)
             .and_then(|()| first(|m| m.kr > 0.0 || m.kt > 0.0).ok_or(Absent::MirrorOrGlass));
@@ -174,16 +174,6 @@ fn colored(scene: &Scene, lamps: &[Lamp], wanted: bool) -> Option<&'static str> 
 /// them to test: measured on solids of OpenSCAD.
 const FEW_OBJECTS: usize = 2;
 const FEW_PRIMITIVES: usize = 8;
-
-/// The fast engine finds the bits of the exact one whatever the scene, the view and their scales, since it asks that one
-/// wherever it is unsure. So nothing but a wish decides.
-fn engine(options: &Options) -> EngineChoice {
-    match options.engine {
-        EngineChoice::Auto if options.structure.allows_boxes() => EngineChoice::Fast,
-        EngineChoice::Auto => EngineChoice::Exact,
-        asked => asked,
-    }
-}
 
 fn suitable(assembly: &Assembly, choice: StructureChoice, engine: EngineChoice) -> (StructureChoice, Cut) {
     let few = assembly.objects.len() <= FEW_OBJECTS && assembly.primitives.len() <= FEW_PRIMITIVES;

@@ -61,6 +61,18 @@ pub enum OptionsError {
 }
 
 impl Options {
+    /// What traces a picture of these options; never [`EngineChoice::Auto`].
+    ///
+    /// The fast engine finds the bits of the exact one whatever the scene, the view and their scales, since it asks that one
+    /// wherever it is unsure. So nothing but a wish decides.
+    pub fn traced_by(&self) -> EngineChoice {
+        match self.engine {
+            EngineChoice::Auto if self.structure.allows_boxes() => EngineChoice::Fast,
+            EngineChoice::Auto => EngineChoice::Exact,
+            asked => asked,
+        }
+    }
+
     /// Whether all can be had together. Where they can not, a picture is drawn all the same: the engine that is asked for
     /// comes before the structure.
     pub fn check(&self) -> Result<(), OptionsError> {

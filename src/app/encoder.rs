@@ -64,7 +64,7 @@ impl Encoder {
     }
 
     fn put(&mut self, cell: &Cell) {
-        self.pen = self.pen.change_to(self.pen_of(cell), &mut self.bytes);
+        self.pen.change_to(self.pen_of(cell), &mut self.bytes);
         self.bytes.push_str(cell.symbol());
     }
 

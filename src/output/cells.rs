@@ -30,7 +30,7 @@ pub fn ansi(cells: &Grid<Cell>, out: &mut impl Write) -> io::Result<()> {
         for cell in row {
             let meant = Pen::new(cell.ink.into(), cell.paper.into());
             let next = if cell.glyph == ' ' { now.for_blank(meant) } else { meant };
-            now = now.change_to(next, &mut line);
+            now.change_to(next, &mut line);
             line.push(cell.glyph);
         }
         now.change_to(Pen::TERMINAL, &mut line);

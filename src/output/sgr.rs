@@ -68,9 +68,9 @@ impl Pen {
         }
     }
 
-    /// Appends the shortest sequence that changes this pen to `next`, which is given back.
-    pub fn change_to(self, next: Self, line: &mut String) -> Self {
-        if self != next {
+    /// Changes the pen to `next`, and appends the shortest sequence that says so.
+    pub fn change_to(&mut self, next: Self, line: &mut String) {
+        if *self != next {
             let from = line.len();
             line.push_str("\x1b[");
             self.put_changes(next, line);
@@ -88,7 +88,7 @@ impl Pen {
             }
             line.push('m');
         }
-        next
+        *self = next;
     }
 
     /// Appends the parameters that change this pen to `next`.
@@ -146,7 +146,7 @@ fn put_color(color: Color, add: u8, line: &mut String) {
 mod tests {
     use super::*;
 
-    fn change(from: Pen, to: Pen) -> String {
+    fn change(mut from: Pen, to: Pen) -> String {
         let mut line = String::new();
         from.change_to(to, &mut line);
         line

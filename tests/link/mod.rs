@@ -50,13 +50,12 @@ fn no_thin_link() -> Option<&'static str> {
     };
     let needs = [
         ("test $(id -u) = 0", "only root may make network namespaces and run sshd"),
-        ("command -v sshd ssh ssh-keygen nsenter", "sshd, ssh or nsenter is not installed"),
-        ("command -v ip tc", "ip or tc is not installed"),
+        ("command -v sshd && command -v ssh && command -v ssh-keygen", "no sshd or ssh is installed"),
+        ("command -v ip && command -v tc && command -v nsenter", "ip, tc or nsenter is not installed"),
         ("unshare -nm mount -t tmpfs none /run", "namespaces are not allowed here"),
         (
             "unshare -n sh -ec 'ip link add here type veth peer name there; tc qdisc add dev here \
-             root tbf rate 80kbit burst 2kb \
-             latency 60s'",
+             root tbf rate 80kbit burst 2kb latency 60s'",
             "this kernel has no veth or tbf",
         ),
     ];
@@ -89,9 +88,10 @@ fn sshd_folder() -> PathBuf {
 fn presses_shown(pty: &Pty, first: f64, before: usize) -> Option<usize> {
     let status = pty.row(pty.size().rows - 3);
     let azimuth: f64 = status.split("DIR ").nth(1)?.split(' ').next()?.parse().ok()?;
-    let steps = ((azimuth - first) / STEP).round() as i64;
-    let further = (steps - before as i64).rem_euclid(72) as usize;
-    Some(before + further)
+    let steps = (azimuth - first) / STEP;
+    let further = (steps - before as f64).rem_euclid(72.0);
+    // A step that is a rounding short of none is none.
+    Some(before + further.round() as usize % 72)
 }
 
 /// What was seen while an arrow was held down.
@@ -173,7 +173,10 @@ fn over_a_thin_link_nothing_shown_is_old_and_the_end_is_near() {
 
 /// Counts the pictures that the viewer sends through a relay while an arrow is held down, and that it ends.
 fn pictures_a_second_through(relay: &str, needs: &str) -> Option<f64> {
-    let found = Command::new("sh").args(["-c", &format!("command -v script {needs}")]).output().unwrap();
+    let found = Command::new("sh")
+        .args(["-c", &format!("command -v script && command -v {needs}")])
+        .output()
+        .unwrap();
     if !found.status.success() {
         eprintln!("skipped: script or {needs} is not installed");
         return None;

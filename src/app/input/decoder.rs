@@ -132,8 +132,7 @@ impl Decoder {
             (State::Escape, 0x1b) => inputs.push(key('\x1b')),
             (State::Escape, byte) => self.after_escape(byte, inputs),
             (State::String, 0x1b) => self.state = State::StringEscape,
-            (State::String, 0x07) => self.end_string(inputs),
-            (State::StringEscape, b'\\') => self.end_string(inputs),
+            (State::String, 0x07) | (State::StringEscape, b'\\') => self.end_string(inputs),
             (State::StringEscape, byte) => {
                 // The string was cut off, and this is the next thing.
                 self.begin(State::Escape);

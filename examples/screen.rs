@@ -41,11 +41,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         options: Options { samples: 2, ..Options::default() },
         wants: Wants::CELLS,
         glyphs,
-        palette: Palette::Dos,
+        palette: Palette::DOS,
         tone: Tone::Lightness,
     });
     let cells = frame.cells.ok_or("a frame has the characters that it was asked for")?;
-    let screen = appearance(&cells, PIXELS).map(|&light| Tone::Lightness.level(light).srgb());
+    let screen = appearance(&cells, Palette::DOS, PIXELS).map(|&light| Tone::Lightness.level(light).srgb());
     output::png(&Pixels::Gray(screen), &mut BufWriter::new(File::create(path)?))?;
     Ok(())
 }

@@ -203,10 +203,10 @@ impl PictureArguments {
         let forbidden = || std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
         match self.palette {
             Some(PaletteName::Gray) => Palette::Gray(color_depth()),
-            Some(PaletteName::Mono) => Palette::Mono,
+            Some(PaletteName::Mono) => Palette::MONO,
             Some(PaletteName::Color) => Palette::Color(color_depth()),
-            None if forbidden() => Palette::Mono,
-            Some(PaletteName::Dos) | None => Palette::Dos,
+            None if forbidden() => Palette::MONO,
+            Some(PaletteName::Dos) | None => Palette::DOS,
         }
     }
 

@@ -87,7 +87,7 @@ fn wants(format: Format, channel: Option<Channel>) -> Wants {
 
 /// Text has no colours to lose: its shades are ink.
 fn palette(picture: &PictureArguments, format: Format) -> Palette {
-    if format == Format::Txt { Palette::Mono } else { picture.palette() }
+    if format == Format::Txt { Palette::MONO } else { picture.palette() }
 }
 
 /// The format that a file's ending names. A file without one holds text; an ending that names no format is an error,

@@ -9,6 +9,7 @@ use ratatui::crossterm::event::KeyEvent;
 
 use super::input::{self, Answer, Input};
 use crate::frame::Frame;
+use crate::stage::Step;
 
 /// Something that happened.
 #[derive(Debug)]
@@ -19,6 +20,10 @@ pub enum Event {
     Answer(Answer),
     /// The terminal has another size.
     Resized,
+    /// Something takes long, and is so far.
+    Working(Step),
+    /// The scene is there, or why there is none.
+    Loaded,
     /// A picture is finished.
     Drawn(Box<Frame>),
     /// The tracing thread panicked; its message is out.

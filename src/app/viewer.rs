@@ -8,18 +8,19 @@ use super::events::{Event, Gone, Inbox};
 use super::input::Answer;
 use super::model::{Effect, Model};
 use super::screen::{self, Shown};
-#[cfg(unix)]
-use super::signals;
 use super::terminal::{self, Terminal};
 use super::tracer::Tracer;
-use super::{AppError, Painter, keys};
+use super::{AppError, Painter, keys, loading};
 use crate::frame::Frame;
+use crate::stage::Step;
 
 /// Model, picture and terminal together.
 pub struct Viewer<'a> {
     pub painter: &'a dyn Painter,
     pub model: Model,
     pub shown: Option<Shown>,
+    /// How far the next picture is, where it takes long.
+    pub working: Option<Step>,
     pub tracer: Tracer,
     pub terminal: &'a mut Terminal,
     pub inbox: &'a mut Inbox,
@@ -45,7 +46,11 @@ impl Viewer<'_> {
             let mut finished = None;
             while let Some(event) = next {
                 match event {
-                    Event::Drawn(frame) => finished = Some(frame),
+                    Event::Drawn(frame) => {
+                        finished = Some(frame);
+                        self.working = None;
+                    }
+                    Event::Working(step) => self.working = Some(step),
                     event => {
                         if let Some(end) = self.take_in(event)? {
                             return Ok(end);
@@ -62,12 +67,12 @@ impl Viewer<'_> {
         match event {
             Event::Key(key) => match self.model.update(self.painter, keys::action(key)) {
                 Effect::None => {}
-                Effect::Suspend => self.suspend()?,
+                Effect::Suspend => loading::suspend(self.terminal, self.inbox)?,
                 Effect::Quit => return Ok(Some(End::Quit)),
             },
             Event::Answer(Answer::Status) => self.terminal.answered(),
             Event::Resized => self.model.resize(self.painter, terminal::window()),
-            Event::Stopped => self.suspend()?,
+            Event::Stopped => loading::suspend(self.terminal, self.inbox)?,
             Event::Continued => {
                 self.terminal.retake()?;
                 self.model.resize(self.painter, terminal::window());
@@ -77,7 +82,7 @@ impl Viewer<'_> {
             Event::Failed(error) => return Err(error.into()),
             Event::Panicked => return Err(AppError::Panicked),
             // An answer that came too late for its question.
-            Event::Answer(_) | Event::Drawn(_) => {}
+            Event::Answer(_) | Event::Drawn(_) | Event::Working(_) | Event::Loaded => {}
         }
         Ok(None)
     }
@@ -104,23 +109,7 @@ impl Viewer<'_> {
 
     fn screen(&self, shown: Option<&Shown>) -> Buffer {
         let mut buffer = Buffer::empty(self.model.layout.screen);
-        screen::draw(&self.model, shown, None, &mut buffer);
+        screen::draw(&self.model, shown, self.working, &mut buffer);
         buffer
-    }
-
-    /// Gives the terminal back and stops; [`Event::Continued`] takes it again.
-    #[cfg(unix)]
-    fn suspend(&mut self) -> Result<(), AppError> {
-        if signals::can_stop() {
-            self.terminal.give_back(self.inbox)?;
-            signals::stop()?;
-        }
-        Ok(())
-    }
-
-    #[cfg(not(unix))]
-    #[expect(clippy::unused_self, clippy::unnecessary_wraps, reason = "one signature for all systems")]
-    fn suspend(&mut self) -> Result<(), AppError> {
-        Ok(())
     }
 }

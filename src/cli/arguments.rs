@@ -23,7 +23,7 @@ pub struct Arguments {
     pub viewer: ViewerArguments,
 }
 
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct ViewerArguments {
     /// The scene: a file of the scene language, OpenSCAD's .csg or NFF, - for standard input, or the name of an
     /// embedded scene
@@ -62,7 +62,7 @@ pub enum Command {
     },
 }
 
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct SceneArguments {
     /// The scene: a file, - for standard input, or the name of an embedded scene
     pub file: String,
@@ -71,7 +71,7 @@ pub struct SceneArguments {
     pub skip_unsupported: bool,
 }
 
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct RenderArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
@@ -91,7 +91,7 @@ pub struct RenderArguments {
     pub stats: Option<StatsFormat>,
 }
 
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct BenchArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
@@ -102,7 +102,7 @@ pub struct BenchArguments {
     pub json: bool,
 }
 
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct PlanArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
@@ -117,7 +117,7 @@ pub struct PlanArguments {
 }
 
 /// What decides the picture.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct PictureArguments {
     /// Options that belong together; any that is given besides has the last word
     #[arg(long, value_enum)]
@@ -172,7 +172,7 @@ pub struct PictureArguments {
 }
 
 /// Where the picture is seen from. What is not given is the view's.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct CameraArguments {
     /// A view of the scene, by its name [default: the first; the whole scene where it has none]
     #[arg(long, value_name = "NAME")]

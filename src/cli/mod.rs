@@ -13,13 +13,16 @@ mod stats;
 mod terminal;
 mod values;
 
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use clap::Parser;
 
-use crate::app::{self, Settings};
-use crate::scene::embedded;
+use crate::app::{self, Opening, Settings};
+use crate::frame::Studio;
+use crate::scene::{ReadOptions, embedded};
+use crate::stage::Progress;
 
 use arguments::{Arguments, Command, SceneArguments, ViewerArguments};
 use error::{CliError, tell};
@@ -62,25 +65,50 @@ fn view(arguments: &ViewerArguments) -> Result<(), CliError> {
         tell(&terminal::why_a_still());
         return still();
     }
-    // The viewer shows what it can, and says on the screen what it left out.
-    let scene = input::read(file, true)?;
-    let notes = scene.notes.clone();
-    let studio = input::studio(scene)?;
-    let view = picture.camera.view_index(studio.scene())?;
     let look = picture.look(Some(&terminal));
+    let opening = Opening { title: input::title(file), palette: look.palette, terminal };
+    let viewed = if file == "-" && io::stdin().is_terminal() {
+        // The scene is typed where the keys come from: first the one, then the other.
+        let (studio, settings) = load(arguments, file, &opening, &Progress::default())?;
+        let studio = Arc::new(studio);
+        app::run_shared(&studio, settings)?;
+        Some(studio)
+    } else {
+        let (file, opening) = (file.to_owned(), &opening);
+        let (arguments, known) = (arguments.clone(), opening.clone());
+        app::open(opening, move |progress| load(&arguments, &file, &known, progress))?
+    };
+    if let Some(studio) = viewed {
+        input::say(&studio.scene().notes);
+    }
+    Ok(())
+}
+
+/// The scene that the viewer shows, and with what it starts.
+fn load(
+    arguments: &ViewerArguments,
+    file: &str,
+    opening: &Opening,
+    progress: &Progress,
+) -> Result<(Studio, Settings), CliError> {
+    // The viewer shows what it can, and says on the screen what it left out.
+    let options =
+        ReadOptions { skip_unsupported: true, progress: Some(progress.clone()), ..ReadOptions::default() };
+    let scene = input::read_with(file, &options)?;
+    let studio = input::watched_studio(scene, progress.clone())?;
+    let picture = &arguments.picture;
+    let view = picture.camera.view_index(studio.scene())?;
     let settings = Settings {
-        title: input::title(file),
+        title: opening.title.clone(),
         view: view.unwrap_or(0),
         camera: picture.moves_camera().then(|| picture.camera(&studio, 1.6)).transpose()?,
         options: picture.options()?,
-        glyphs: look.glyphs,
-        palette: look.palette,
+        glyphs: picture.look(Some(&opening.terminal)).glyphs,
+        palette: opening.palette,
         tone: picture.tone(),
-        terminal,
+        terminal: opening.terminal,
     };
-    app::run(studio, settings)?;
-    input::say(&notes);
-    Ok(())
+    Ok((studio, settings))
 }
 
 /// Reads and validates only.

@@ -10,7 +10,7 @@ use crate::lattice::Structure;
 use crate::math::{Bounds, DVec3, Grid};
 use crate::plan::{Channels, EngineChoice, Plan, Precision};
 use crate::shade::{Channel, Shader, TileHits};
-use crate::stage::{Counts, Meter, Silent, Stage, StageTimes, Stopwatch};
+use crate::stage::{Counts, Meter, Silent, Stage, StageTimes, Stopwatch, Task};
 use crate::trace::{Exact, Fast};
 use crate::view::{Lens, Picture, TILE, Tile, tiles};
 
@@ -174,8 +174,11 @@ impl Viewed<'_> {
         // Of workers that have no tile in hand. Taken anew for each tile, since rayon would make more memories
         // than it has threads.
         let workers = Mutex::new(Vec::new());
+        let progress = &self.studio.progress;
+        let tiles = tiles(size);
+        progress.begin(Task::Tracing, tiles.len() as u64);
         let idle = || workers.lock().unwrap_or_else(PoisonError::into_inner);
-        let drawn = tiles(size).into_par_iter().map(|tile| {
+        let drawn = tiles.into_par_iter().map(|tile| {
             let taken = idle().pop();
             // Behind a pointer: it is large, and handed on with every tile.
             let mut worker = taken.unwrap_or_else(|| Box::new((tracer.memory(), TileDots::new(self.wants))));
@@ -192,6 +195,7 @@ impl Viewed<'_> {
             };
             bands[(tile.corner[1] / TILE) as usize].take(size.width, &tile, dots);
             idle().push(worker);
+            progress.advance(1);
             measured
         });
         let all = drawn.reduce(Default::default, |mut all, one| {

@@ -4,6 +4,8 @@
 mod pty;
 
 use std::sync::atomic::{AtomicU32, Ordering};
+use std::thread;
+use std::time::Duration;
 
 use pty::{Pty, Size};
 use ray13::app::{self, Painter, Settings};
@@ -114,11 +116,105 @@ fn a_key_without_a_meaning_sends_nothing() {
 
 #[test]
 fn every_key_that_quits_leaves_the_terminal_as_it_was() {
-    for key in ["q", "\x1b", "\x1b[21~", "\x03"] {
+    for key in ["q", "\x1b[21~", "\x03"] {
         let mut pty = viewer(SMALLEST);
         pty.send(key);
         pty.wait_for_end(0);
     }
+}
+
+/// `ESC`, and `[C` up to half a second later, ended the program and left `[C` to the shell.
+#[test]
+fn an_arrow_in_two_pieces_is_an_arrow() {
+    let mut pty = viewer(SMALLEST);
+    for later in [0, 10, 60, 500] {
+        let eye = pty.eye();
+        pty.send("\x1b");
+        thread::sleep(Duration::from_millis(later));
+        pty.send("[C");
+        pty.wait_for("another picture", |pty| pty.drawn() && pty.eye() != eye);
+    }
+    pty.send("q");
+    pty.wait_for_end(0);
+}
+
+#[test]
+fn escape_closes_what_is_open_and_never_quits() {
+    let mut pty = viewer(SMALLEST);
+    let eye = pty.eye();
+    pty.send("\x1b");
+    thread::sleep(Duration::from_millis(100));
+    pty.send("?");
+    pty.wait_for("the help", |pty| pty.text().contains(" KEYS "));
+    pty.send("\x1b");
+    pty.wait_for("no help", |pty| !pty.text().contains(" KEYS ") && pty.drawn());
+    assert_eq!(pty.eye(), eye);
+    pty.send("\x1bl");
+    pty.wait_for("another picture", |pty| pty.drawn() && pty.eye() != eye);
+    pty.send("q");
+    pty.wait_for_end(0);
+}
+
+/// What another program asked, or a terminal tells by itself, has letters that are keys.
+#[test]
+fn a_foreign_answer_is_no_key_in_any_pieces() {
+    let mut pty = viewer(SMALLEST);
+    let eye = pty.eye();
+    pty.send("\x1b[C");
+    pty.wait_for("another picture", |pty| pty.drawn() && pty.eye() != eye);
+    let moved = pty.eye();
+    pty.send("\x1b[H");
+    pty.wait_for("the first picture", |pty| pty.eye() == eye);
+    for answer in [
+        "\x1b]11;rgb:ffff/dddd/aaaa\x07",
+        "\x1b]4;9;rgb:ffff/dddd/aaaa\x1b\\",
+        "\x1b[?62;1;6q",
+        "\x1b_qqq\x1b\\",
+    ] {
+        let (begin, rest) = answer.split_at(answer.len() / 3);
+        let (middle, end) = rest.split_at(rest.len() / 2);
+        for piece in [begin, middle, end] {
+            pty.send(piece);
+            thread::sleep(Duration::from_millis(70));
+        }
+    }
+    pty.send("\x1b[C");
+    pty.wait_for("the picture of one arrow", |pty| pty.drawn() && pty.eye() == moved);
+    pty.send("q");
+    pty.wait_for_end(0);
+}
+
+#[test]
+fn a_terminal_that_answers_nothing_shows_the_picture_all_the_same() {
+    let mut pty = Pty::start(&[VIEWER, SCENE], SMALLEST);
+    pty.answer_after(None);
+    pty.wait_for("the first picture", Reading::drawn);
+    pty.send("q");
+    pty.wait_for_end(0);
+}
+
+/// An answer that is still on its way when the viewer ends is no input of the shell.
+#[test]
+fn late_answers_are_not_left_to_the_shell() {
+    for delay in [150, 600] {
+        let mut pty = viewer(SMALLEST);
+        pty.answer_after(Some(Duration::from_millis(delay)));
+        let eye = pty.eye();
+        pty.send("\x1b[C");
+        pty.wait_for("another picture", |pty| pty.drawn() && pty.eye() != eye);
+        pty.send("q");
+        pty.wait_for_end(0);
+    }
+}
+
+/// What is typed while the viewer asks who draws its screen counts.
+#[test]
+fn keys_typed_before_the_first_picture_count() {
+    let mut pty = Pty::start(&[VIEWER, SCENE], SMALLEST);
+    pty.answer_after(None);
+    pty.wait_for("the question", |pty| pty.log().ends_with(b"\x1b[5n"));
+    pty.send("q");
+    pty.wait_for_end(0);
 }
 
 #[test]

@@ -1,8 +1,9 @@
 //! Measures how near each glyph mode comes to the picture it shows, and prints the table of `docs/13-grays.md`:
-//! `cargo run --release --example grays`.
+//! `cargo run --release --example grays`; with `terminals` behind `--` only that of the levels on known terminals.
 
 mod drawn;
 mod measure;
+mod terminals;
 
 use std::io::{self, Write};
 use std::rc::Rc;
@@ -71,6 +72,11 @@ struct Column {
 
 fn main() -> io::Result<()> {
     let mut out = io::stdout().lock();
+    terminals::table(&mut out)?;
+    if std::env::args().nth(1).is_some_and(|only| only == "terminals") {
+        return Ok(());
+    }
+    writeln!(out)?;
     table(&mut out)?;
     small_pictures(&mut out)
 }

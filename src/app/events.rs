@@ -1,20 +1,29 @@
 //! Everything that can happen, in one channel: keys, sizes, signals, finished pictures, the end of the line.
 
+use std::collections::VecDeque;
 use std::io;
-use std::sync::mpsc::Sender;
-use std::thread;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
+use std::time::Instant;
 
-use ratatui::crossterm::event::{self, KeyEvent};
+use ratatui::crossterm::event::KeyEvent;
 
+use super::input::{self, Answer, Input};
 use crate::frame::Frame;
+use crate::stage::Step;
 
 /// Something that happened.
 #[derive(Debug)]
 pub enum Event {
     /// A key was pressed, or repeats.
     Key(KeyEvent),
+    /// The terminal answered.
+    Answer(Answer),
     /// The terminal has another size.
     Resized,
+    /// Something takes long, and is so far.
+    Working(Step),
+    /// The scene is there, or why there is none.
+    Loaded,
     /// A picture is finished.
     Drawn(Box<Frame>),
     /// The tracing thread panicked; its message is out.
@@ -31,21 +40,78 @@ pub enum Event {
     Continued,
 }
 
-/// Starts to listen to the keys. The thread lasts as long as the process: nothing ends a read from a terminal.
-pub fn listen_to_keys(events: Sender<Event>) -> io::Result<()> {
-    let read = move || {
-        loop {
-            let event = match event::read() {
-                Ok(event::Event::Key(key)) if !key.is_release() => Event::Key(key),
-                Ok(event::Event::Resize(..)) => Event::Resized,
-                Ok(_) => continue,
-                Err(error) => Event::Failed(error),
-            };
-            let last = matches!(event, Event::Failed(_));
-            if events.send(event).is_err() || last {
-                return;
-            }
-        }
-    };
-    thread::Builder::new().name("keys".to_owned()).spawn(read).map(drop)
+impl Event {
+    /// Whether nothing is worth waiting for any more.
+    pub fn is_urgent(&self) -> bool {
+        matches!(self, Self::Panicked | Self::HungUp | Self::Failed(_) | Self::Terminated(_))
+    }
 }
+
+impl From<Input> for Event {
+    fn from(input: Input) -> Self {
+        match input {
+            Input::Key(key) => Self::Key(key),
+            Input::Answer(answer) => Self::Answer(answer),
+            #[cfg(not(unix))]
+            Input::Resized => Self::Resized,
+            Input::HungUp => Self::HungUp,
+            Input::Failed(error) => Self::Failed(error),
+        }
+    }
+}
+
+/// Starts to listen to the terminal. The thread lasts as long as the process or the terminal.
+pub fn listen_to_terminal(events: Sender<Event>) -> io::Result<()> {
+    input::start(move |input| events.send(input.into()).is_ok())
+}
+
+/// The end of the channel where events arrive, and those that have been looked at and put aside.
+pub struct Inbox {
+    events: Receiver<Event>,
+    aside: VecDeque<Event>,
+}
+
+impl Inbox {
+    /// An inbox with nothing put aside.
+    pub fn new(events: Receiver<Event>) -> Self {
+        Self { events, aside: VecDeque::new() }
+    }
+
+    /// Keeps an event for later, behind those that are kept already.
+    pub fn put_aside(&mut self, event: Event) {
+        self.aside.push_back(event);
+    }
+
+    /// The next event, those put aside first; absent at the deadline, if there is one.
+    ///
+    /// # Errors
+    /// Where nobody is left to send any.
+    pub fn next(&mut self, deadline: Option<Instant>) -> Result<Option<Event>, Gone> {
+        match self.aside.pop_front() {
+            Some(event) => Ok(Some(event)),
+            None => self.next_arrival(deadline),
+        }
+    }
+
+    /// The next event that arrives, past those put aside; absent at the deadline, if there is one.
+    ///
+    /// # Errors
+    /// Where nobody is left to send any.
+    pub fn next_arrival(&mut self, deadline: Option<Instant>) -> Result<Option<Event>, Gone> {
+        let Some(deadline) = deadline else { return self.events.recv().map(Some).map_err(|_| Gone) };
+        match self.events.recv_timeout(deadline.saturating_duration_since(Instant::now())) {
+            Ok(event) => Ok(Some(event)),
+            Err(RecvTimeoutError::Timeout) => Ok(None),
+            Err(RecvTimeoutError::Disconnected) => Err(Gone),
+        }
+    }
+
+    /// An event that is there already.
+    pub fn try_next(&mut self) -> Option<Event> {
+        self.aside.pop_front().or_else(|| self.events.try_recv().ok())
+    }
+}
+
+/// Nobody is left to send an event.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Gone;

@@ -11,8 +11,8 @@ use super::theme::Theme;
 /// Columns between the keys and what they do, and on either side.
 const GAP: usize = 2;
 
-/// Draws the help in the middle of the area. What does not fit is cut off at the right and at the bottom.
-pub fn draw(theme: &Theme, area: Rect, buffer: &mut Buffer) {
+/// Draws the help in the middle of the area, and gives its place. What does not fit is cut off at the right and at the bottom.
+pub fn draw(theme: &Theme, area: Rect, buffer: &mut Buffer) -> Rect {
     let rows: Vec<(String, &str)> = KEYMAP
         .iter()
         .map(|line| {
@@ -46,4 +46,5 @@ pub fn draw(theme: &Theme, area: Rect, buffer: &mut Buffer) {
         .title_bottom(Line::from(" any key goes back ").right_aligned())
         .style(theme.text);
     Paragraph::new(lines).block(block).render(place, buffer);
+    place
 }

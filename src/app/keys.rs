@@ -45,6 +45,8 @@ pub enum Action {
     NextGlyphs,
     /// Shows or hides the keys.
     Help,
+    /// Closes what is open over the picture.
+    Close,
     /// Gives the terminal back to the shell for a while.
     Suspend,
     /// The end.
@@ -138,16 +140,12 @@ pub const KEYMAP: &[Line] = &[
         label: Some("Help"),
         keys: &[(key(KeyCode::F(1)), Action::Help), (char('?'), Action::Help)],
     },
+    Line { does: "close what is open", label: None, keys: &[(key(KeyCode::Esc), Action::Close)] },
     Line { does: "suspend", label: None, keys: &[(control('z'), Action::Suspend)] },
     Line {
         does: "quit",
         label: Some("Quit"),
-        keys: &[
-            (key(KeyCode::F(10)), Action::Quit),
-            (char('q'), Action::Quit),
-            (key(KeyCode::Esc), Action::Quit),
-            (control('c'), Action::Quit),
-        ],
+        keys: &[(key(KeyCode::F(10)), Action::Quit), (char('q'), Action::Quit), (control('c'), Action::Quit)],
     },
 ];
 

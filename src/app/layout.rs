@@ -2,8 +2,16 @@
 
 use ratatui::layout::{Rect, Size};
 
-/// The smallest screen that has room for more than the picture.
-pub const FULL: Size = Size::new(80, 25);
+/// What is taken for the size of a terminal that reports none: the screen of the PC.
+const USUAL: Size = Size::new(80, 25);
+
+/// The smallest screen that has every panel: with 20 columns less the figures of the status line would not fit, with
+/// a row less the flow chart would have more of the screen than the picture.
+pub const FULL: Size = Size::new(80, 24);
+
+/// The smallest screen that has a title and the function keys besides the picture: two of these keys and the program's
+/// name fit in its columns, and most of its rows are the picture's.
+pub const TITLED: Size = Size::new(20, 5);
 
 /// No larger screen is drawn: the columns and rows of an 8K monitor (7680 × 4320) in cells of 4 × 6 pixels. A
 /// terminal that reports more is mistaken, and believing it would take gigabytes.
@@ -20,8 +28,28 @@ pub struct Layout {
     pub screen: Rect,
     /// Where the cells of the picture go.
     pub picture: Rect,
-    /// The rest; absent on a screen with room for the picture only.
-    pub panels: Option<Panels>,
+    /// The rest.
+    pub around: Around,
+}
+
+/// What stands around the picture, by how much room there is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Around {
+    /// Room for the picture only.
+    Nothing,
+    /// A row above it and one below it.
+    Rows(Rows),
+    /// Everything.
+    Panels(Panels),
+}
+
+/// The rows above and below the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Rows {
+    /// The title.
+    pub title: Rect,
+    /// The function keys.
+    pub bar: Rect,
 }
 
 /// The places around the picture.
@@ -42,11 +70,26 @@ pub struct Panels {
 impl Layout {
     /// The places on a screen of a size that the terminal reported. Where it reported nothing, 80 × 25.
     pub fn new(reported: Size) -> Self {
-        let size = if reported.width == 0 || reported.height == 0 { FULL } else { reported };
+        let size = if reported.width == 0 || reported.height == 0 { USUAL } else { reported };
         let screen = Rect::new(0, 0, size.width.min(LARGEST.width), size.height.min(LARGEST.height));
-        if screen.width < FULL.width || screen.height < FULL.height {
-            return Self { screen, picture: screen, panels: None };
+        let fits = |least: Size| screen.width >= least.width && screen.height >= least.height;
+        if fits(FULL) {
+            let panels = Panels::on(screen);
+            Self { screen, picture: inside(panels.picture), around: Around::Panels(panels) }
+        } else if fits(TITLED) {
+            let title = Rect { height: 1, ..screen };
+            let bar = Rect { y: screen.bottom() - 1, height: 1, ..screen };
+            let picture = Rect { y: title.bottom(), height: screen.height - 2, ..screen };
+            Self { screen, picture, around: Around::Rows(Rows { title, bar }) }
+        } else {
+            Self { screen, picture: screen, around: Around::Nothing }
         }
+    }
+}
+
+impl Panels {
+    /// All of them, on a screen that has the room.
+    fn on(screen: Rect) -> Self {
         let outer = Rect { height: screen.height - 1, ..screen };
         let bar = Rect { y: outer.bottom(), height: 1, ..screen };
         let inner = inside(outer);
@@ -56,8 +99,7 @@ impl Layout {
         let chart_columns = (CHART_COLUMNS[0] + spare / 8).min(CHART_COLUMNS[1]);
         let chart = Rect { width: chart_columns, ..panels };
         let picture = Rect { x: chart.right(), width: panels.width - chart_columns, ..panels };
-        let around = Panels { outer, chart, picture, status, bar };
-        Self { screen, picture: inside(picture), panels: Some(around) }
+        Self { outer, chart, picture, status, bar }
     }
 }
 
@@ -72,11 +114,13 @@ mod tests {
 
     #[test]
     fn the_smallest_full_screen_has_every_panel() {
-        let layout = Layout::new(FULL);
-        assert_eq!(layout.picture, Rect::new(28, 2, 50, 19));
-        let panels = layout.panels.unwrap();
-        assert_eq!(panels.status, Rect::new(1, 22, 78, 1));
-        assert_eq!(panels.bar, Rect::new(0, 24, 80, 1));
+        for (height, status) in [(24, 21), (25, 22)] {
+            let layout = Layout::new(Size::new(80, height));
+            assert_eq!(layout.picture, Rect::new(28, 2, 50, height - 6));
+            let Around::Panels(panels) = layout.around else { panic!("panels") };
+            assert_eq!(panels.status, Rect::new(1, status, 78, 1));
+            assert_eq!(panels.bar, Rect::new(0, height - 1, 80, 1));
+        }
     }
 
     #[test]
@@ -86,10 +130,22 @@ mod tests {
     }
 
     #[test]
-    fn a_small_screen_is_all_picture() {
-        for size in [Size::new(79, 25), Size::new(80, 24), Size::new(40, 10), Size::new(1, 1)] {
+    fn a_small_screen_keeps_its_title_and_its_keys() {
+        for size in
+            [Size::new(79, 25), Size::new(80, 23), Size::new(40, 10), Size::new(20, 5), Size::new(200, 5)]
+        {
             let layout = Layout::new(size);
-            assert_eq!(layout.panels, None);
+            let Around::Rows(Rows { title, bar }) = layout.around else { panic!("rows at {size}") };
+            assert_eq!([title.y, bar.y], [0, size.height - 1]);
+            assert_eq!(layout.picture, Rect::new(0, 1, size.width, size.height - 2));
+        }
+    }
+
+    #[test]
+    fn the_smallest_screens_are_all_picture() {
+        for size in [Size::new(19, 5), Size::new(20, 4), Size::new(200, 1), Size::new(1, 1)] {
+            let layout = Layout::new(size);
+            assert_eq!(layout.around, Around::Nothing);
             assert_eq!(layout.picture.as_size(), size);
         }
     }
@@ -97,7 +153,7 @@ mod tests {
     #[test]
     fn no_size_is_taken_as_80_by_25_and_silly_sizes_are_bounded() {
         for size in [Size::new(0, 0), Size::new(0, 25), Size::new(80, 0)] {
-            assert_eq!(Layout::new(size), Layout::new(FULL));
+            assert_eq!(Layout::new(size), Layout::new(Size::new(80, 25)));
         }
         assert_eq!(Layout::new(Size::new(u16::MAX, u16::MAX)).screen.as_size(), LARGEST);
     }

@@ -1,38 +1,55 @@
 //! The full-screen viewer: keys in, pictures out, the terminal as it was afterwards.
 //!
 //! Three kinds of threads share the work. The one that calls [`run`] owns the model and the screen, and waits
-//! for things that happen; others wait for keys, for signals and for the connection's end, and say so; one
+//! for things that happen; others wait for the terminal and for signals, and say what came; one
 //! traces the picture that was asked for last. None of them wakes by a clock: at rest the program does nothing
 //! and sends nothing.
 
+mod around;
+mod caption;
+mod charset;
+mod colors;
 mod events;
 mod help;
+mod identity;
+mod input;
 mod keys;
 mod layout;
+mod loading;
 mod model;
 mod motion;
 mod painter;
 mod screen;
 #[cfg(unix)]
 mod signals;
+mod status;
 mod terminal;
 mod theme;
 mod tracer;
 mod viewer;
+mod watch;
 
+use std::env;
 use std::io;
-use std::sync::{Arc, mpsc};
+use std::sync::Arc;
+use std::sync::mpsc::{self, Receiver, Sender};
 
 use ratatui::crossterm::style::force_color_output;
 
-use crate::glyph::{GlyphMode, Palette};
+use crate::glyph::{GlyphMode, Ground, Palette};
+use crate::output::Capabilities;
 use crate::plan::Options;
 use crate::scene::Camera;
+use crate::stage::Progress;
 use crate::tone::Tone;
 
+pub use colors::Questions;
+use events::{Event, Inbox};
+pub use loading::Opening;
+use loading::{Loading, Waited};
 use model::Model;
 pub use painter::Painter;
-use terminal::Terminal;
+use terminal::{Replies, Terminal};
 use tracer::Tracer;
 use viewer::{End, Viewer};
 
@@ -51,8 +68,14 @@ pub struct Settings {
     pub glyphs: GlyphMode,
     /// Colours, of the picture and of the panels.
     pub palette: Palette,
+    /// What the terminal's own paper is, where there is only that.
+    pub ground: Ground,
+    /// What of these two the terminal has a say in.
+    pub questions: Questions,
     /// Light to level.
     pub tone: Tone,
+    /// What the terminal can be told and what it can draw.
+    pub terminal: Capabilities,
 }
 
 /// Why the viewer ended other than by a key.
@@ -79,30 +102,115 @@ pub enum AppError {
 /// # Errors
 /// See [`AppError`].
 pub fn run(painter: impl Painter + 'static, settings: Settings) -> Result<(), AppError> {
-    // The caller has decided about colours, NO_COLOR included; crossterm shall not decide again.
-    force_color_output(true);
+    run_shared(&Arc::new(painter), settings)
+}
+
+/// The same with a painter that is asked for something afterwards.
+///
+/// # Errors
+/// See [`AppError`].
+pub fn run_shared<P: Painter + 'static>(painter: &Arc<P>, settings: Settings) -> Result<(), AppError> {
+    let session = Session::start(&settings.terminal, mpsc::channel())?;
+    session.show(painter, settings)
+}
+
+/// The same with a scene that is still to be read, on another thread, while the screen shows how far that is; a short
+/// time passes before it shows anything. Gives the painter back; nothing where the person quits before it is there.
+///
+/// # Errors
+/// What reading gives, with the terminal given back; and see [`AppError`].
+pub fn open<P: Painter + 'static, E: From<AppError> + Send + 'static>(
+    opening: &Opening,
+    load: impl FnOnce(&Progress) -> Result<(P, Settings), E> + Send + 'static,
+) -> Result<Option<Arc<P>>, E> {
     let (sender, events) = mpsc::channel();
-    let mut terminal = Terminal::take()?;
-    #[cfg(unix)]
-    {
-        signals::listen(sender.clone(), terminal.hold())?;
-        signals::listen_for_hang_up(sender.clone())?;
+    let mut loading = Loading::start(load, sender.clone()).map_err(AppError::from)?;
+    let (session, loaded) = if let Some(loaded) = loading.done_at_once() {
+        let (painter, settings) = loaded?;
+        (Session::start(&settings.terminal, (sender, events))?, Ok((painter, settings)))
+    } else {
+        let mut session = Session::start(&opening.terminal, (sender, events))?;
+        match loading.wait(opening, &mut session.terminal, &mut session.inbox) {
+            Ok(Waited::Loaded(loaded)) => (session, loaded),
+            Ok(Waited::Ended(end)) => {
+                session.end(Ok(end))?;
+                return Ok(None);
+            }
+            Err(error) => {
+                session.end(Err(error))?;
+                return Ok(None);
+            }
+        }
+    };
+    match loaded {
+        Ok((painter, settings)) => {
+            let painter = Arc::new(painter);
+            session.show(&painter, settings)?;
+            Ok(Some(painter))
+        }
+        Err(error) => {
+            session.end(Ok(End::Quit))?;
+            Err(error)
+        }
     }
-    events::listen_to_keys(sender.clone())?;
-    let painter = Arc::new(painter);
-    let tracer = Tracer::start(painter.clone(), sender)?;
-    let model = Model::new(&*painter, settings, terminal::window());
-    let mut viewer = Viewer { painter: &*painter, model, shown: None, tracer, terminal: &mut terminal };
-    let end = viewer.run(&events);
-    drop(viewer);
-    drop(terminal);
-    match end? {
-        End::Quit => Ok(()),
-        End::Signal(signal) => {
-            #[cfg(unix)]
-            signals::end_by(signal);
-            #[cfg(not(unix))]
-            std::process::exit(128 + signal);
+}
+
+/// The terminal while it is ours, and what happens there.
+struct Session {
+    terminal: Terminal,
+    inbox: Inbox,
+    sender: Sender<Event>,
+}
+
+impl Session {
+    /// Takes the terminal and listens to it.
+    fn start(
+        capabilities: &Capabilities,
+        (sender, events): (Sender<Event>, Receiver<Event>),
+    ) -> Result<Self, AppError> {
+        // The caller has decided about colours, NO_COLOR included; crossterm shall not decide again.
+        force_color_output(true);
+        let terminal = Terminal::take(capabilities)?;
+        #[cfg(unix)]
+        signals::listen(sender.clone(), terminal.hold())?;
+        events::listen_to_terminal(sender.clone())?;
+        Ok(Self { terminal, inbox: Inbox::new(events), sender })
+    }
+
+    /// Shows the painter's pictures until the end.
+    fn show<P: Painter + 'static>(mut self, painter: &Arc<P>, mut settings: Settings) -> Result<(), AppError> {
+        let tracer = Tracer::start(painter.clone(), self.sender.clone())?;
+        let (terminal, inbox) = (&mut self.terminal, &mut self.inbox);
+        let name = env::var("TERM").unwrap_or_default();
+        let replies = if identity::may_be_asked(&name) {
+            terminal.ask(&[settings.questions.text(settings.palette), identity::QUESTION].concat(), inbox)?
+        } else {
+            Replies::default()
+        };
+        settings.take_in(&replies.answers);
+        let model = Model::new(&**painter, settings, terminal::window());
+        let _identity = identity::Identity::of(&replies.answers, &name);
+        let mut viewer =
+            Viewer { painter: &**painter, model, shown: None, working: None, tracer, terminal, inbox };
+        let end = viewer.run();
+        drop(viewer);
+        self.end(end)
+    }
+
+    /// Gives the terminal back.
+    fn end(mut self, end: Result<End, AppError>) -> Result<(), AppError> {
+        if end.is_ok() {
+            self.terminal.give_back(&mut self.inbox)?;
+        }
+        drop(self.terminal);
+        match end? {
+            End::Quit => Ok(()),
+            End::Signal(signal) => {
+                #[cfg(unix)]
+                signals::end_by(signal);
+                #[cfg(not(unix))]
+                std::process::exit(128 + signal);
+            }
         }
     }
 }

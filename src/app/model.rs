@@ -119,8 +119,10 @@ impl Model {
             Action::Home => self.go_home(painter),
             Action::ShadingDown => self.settings.options.shading = self.shading(usize::checked_sub),
             Action::ShadingUp => self.settings.options.shading = self.shading(usize::checked_add),
-            Action::NextGlyphs => self.settings.glyphs = after(&GlyphMode::ALL, self.settings.glyphs),
+            Action::NextGlyphs => self.settings.glyphs = self.next_glyphs(),
             Action::Help => self.help = true,
+            // What was open has been closed above.
+            Action::Close => {}
             Action::Suspend => return Effect::Suspend,
             Action::Quit => return Effect::Quit,
         }
@@ -142,7 +144,7 @@ impl Model {
             options: self.settings.options,
             wants: Wants::CELLS,
             glyphs: self.settings.glyphs,
-            palette: self.settings.palette,
+            palette: self.settings.palette.for_glyphs(self.settings.glyphs, self.settings.ground),
             tone: self.settings.tone,
         })
     }
@@ -153,6 +155,16 @@ impl Model {
             let picture = Picture { dots: request.dots, dot_aspect: request.dot_aspect };
             Lens::new(&self.camera, &picture).field()
         })
+    }
+
+    /// How to get back to where something is to be seen, in words behind those that say so; empty where nobody has
+    /// gone anywhere.
+    pub const fn way_back(&self) -> &'static str {
+        match (self.moved, self.settings.camera.is_some()) {
+            (true, _) => ". Home goes back",
+            (false, true) => ". Tab goes to the view",
+            (false, false) => "",
+        }
     }
 
     /// What the picture's panel calls the view.
@@ -186,6 +198,18 @@ impl Model {
         self.moved = false;
     }
 
+    /// The next set of characters that the terminal draws; the present one where it draws no other.
+    fn next_glyphs(&self) -> GlyphMode {
+        let now = self.settings.glyphs;
+        let dotted = |glyphs| matches!(glyphs, GlyphMode::Half | GlyphMode::Quadrant);
+        let coarse = |glyphs| dotted(glyphs) && !self.settings.palette.has_levels();
+        let drawn = |&glyphs: &GlyphMode| {
+            glyphs == now || self.settings.terminal.draws(glyphs) && !coarse(glyphs)
+        };
+        let all: Vec<_> = GlyphMode::ALL.into_iter().filter(drawn).collect();
+        after(&all, now)
+    }
+
     /// The shading model one step away, or the present one where there is none.
     fn shading(&self, step: impl Fn(usize, usize) -> Option<usize>) -> Shading {
         let now = self.settings.options.shading;
@@ -208,6 +232,7 @@ fn after<T: Copy + PartialEq>(all: &[T], now: T) -> T {
 mod tests {
     use super::*;
     use crate::frame::{Frame, Studio};
+    use crate::glyph::{ColorDepth, Palette};
     use crate::math::{DAffine3, DVec3};
     use crate::scene::{Material, MaterialId, Object, Primitive, Scene, Shape, Solid};
 
@@ -346,21 +371,30 @@ mod tests {
         let first = model.settings.glyphs;
         press(&mut model, &[Action::NextGlyphs]);
         assert_ne!(model.settings.glyphs, first);
-        press(&mut model, &[Action::NextGlyphs; GlyphMode::ALL.len() - 1]);
+        // Half blocks and quadrants are coarse chequers of four grays.
+        press(&mut model, &[Action::NextGlyphs; GlyphMode::ALL.len() - 3]);
+        assert_eq!(model.settings.glyphs, first);
+        model.settings.palette = Palette::Gray(ColorDepth::Direct);
+        press(&mut model, &[Action::NextGlyphs; GlyphMode::ALL.len()]);
         assert_eq!(model.settings.glyphs, first);
     }
 
     #[test]
     fn any_key_closes_the_help_and_does_nothing_else() {
-        for key in [Some(Action::Quit), Some(Action::OrbitLeft), Some(Action::Help), None] {
+        for key in
+            [Action::Quit, Action::OrbitLeft, Action::Help, Action::Close].map(Some).into_iter().chain([None])
+        {
             let mut model = model();
             press(&mut model, &[Action::Help]);
             assert!(model.help);
             assert_eq!(model.update(&three(), key), Effect::None);
             assert!(!model.help && !model.moved);
         }
-        assert_eq!(model().update(&three(), Some(Action::Quit)), Effect::Quit);
-        assert_eq!(model().update(&three(), Some(Action::Suspend)), Effect::Suspend);
+        let mut model = model();
+        assert_eq!(model.update(&three(), Some(Action::Close)), Effect::None);
+        assert!(!model.help && !model.moved, "where nothing is open, closing does nothing");
+        assert_eq!(model.update(&three(), Some(Action::Quit)), Effect::Quit);
+        assert_eq!(model.update(&three(), Some(Action::Suspend)), Effect::Suspend);
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use crate::frame::{Frame, Request, Studio};
 use crate::scene::{Camera, Scene};
+use crate::stage::Progress;
 
 /// What the viewer asks for scene, views and pictures. Pictures are drawn on a thread of their own.
 pub trait Painter: Send + Sync {
@@ -14,6 +15,11 @@ pub trait Painter: Send + Sync {
 
     /// Draws one picture.
     fn draw(&self, request: &Request) -> Frame;
+
+    /// Where it can be read how far a picture is that is being drawn.
+    fn progress(&self) -> Progress {
+        Progress::default()
+    }
 }
 
 impl Painter for Studio {
@@ -27,5 +33,9 @@ impl Painter for Studio {
 
     fn draw(&self, request: &Request) -> Frame {
         self.draw(request)
+    }
+
+    fn progress(&self) -> Progress {
+        self.progress().clone()
     }
 }

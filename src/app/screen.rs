@@ -5,16 +5,16 @@ use std::time::Duration;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Block, BorderType, Widget};
+use ratatui::widgets::Widget;
 
-use super::layout::Panels;
+use super::around::{self, Labels};
+use super::layout::Around;
 use super::model::Model;
 use super::theme::Theme;
-use super::{help, keys, motion};
+use super::{caption, charset, help, status};
 use crate::frame::Frame;
-use crate::math::DVec3;
 use crate::plan::Shading;
-use crate::widget::figures;
+use crate::stage::{Step, Task};
 use crate::widget::{FlowChart, Picture};
 
 /// The last finished picture and what it took to send it.
@@ -30,60 +30,66 @@ pub struct Shown {
 
 impl Shown {
     /// From the request to the bytes, in milliseconds.
-    fn total_ms(&self) -> f64 {
+    pub fn total_ms(&self) -> f64 {
         self.frame.total.as_secs_f64() * 1e3 + self.display.as_secs_f64() * 1e3
     }
 }
 
-/// Draws the whole screen into a buffer of its size.
-pub fn draw(model: &Model, shown: Option<&Shown>, buffer: &mut Buffer) {
+/// Draws the whole screen into a buffer of its size; `working` is what is at work, where it takes long.
+pub fn draw(model: &Model, shown: Option<&Shown>, working: Option<Step>, buffer: &mut Buffer) {
     let theme = Theme::of(model.settings.palette);
     buffer.set_style(buffer.area, theme.text);
-    if let Some(panels) = &model.layout.panels {
-        draw_panels(model, shown, panels, &theme, buffer);
+    let labels = Labels {
+        title: &model.settings.title,
+        view: Some(model.view_name()),
+        note: note(model, shown),
+        working: working.filter(|_| shown.is_some()),
+    };
+    around::draw(&model.layout.around, &labels, &theme, buffer);
+    if let Around::Panels(panels) = &model.layout.around {
+        let inside = around::inside(panels.chart);
+        draw_chart(model, shown, working, inside, &theme, buffer);
+        draw_choices(model, inside, &theme, buffer);
+        let status = status::line(model, shown, panels.status.width);
+        Line::from(status).style(theme.text).render(panels.status, buffer);
     }
+    let terminal = &model.settings.terminal;
+    charset::fit(buffer, model.layout.screen, terminal);
+    // The picture is in characters that were chosen for it; what is written over it was not.
     let picture = model.layout.picture;
-    match shown {
-        Some(Shown { frame: Frame { cells: Some(cells), .. }, .. }) => Picture(cells).render(picture, buffer),
-        _ => Line::from("tracing").centered().style(theme.dim).render(middle_row(picture), buffer),
+    let over = match shown {
+        Some(Shown { frame: Frame { cells: Some(cells), nothing, .. }, .. }) => {
+            Picture(cells).render(picture, buffer);
+            nothing.map(|nothing| nothing.to_string() + model.way_back())
+        }
+        _ => Some(working.as_ref().map_or_else(|| Task::Tracing.name().to_owned(), around::words)),
+    };
+    if let Some(over) = over {
+        let place = caption::draw(&over, theme.text, picture, buffer);
+        charset::fit(buffer, place, terminal);
     }
     if model.help {
-        help::draw(&theme, model.layout.screen, buffer);
+        let place = help::draw(&theme, model.layout.screen, buffer);
+        charset::fit(buffer, place, terminal);
     }
 }
 
-fn draw_panels(model: &Model, shown: Option<&Shown>, panels: &Panels, theme: &Theme, buffer: &mut Buffer) {
-    let title = format!(" {} ═", model.settings.title.to_uppercase());
-    Block::bordered()
-        .border_type(BorderType::Double)
-        .style(theme.text)
-        .title(Line::from(vec![Span::raw("═"), Span::styled(" RAY13 ", theme.bright)]))
-        .title(Line::from(title).right_aligned())
-        .render(panels.outer, buffer);
-
-    let chart = Block::bordered().style(theme.text).title(Span::styled(" FLOW CHART ", theme.bright));
-    let inside = chart.inner(panels.chart);
-    chart.render(panels.chart, buffer);
-    if let Some(shown) = shown {
-        FlowChart::new(&shown.frame)
-            .shading(model.settings.options.shading)
-            .sent(shown.bytes, shown.display)
-            .styles(theme.text, theme.dim)
-            .render(inside, buffer);
-    }
-    draw_choices(model, inside, theme, buffer);
-
-    let mut picture = Block::bordered()
-        .style(theme.text)
-        .title(Span::styled(" PICTURE ", theme.bright))
-        .title(Line::from(format!(" view: {} ", model.view_name())).right_aligned());
-    if let Some(note) = note(model, shown) {
-        picture = picture.title_bottom(note);
-    }
-    picture.render(panels.picture, buffer);
-
-    Line::from(status(model, shown, panels.status.width)).style(theme.text).render(panels.status, buffer);
-    draw_bar(theme, panels.bar, buffer);
+/// The chart of the picture that is shown, with what is at work on the next one.
+fn draw_chart(
+    model: &Model,
+    shown: Option<&Shown>,
+    working: Option<Step>,
+    area: Rect,
+    theme: &Theme,
+    buffer: &mut Buffer,
+) {
+    let chart = match shown {
+        Some(shown) => FlowChart::new(&shown.frame).sent(shown.bytes, shown.display),
+        None if working.is_some() => FlowChart::idle(),
+        None => return,
+    };
+    let chart = chart.shading(model.settings.options.shading).working(working);
+    chart.styles(theme.text, theme.dim).render(area, buffer);
 }
 
 /// What the keys have chosen, at the bottom of the flow chart's panel.
@@ -112,18 +118,8 @@ const fn name(shading: Shading) -> &'static str {
     }
 }
 
-fn draw_bar(theme: &Theme, area: Rect, buffer: &mut Buffer) {
-    let mut spans = vec![Span::raw(" ")];
-    for (number, label) in keys::function_keys() {
-        spans.push(Span::styled(number.to_string(), theme.bright));
-        spans.push(Span::styled(label, theme.label));
-        spans.push(Span::raw(" "));
-    }
-    Line::from(spans).style(theme.text).render(area, buffer);
-}
-
 /// What is shown otherwise than asked for: the first note, and how many more there are.
-fn note(model: &Model, shown: Option<&Shown>) -> Option<Line<'static>> {
+fn note(model: &Model, shown: Option<&Shown>) -> Option<String> {
     let over = shown.and_then(|shown| shown.frame.over_budget).map(|over| over.to_string());
     let mut notes = model.notes.iter().chain(over.as_ref());
     let first = notes.next()?;
@@ -131,82 +127,23 @@ fn note(model: &Model, shown: Option<&Shown>) -> Option<Line<'static>> {
         0 => String::new(),
         more => format!(" (+{more})"),
     };
-    Some(Line::from(format!(" {first}{more} ")))
-}
-
-fn status(model: &Model, shown: Option<&Shown>, columns: u16) -> String {
-    let camera = &model.camera;
-    let DVec3 { x, y, z } = camera.eye;
-    let digits = decimals(motion::distance(camera));
-    let [x, y, z] = [x, y, z].map(|coordinate| length(coordinate, digits));
-    let [azimuth, elevation] = motion::direction(camera).map(tenths);
-    let [across, down] = model.field().map(tenths);
-    let mut parts = vec![
-        format!("EYE {x} {y} {z}"),
-        format!("DIR {azimuth} {elevation}"),
-        format!("FIELD {across}×{down}"),
-    ];
-    if let Some(shown) = shown {
-        let ms = shown.total_ms();
-        parts.extend([milliseconds(ms), rate(ms), figures::bytes(shown.bytes) + "/f"]);
-    }
-    let wide = format!(" {}", parts.join("  "));
-    // Long coordinates take the room from between the figures first.
-    if wide.chars().count() <= columns.into() { wide } else { format!(" {}", parts.join(" ")) }
-}
-
-/// How many decimals show a step of the keys, a fiftieth of the distance or so, at any scale of the scene.
-fn decimals(distance: f64) -> usize {
-    // Nine decimals and a sign are what three coordinates have room for.
-    (1.0 - libm::floor(libm::log10(distance / 5.0))).clamp(1.0, 9.0) as usize
-}
-
-/// A coordinate; in powers of ten where its digits would fill the line.
-fn length(x: f64, decimals: usize) -> String {
-    if x.abs() >= 1e6 { format!("{x:.3e}") } else { without_sign_of_zero(format!("{x:.decimals$}")) }
-}
-
-fn tenths(x: f64) -> String {
-    without_sign_of_zero(format!("{x:.1}"))
-}
-
-/// −0.0 reads as a place left of 0.0, but is none.
-fn without_sign_of_zero(text: String) -> String {
-    match text.strip_prefix('-') {
-        Some(digits) if digits.chars().all(|c| matches!(c, '0' | '.')) => digits.to_owned(),
-        _ => text,
-    }
-}
-
-fn milliseconds(ms: f64) -> String {
-    if ms < 9.95 { format!("{ms:.1} ms") } else { format!("{ms:.0} ms") }
-}
-
-/// Pictures per second if they followed each other without a pause.
-fn rate(ms: f64) -> String {
-    match 1e3 / ms {
-        rate if rate < 9.95 => format!("{rate:.1} fps"),
-        // Beyond a thousand the clock says more about itself than about the picture.
-        rate if rate < 999.5 => format!("{rate:.0} fps"),
-        _ => ">999 fps".to_owned(),
-    }
-}
-
-fn middle_row(area: Rect) -> Rect {
-    Rect { y: area.y + area.height / 2, height: area.height.min(1), ..area }
+    Some(format!("{first}{more}"))
 }
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use ratatui::buffer::Cell;
     use ratatui::layout::Size;
 
     use super::*;
     use crate::app::model::Window;
     use crate::app::{Painter, Settings, keys::Action};
-    use crate::frame::{Request, Space};
-    use crate::glyph::{self, Paint, Palette};
-    use crate::math::{self, Grid};
+    use crate::frame::{NothingInView, Request, Space};
+    use crate::glyph::{self, GlyphMode, Paint, Palette};
+    use crate::math::{self, DVec3, Grid};
+    use crate::output::Capabilities;
     use crate::scene::{Camera, Scene};
     use crate::stage::{Counts, Stage, StageTimes};
 
@@ -284,7 +221,7 @@ mod tests {
 
     fn drawn(model: &Model, shown: Option<&Shown>) -> Buffer {
         let mut buffer = Buffer::empty(model.layout.screen);
-        draw(model, shown, &mut buffer);
+        draw(model, shown, None, &mut buffer);
         buffer
     }
 
@@ -297,6 +234,72 @@ mod tests {
     fn the_whole_screen_at_80_by_25() {
         let model = model(80, 25);
         insta::assert_snapshot!(text(&drawn(&model, Some(&shown(&model)))));
+    }
+
+    #[test]
+    fn the_whole_screen_at_80_by_24() {
+        let model = model(80, 24);
+        insta::assert_snapshot!(text(&drawn(&model, Some(&shown(&model)))));
+    }
+
+    #[test]
+    fn title_picture_and_keys_where_the_panels_have_no_room() {
+        for (width, height) in [(80, 23), (40, 10), (20, 5)] {
+            let model = model(width, height);
+            let name = format!("rows_at_{width}_by_{height}");
+            insta::assert_snapshot!(name, text(&drawn(&model, Some(&shown(&model)))));
+        }
+    }
+
+    #[test]
+    fn without_utf_8_the_frames_are_ascii_too() {
+        let mut model = model(80, 24);
+        model.settings.terminal =
+            Capabilities { utf8: false, glyphs: GlyphMode::Ascii, ..Capabilities::default() };
+        model.settings.title = "한양.scene".to_owned();
+        let mut shown = shown(&model);
+        shown.frame.nothing = Some(NothingInView::Behind);
+        shown.frame.cells = Some(Arc::new(shown.frame.cells.unwrap().map(|_| glyph::Cell {
+            glyph: '.',
+            ink: Paint::White,
+            paper: Paint::Black,
+        })));
+        for _ in 0..2 {
+            let text = text(&drawn(&model, Some(&shown)));
+            assert!(text.is_ascii(), "{text}");
+            insta::assert_snapshot!(if model.help { "ascii_help" } else { "ascii" }, text);
+            model.update(&still(), Some(Action::Help));
+        }
+    }
+
+    #[test]
+    fn a_picture_of_nothing_says_so_and_how_to_get_back() {
+        let mut model = model(80, 24);
+        let mut shown = shown(&model);
+        shown.frame.nothing = Some(NothingInView::Behind);
+        let seen = text(&drawn(&model, Some(&shown)));
+        assert!(
+            seen.contains(" nothing in view: the scene is behind the eye ") && !seen.contains("goes back")
+        );
+        model.update(&still(), Some(Action::FlyForward));
+        let seen = text(&drawn(&model, Some(&shown)));
+        assert!(seen.contains("eye. Home ") && seen.contains(" goes back "), "{seen}");
+    }
+
+    #[test]
+    fn what_takes_long_says_how_far_it_is() {
+        let model = model(80, 24);
+        let step = Some(Step { task: Task::Tracing, percent: Some(45) });
+        let mut seen = [None, Some(&shown(&model))].map(|shown| {
+            let mut buffer = Buffer::empty(model.layout.screen);
+            draw(&model, shown, step, &mut buffer);
+            text(&buffer)
+        });
+        assert!(seen.iter().all(
+            |seen| seen.contains(" 4►RAY         45 % ▌░░░") || seen.contains("4►RAY         45 % ██░░")
+        ));
+        insta::assert_snapshot!("tracing_the_first_picture", seen[0]);
+        assert!(seen[1].contains("─ tracing 45 % ┘"), "{}", std::mem::take(&mut seen[1]));
     }
 
     #[test]
@@ -315,7 +318,9 @@ mod tests {
     #[test]
     fn no_size_of_screen_or_picture_is_too_small_or_too_large() {
         let frames = [model(80, 25), model(1, 1), model(300, 100)].map(|model| shown(&model));
-        for (width, height) in [(1, 1), (2, 1), (40, 10), (79, 25), (80, 24), (80, 25), (200, 60)] {
+        for (width, height) in
+            [(1, 1), (2, 1), (20, 4), (20, 5), (40, 10), (79, 25), (80, 23), (80, 24), (200, 60)]
+        {
             let mut model = model(width, height);
             for _ in 0..2 {
                 for shown in frames.iter().map(Some).chain([None]) {
@@ -327,10 +332,10 @@ mod tests {
     }
 
     #[test]
-    fn below_80_by_25_the_picture_is_alone() {
-        let model = model(40, 10);
+    fn on_the_smallest_screens_the_picture_is_alone() {
+        let model = model(19, 5);
         let text = text(&drawn(&model, Some(&shown(&model))));
-        assert!(text.contains('█') && !text.contains(['║', '│', 'R']), "{text}");
+        assert!(text.contains('█') && !text.contains(['═', '│', 'R']), "{text}");
     }
 
     #[test]
@@ -351,13 +356,5 @@ mod tests {
         let plain =
             |cell: &Cell| cell.fg == ratatui::style::Color::Reset && cell.bg == ratatui::style::Color::Reset;
         assert!(drawn(&model, None).content.iter().all(plain));
-    }
-
-    #[test]
-    fn coordinates_show_a_step_at_any_scale() {
-        assert_eq!([9.5, 0.05, 1e-12, 5e4].map(decimals), [1, 3, 9, 1]);
-        assert_eq!(length(-0.01, 1), "0.0");
-        assert_eq!(length(-9.04, 1), "-9.0");
-        assert_eq!(length(-1.5e30, 1), "-1.500e30");
     }
 }

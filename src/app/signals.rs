@@ -1,15 +1,13 @@
-//! Signals and the hang-up of the terminal, as events; and how to stop and to end by a signal.
+//! Signals as events; and how to stop and to end by a signal.
 
-use std::fs::File;
-use std::io::{self, IsTerminal};
+use std::io;
 use std::process;
 use std::sync::mpsc::Sender;
 use std::thread;
 use std::time::Duration;
 
-use rustix::event::{PollFd, PollFlags, poll};
 use rustix::process::{getpgrp, getsid};
-use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGSTOP, SIGTERM, SIGTSTP};
+use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGSTOP, SIGTERM, SIGTSTP, SIGWINCH};
 use signal_hook::iterator::Signals;
 use signal_hook::low_level;
 
@@ -22,12 +20,13 @@ const GRACE: Duration = Duration::from_secs(2);
 
 /// Starts to listen to signals.
 pub fn listen(events: Sender<Event>, hold: Hold) -> io::Result<()> {
-    let mut signals = Signals::new([SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGCONT])?;
+    let mut signals = Signals::new([SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGCONT, SIGWINCH])?;
     let wait = move || {
         for signal in signals.forever() {
             let event = match signal {
                 SIGTSTP => Event::Stopped,
                 SIGCONT => Event::Continued,
+                SIGWINCH => Event::Resized,
                 signal => Event::Terminated(signal),
             };
             let last = matches!(event, Event::Terminated(_));
@@ -41,37 +40,6 @@ pub fn listen(events: Sender<Event>, hold: Hold) -> io::Result<()> {
         }
     };
     thread::Builder::new().name("signals".to_owned()).spawn(wait).map(drop)
-}
-
-/// Starts to wait for the terminal to go away. A process that does not belong to the terminal's session gets no
-/// SIGHUP, and crossterm's reader would spin on the dead terminal for ever.
-pub fn listen_for_hang_up(events: Sender<Event>) -> io::Result<()> {
-    let wait = move || {
-        if wait_for_hang_up().unwrap_or(false) {
-            // Without a receiver the viewer has ended, and no one asks.
-            let _ = events.send(Event::HungUp);
-        }
-    };
-    thread::Builder::new().name("line".to_owned()).spawn(wait).map(drop)
-}
-
-/// Whether the terminal hung up; `false` where the system cannot tell.
-fn wait_for_hang_up() -> io::Result<bool> {
-    let input = io::stdin();
-    let tty;
-    let mut line = [if input.is_terminal() {
-        PollFd::new(&input, PollFlags::empty())
-    } else {
-        tty = File::open("/dev/tty")?;
-        PollFd::new(&tty, PollFlags::empty())
-    }];
-    loop {
-        match poll(&mut line, None) {
-            Ok(_) => return Ok(line[0].revents().intersects(PollFlags::HUP | PollFlags::ERR)),
-            Err(rustix::io::Errno::INTR) => {}
-            Err(error) => return Err(error.into()),
-        }
-    }
 }
 
 /// Whether someone could continue us if we stopped. A shell with job control gives each job a process group of

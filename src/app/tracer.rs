@@ -8,6 +8,7 @@ use std::thread;
 
 use super::Painter;
 use super::events::Event;
+use super::watch::Watch;
 use crate::frame::Request;
 
 /// The way to the tracing thread. Dropping it ends the thread after the picture in hand.
@@ -22,16 +23,20 @@ impl Tracer {
     pub fn start(painter: Arc<dyn Painter>, events: Sender<Event>) -> io::Result<Self> {
         let mailbox = Arc::new(Mailbox::default());
         let inbox = mailbox.clone();
+        let watch = Watch::start(painter.progress(), events.clone())?;
         thread::Builder::new().name("tracer".to_owned()).spawn(move || {
             while let Some(request) = inbox.take() {
+                watch.begin();
                 // What a panicking painter leaves half done is not looked at again: the program ends.
                 let drawn = panic::catch_unwind(AssertUnwindSafe(|| painter.draw(&request)));
+                watch.end();
                 let panicked = drawn.is_err();
                 let event = drawn.map_or(Event::Panicked, |frame| Event::Drawn(Box::new(frame)));
                 if events.send(event).is_err() || panicked {
-                    return;
+                    break;
                 }
             }
+            watch.close();
         })?;
         Ok(Self { mailbox, asked: None })
     }

@@ -1,28 +1,29 @@
 //! The loop of the viewer: wait for something to happen, change the model, show it.
 
-use std::iter;
-use std::sync::mpsc::Receiver;
 use std::time::{Duration, Instant};
 
 use ratatui::buffer::Buffer;
 
-use super::events::Event;
+use super::events::{Event, Gone, Inbox};
+use super::input::Answer;
 use super::model::{Effect, Model};
 use super::screen::{self, Shown};
-#[cfg(unix)]
-use super::signals;
 use super::terminal::{self, Terminal};
 use super::tracer::Tracer;
-use super::{AppError, Painter, keys};
+use super::{AppError, Painter, keys, loading};
 use crate::frame::Frame;
+use crate::stage::Step;
 
 /// Model, picture and terminal together.
 pub struct Viewer<'a> {
     pub painter: &'a dyn Painter,
     pub model: Model,
     pub shown: Option<Shown>,
+    /// How far the next picture is, where it takes long.
+    pub working: Option<Step>,
     pub tracer: Tracer,
     pub terminal: &'a mut Terminal,
+    pub inbox: &'a mut Inbox,
 }
 
 /// How the viewer ends when nothing fails.
@@ -37,21 +38,26 @@ pub enum End {
 impl Viewer<'_> {
     /// Shows the scene until the end. Everything that has already happened is taken in before the screen is
     /// drawn once, so keys never wait behind pictures.
-    pub fn run(&mut self, events: &Receiver<Event>) -> Result<End, AppError> {
+    pub fn run(&mut self) -> Result<End, AppError> {
         self.show(None)?;
         loop {
             // The threads that listen keep their ends of the channel for as long as there is a terminal.
-            let first = events.recv().map_err(|_| AppError::HungUp)?;
+            let mut next = self.inbox.next(None).map_err(|Gone| AppError::HungUp)?;
             let mut finished = None;
-            for event in iter::once(first).chain(events.try_iter()) {
+            while let Some(event) = next {
                 match event {
-                    Event::Drawn(frame) => finished = Some(frame),
+                    Event::Drawn(frame) => {
+                        finished = Some(frame);
+                        self.working = None;
+                    }
+                    Event::Working(step) => self.working = Some(step),
                     event => {
                         if let Some(end) = self.take_in(event)? {
                             return Ok(end);
                         }
                     }
                 }
+                next = self.inbox.try_next();
             }
             self.show(finished)?;
         }
@@ -61,11 +67,12 @@ impl Viewer<'_> {
         match event {
             Event::Key(key) => match self.model.update(self.painter, keys::action(key)) {
                 Effect::None => {}
-                Effect::Suspend => self.suspend()?,
+                Effect::Suspend => loading::suspend(self.terminal, self.inbox)?,
                 Effect::Quit => return Ok(Some(End::Quit)),
             },
+            Event::Answer(Answer::Status) => self.terminal.answered(),
             Event::Resized => self.model.resize(self.painter, terminal::window()),
-            Event::Stopped => self.suspend()?,
+            Event::Stopped => loading::suspend(self.terminal, self.inbox)?,
             Event::Continued => {
                 self.terminal.retake()?;
                 self.model.resize(self.painter, terminal::window());
@@ -74,7 +81,8 @@ impl Viewer<'_> {
             Event::HungUp => return Err(AppError::HungUp),
             Event::Failed(error) => return Err(error.into()),
             Event::Panicked => return Err(AppError::Panicked),
-            Event::Drawn(_) => {}
+            // An answer that came too late for its question.
+            Event::Answer(_) | Event::Drawn(_) | Event::Working(_) | Event::Loaded => {}
         }
         Ok(None)
     }
@@ -101,23 +109,7 @@ impl Viewer<'_> {
 
     fn screen(&self, shown: Option<&Shown>) -> Buffer {
         let mut buffer = Buffer::empty(self.model.layout.screen);
-        screen::draw(&self.model, shown, &mut buffer);
+        screen::draw(&self.model, shown, self.working, &mut buffer);
         buffer
-    }
-
-    /// Gives the terminal back and stops; [`Event::Continued`] takes it again.
-    #[cfg(unix)]
-    fn suspend(&mut self) -> Result<(), AppError> {
-        if signals::can_stop() {
-            self.terminal.hold().release()?;
-            signals::stop()?;
-        }
-        Ok(())
-    }
-
-    #[cfg(not(unix))]
-    #[expect(clippy::unused_self, clippy::unnecessary_wraps, reason = "one signature for all systems")]
-    fn suspend(&mut self) -> Result<(), AppError> {
-        Ok(())
     }
 }

@@ -23,7 +23,7 @@ pub struct Arguments {
     pub viewer: ViewerArguments,
 }
 
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct ViewerArguments {
     /// The scene: a file of the scene language, OpenSCAD's .csg or NFF, - for standard input, or the name of an
     /// embedded scene
@@ -62,7 +62,7 @@ pub enum Command {
     },
 }
 
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct SceneArguments {
     /// The scene: a file, - for standard input, or the name of an embedded scene
     pub file: String,
@@ -71,7 +71,7 @@ pub struct SceneArguments {
     pub skip_unsupported: bool,
 }
 
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct RenderArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
@@ -91,7 +91,7 @@ pub struct RenderArguments {
     pub stats: Option<StatsFormat>,
 }
 
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct BenchArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
@@ -102,7 +102,7 @@ pub struct BenchArguments {
     pub json: bool,
 }
 
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct PlanArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
@@ -117,7 +117,7 @@ pub struct PlanArguments {
 }
 
 /// What decides the picture.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct PictureArguments {
     /// Options that belong together; any that is given besides has the last word
     #[arg(long, value_enum)]
@@ -158,11 +158,18 @@ pub struct PictureArguments {
     #[arg(long, value_enum, default_value = "auto")]
     pub precision: PrecisionName,
     /// Characters of the picture
-    #[arg(long, value_enum, default_value = "blocks")]
+    #[arg(long, value_enum, default_value = "auto")]
     pub glyphs: Glyphs,
-    /// Colours of the picture [default: dos; mono where `NO_COLOR` is set and in txt]
+    /// Colours of the picture [default: dos; mono in txt, where `NO_COLOR` is set, and where the terminal has no grays]
     #[arg(long, value_enum)]
     pub palette: Option<PaletteName>,
+    /// For light backgrounds: puts the terminal's own ink where the picture is dark, in mono, ascii and braille. The
+    /// viewer asks the terminal, and needs this only where it does not answer
+    #[arg(long)]
+    pub invert: bool,
+    /// Puts ink where the picture is light, whatever the terminal answers
+    #[arg(long, conflicts_with = "invert")]
+    pub no_invert: bool,
     /// How light becomes a level [default: lightness]
     #[arg(long, value_enum)]
     pub tone: Option<ToneName>,
@@ -172,7 +179,7 @@ pub struct PictureArguments {
 }
 
 /// Where the picture is seen from. What is not given is the view's.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct CameraArguments {
     /// A view of the scene, by its name [default: the first; the whole scene where it has none]
     #[arg(long, value_name = "NAME")]

@@ -32,7 +32,7 @@ pub fn run(arguments: &BenchArguments) -> Result<(), CliError> {
     let studio = input::studio(scene)?;
     // A size in dots is that of a picture without characters.
     let wants = if arguments.picture.dots.is_some() { Wants::LIGHT } else { Wants::CELLS };
-    let request = arguments.picture.request(&studio, arguments.picture.palette(), wants)?;
+    let request = arguments.picture.request(&studio, arguments.picture.look(None), wants)?;
 
     let mut frame = studio.draw(&request);
     let mut times = Vec::new();

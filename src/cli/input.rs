@@ -7,20 +7,26 @@ use crate::frame::Studio;
 use crate::scene::{
     self, Diagnostics, EmbeddedScene, MAX_FILE_BYTES, ReadError, ReadOptions, Scene, embedded,
 };
+use crate::stage::Progress;
 
 use super::diagnostics;
 use super::error::{CliError, tell};
+use super::terminal::capabilities;
 
 /// Reads a scene: a file, `-` for standard input, or an embedded scene where there is no file of that name.
 pub fn read(file: &str, skip_unsupported: bool) -> Result<Scene, CliError> {
-    let options = ReadOptions { skip_unsupported, ..ReadOptions::default() };
+    read_with(file, &ReadOptions { skip_unsupported, ..ReadOptions::default() })
+}
+
+/// The same with all options.
+pub fn read_with(file: &str, options: &ReadOptions) -> Result<Scene, CliError> {
     if file == "-" {
         let mut bytes = Vec::new();
         let limited = std::io::stdin().lock().take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes);
         limited.map_err(|e| CliError::Input(format!("standard input could not be read: {e}")))?;
-        return scene::read("standard input", &bytes, &options).map_err(|e| rendered(&e));
+        return scene::read("standard input", &bytes, options).map_err(|e| rendered(&e));
     }
-    match scene::read_file(Path::new(file), &options) {
+    match scene::read_file(Path::new(file), options) {
         Ok(scene) => Ok(scene),
         Err(ReadError::Content(diagnostics)) => Err(match foreign(file) {
             Some(format) => CliError::Input(format!(
@@ -30,7 +36,7 @@ pub fn read(file: &str, skip_unsupported: bool) -> Result<Scene, CliError> {
         }),
         Err(error @ ReadError::File { .. }) => match named(file) {
             Some(inside) => {
-                scene::read(inside.name, inside.text.as_bytes(), &options).map_err(|e| rendered(&e))
+                scene::read(inside.name, inside.text.as_bytes(), options).map_err(|e| rendered(&e))
             }
             None => Err(CliError::Scene(format!("{error}{}", embedded_names(file)))),
         },
@@ -68,12 +74,18 @@ fn embedded_names(file: &str) -> String {
 }
 
 fn rendered(diagnostics: &Diagnostics) -> CliError {
-    CliError::Scene(diagnostics::render(diagnostics, std::io::stderr().is_terminal()))
+    let colors = std::io::stderr().is_terminal() && capabilities().has_grays();
+    CliError::Scene(diagnostics::render(diagnostics, colors))
 }
 
 /// Puts a scene together.
 pub fn studio(scene: Scene) -> Result<Studio, CliError> {
-    Studio::new(scene).map_err(|e| CliError::Input(e.to_string()))
+    watched_studio(scene, Progress::default())
+}
+
+/// The same, where `progress` says how far this is.
+pub fn watched_studio(scene: Scene, progress: Progress) -> Result<Studio, CliError> {
+    Studio::watched(scene, progress).map_err(|e| CliError::Input(e.to_string()))
 }
 
 /// What the frame of the viewer calls a scene.

@@ -10,18 +10,22 @@ mod picture;
 mod plan;
 mod render;
 mod stats;
+mod terminal;
 mod values;
 
 use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use clap::Parser;
 
-use crate::app::{self, Settings};
-use crate::scene::embedded;
+use crate::app::{self, Opening, Settings};
+use crate::frame::Studio;
+use crate::scene::{ReadOptions, embedded};
+use crate::stage::Progress;
 
 use arguments::{Arguments, Command, SceneArguments, ViewerArguments};
-use error::CliError;
+use error::{CliError, tell};
 
 /// The scene that the program shows when it is given none.
 const FIRST_SCENE: &str = "hanyang";
@@ -55,26 +59,58 @@ fn command(arguments: Arguments) -> Result<(), CliError> {
 fn view(arguments: &ViewerArguments) -> Result<(), CliError> {
     let file = arguments.file.as_deref().unwrap_or(FIRST_SCENE);
     let picture = &arguments.picture;
-    if !io::stdout().is_terminal() {
-        return render::still(file, arguments.skip_unsupported, picture);
+    let still = || render::still(file, arguments.skip_unsupported, picture);
+    let Some(terminal) = terminal::of_output() else { return still() };
+    if !terminal.cursor {
+        tell(&terminal::why_a_still());
+        return still();
     }
+    let look = picture.look(Some(&terminal));
+    let opening = Opening { title: input::title(file), palette: look.palette, terminal };
+    let viewed = if file == "-" && io::stdin().is_terminal() {
+        // The scene is typed where the keys come from: first the one, then the other.
+        let (studio, settings) = load(arguments, file, &opening, &Progress::default())?;
+        let studio = Arc::new(studio);
+        app::run_shared(&studio, settings)?;
+        Some(studio)
+    } else {
+        let (file, opening) = (file.to_owned(), &opening);
+        let (arguments, known) = (arguments.clone(), opening.clone());
+        app::open(opening, move |progress| load(&arguments, &file, &known, progress))?
+    };
+    if let Some(studio) = viewed {
+        input::say(&studio.scene().notes);
+    }
+    Ok(())
+}
+
+/// The scene that the viewer shows, and with what it starts.
+fn load(
+    arguments: &ViewerArguments,
+    file: &str,
+    opening: &Opening,
+    progress: &Progress,
+) -> Result<(Studio, Settings), CliError> {
     // The viewer shows what it can, and says on the screen what it left out.
-    let scene = input::read(file, true)?;
-    let notes = scene.notes.clone();
-    let studio = input::studio(scene)?;
+    let options =
+        ReadOptions { skip_unsupported: true, progress: Some(progress.clone()), ..ReadOptions::default() };
+    let scene = input::read_with(file, &options)?;
+    let studio = input::watched_studio(scene, progress.clone())?;
+    let picture = &arguments.picture;
     let view = picture.camera.view_index(studio.scene())?;
     let settings = Settings {
-        title: input::title(file),
+        title: opening.title.clone(),
         view: view.unwrap_or(0),
         camera: picture.moves_camera().then(|| picture.camera(&studio, 1.6)).transpose()?,
         options: picture.options()?,
-        glyphs: picture.glyphs.into(),
-        palette: picture.palette(),
+        glyphs: picture.look(Some(&opening.terminal)).glyphs,
+        palette: opening.palette,
+        ground: picture.ground(),
+        questions: picture.questions(),
         tone: picture.tone(),
+        terminal: opening.terminal,
     };
-    app::run(studio, settings)?;
-    input::say(&notes);
-    Ok(())
+    Ok((studio, settings))
 }
 
 /// Reads and validates only.

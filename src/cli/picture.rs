@@ -2,15 +2,18 @@
 
 use clap::ValueEnum;
 
+use crate::app::Questions;
 use crate::frame::{Request, Studio, Wants, pcat};
-use crate::glyph::{CELL_ASPECT, ColorDepth, GlyphMode, Palette};
+use crate::glyph::{CELL_ASPECT, FourGrays, GlyphMode, Ground, Palette};
 use crate::math::Size;
+use crate::output::Capabilities;
 use crate::plan::{EngineChoice, Options, PrecisionChoice, Shading, StructureChoice};
 use crate::scene::{Camera, FieldSpan, Scene};
 use crate::tone::Tone;
 
 use super::arguments::{CameraArguments, PictureArguments};
 use super::error::CliError;
+use super::terminal::capabilities;
 use super::values::MOST_DOTS;
 
 /// The screen that is assumed where there is none.
@@ -19,6 +22,8 @@ const SCREEN: Size = Size::new(80, 25);
 /// The glyph modes by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Glyphs {
+    /// The finest that the terminal is known to draw; blocks in a file or a pipe
+    Auto,
     /// Shades, half blocks and quadrants, whichever fits the cell best
     Blocks,
     /// The same with the DOS set only
@@ -35,25 +40,39 @@ pub enum Glyphs {
     Ascii,
 }
 
-impl From<Glyphs> for GlyphMode {
-    fn from(name: Glyphs) -> Self {
-        match name {
-            Glyphs::Blocks => Self::Blocks,
-            Glyphs::Cp437 => Self::Cp437,
-            Glyphs::Quadrant => Self::Quadrant,
-            Glyphs::Half => Self::Half,
-            Glyphs::Shade => Self::Shade,
-            Glyphs::Braille => Self::Braille,
-            Glyphs::Ascii => Self::Ascii,
+impl Glyphs {
+    /// The mode that is named; what `terminal` draws where none is. A file or a pipe is no terminal, and its bytes
+    /// depend on nothing around it.
+    fn mode(self, terminal: Option<&Capabilities>) -> GlyphMode {
+        match self {
+            Self::Auto => terminal.map_or(GlyphMode::Blocks, |terminal| terminal.glyphs),
+            Self::Blocks => GlyphMode::Blocks,
+            Self::Cp437 => GlyphMode::Cp437,
+            Self::Quadrant => GlyphMode::Quadrant,
+            Self::Half => GlyphMode::Half,
+            Self::Shade => GlyphMode::Shade,
+            Self::Braille => GlyphMode::Braille,
+            Self::Ascii => GlyphMode::Ascii,
         }
     }
+}
+
+/// How a picture is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Look {
+    /// Characters.
+    pub glyphs: GlyphMode,
+    /// Colours.
+    pub palette: Palette,
 }
 
 /// The palettes by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum PaletteName {
-    /// The four grays of 16-colour attributes
+    /// The four grays of a PC: by the attributes that are the terminal's own grays, else by number of its 256 colours
     Dos,
+    /// The four grays by attributes 0, 8, 7 and 15, taken for those of a PC whatever the terminal has made of them
+    Dos16,
     /// The 13 levels themselves as ink and paper, on terminals of 256 or more colours
     Gray,
     /// The terminal's own ink and paper
@@ -198,21 +217,50 @@ impl PictureArguments {
         self.camera.camera(studio, aspect, self.preset.map(|Preset::Pcat| pcat::FIELD))
     }
 
-    /// The palette asked for; else what `NO_COLOR` (<https://no-color.org>) leaves.
-    pub fn palette(&self) -> Palette {
+    /// Characters and colours asked for; else those that `terminal` has, where a terminal is meant.
+    pub fn look(&self, terminal: Option<&Capabilities>) -> Look {
+        let glyphs = self.glyphs.mode(terminal);
+        Look { glyphs, palette: self.palette(terminal).for_glyphs(glyphs, self.ground()) }
+    }
+
+    /// What the terminal's own paper is taken for, where nothing is known of it.
+    pub fn ground(&self) -> Ground {
+        if self.invert { Ground::Light } else { Ground::Dark }
+    }
+
+    /// What the viewer asks the terminal for: what no option says.
+    pub fn questions(&self) -> Questions {
+        Questions {
+            grays: self.palette != Some(PaletteName::Dos16),
+            ground: !(self.invert || self.no_invert),
+        }
+    }
+
+    /// The palette asked for; else what the terminal and `NO_COLOR` (<https://no-color.org>) leave.
+    fn palette(&self, terminal: Option<&Capabilities>) -> Palette {
         let forbidden = || std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+        // In a file they are meant for a terminal like the one here.
+        let here = || terminal.copied().unwrap_or_else(capabilities);
+        let depth = || here().color_depth();
+        // Nothing answers a still, and people change the attributes' colours; those by number they leave.
+        let four_grays = || if here().has_256_colors() { Palette::Dos(FourGrays::Indexed) } else { Palette::DOS };
+        let ground = self.ground();
         match self.palette {
-            Some(PaletteName::Gray) => Palette::Gray(color_depth()),
-            Some(PaletteName::Mono) => Palette::MONO,
-            Some(PaletteName::Color) => Palette::Color(color_depth()),
-            None if forbidden() => Palette::MONO,
-            Some(PaletteName::Dos) | None => Palette::DOS,
+            Some(PaletteName::Gray) => Palette::Gray(depth()),
+            Some(PaletteName::Mono) => Palette::Mono(ground),
+            Some(PaletteName::Color) => Palette::Color(depth()),
+            Some(PaletteName::Dos16) => Palette::DOS,
+            Some(PaletteName::Dos) => four_grays(),
+            None if forbidden() || terminal.is_some_and(|terminal| !terminal.has_grays()) => {
+                Palette::Mono(ground)
+            }
+            None => four_grays(),
         }
     }
 
     /// The request for one picture.
-    pub fn request(&self, studio: &Studio, palette: Palette, wants: Wants) -> Result<Request, CliError> {
-        let glyphs = GlyphMode::from(self.glyphs);
+    pub fn request(&self, studio: &Studio, look: Look, wants: Wants) -> Result<Request, CliError> {
+        let Look { glyphs, palette } = look;
         let per_cell = glyphs.dots_per_cell();
         let (dots, dot_aspect) = if let Some(dots) = self.dots {
             (dots, 1.0)
@@ -241,15 +289,6 @@ impl PictureArguments {
             palette,
             tone: self.tone(),
         })
-    }
-}
-
-/// What terminals say of themselves: those that take colours of 24 bits set `COLORTERM` to `truecolor` or `24bit`
-/// (<https://github.com/termstandard/colors>). All others that have more than 16 take a number of 256.
-fn color_depth() -> ColorDepth {
-    match std::env::var("COLORTERM").as_deref() {
-        Ok("truecolor" | "24bit") => ColorDepth::Direct,
-        _ => ColorDepth::Indexed,
     }
 }
 

@@ -20,7 +20,7 @@ pub fn run(arguments: &PlanArguments) -> Result<(), CliError> {
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
     let read = reading.elapsed();
-    let request = arguments.picture.request(&studio, arguments.picture.palette(), Wants::CELLS)?;
+    let request = arguments.picture.request(&studio, arguments.picture.look(None), Wants::CELLS)?;
     let stages = studio.explain(&request);
     let threads = match request.options.threads {
         0 => std::thread::available_parallelism().map_or(1, usize::from),

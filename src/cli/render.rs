@@ -11,13 +11,14 @@ use clap::ValueEnum;
 use crate::frame::{Frame, Request, Wants};
 use crate::glyph::Palette;
 use crate::math::Grid;
-use crate::output::{self, Pixels};
+use crate::output::{self, Capabilities, Pixels};
 use crate::plan::PrecisionChoice;
 use crate::tone::Tone;
 
 use super::arguments::{Channel, Format, PictureArguments, RenderArguments};
 use super::error::CliError;
-use super::{input, print, stats};
+use super::picture::Look;
+use super::{input, print, stats, terminal};
 
 /// Draws one still and writes it.
 pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
@@ -29,7 +30,10 @@ pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
     let studio = input::studio(scene)?;
     let read = reading.elapsed();
     let wants = wants(format, arguments.channel);
-    let mut request = arguments.picture.request(&studio, palette(&arguments.picture, format), wants)?;
+    // What goes into a file is not for the terminal that the command runs in.
+    let terminal = if arguments.output.is_some() { None } else { terminal::of_output() };
+    let look = look(&arguments.picture, format, terminal.as_ref());
+    let mut request = arguments.picture.request(&studio, look, wants)?;
     // Raw values are for whoever computes with them.
     if format == Format::Pfm && request.options.precision == PrecisionChoice::Auto {
         request.options.precision = PrecisionChoice::Double;
@@ -52,12 +56,13 @@ pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
     Ok(())
 }
 
-/// One still on standard output, which is no terminal: characters only.
+/// One still on standard output, which is no terminal, or one without a cursor: characters only.
 pub fn still(file: &str, skip_unsupported: bool, picture: &PictureArguments) -> Result<(), CliError> {
     let scene = input::read(file, skip_unsupported)?;
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
-    let request = picture.request(&studio, palette(picture, Format::Txt), Wants::CELLS)?;
+    let look = look(picture, Format::Txt, terminal::of_output().as_ref());
+    let request = picture.request(&studio, look, Wants::CELLS)?;
     let frame = studio.draw(&request);
     print(&encoded(&frame, &request, Format::Txt, None)?)
 }
@@ -86,8 +91,9 @@ fn wants(format: Format, channel: Option<Channel>) -> Wants {
 }
 
 /// Text has no colours to lose: its shades are ink.
-fn palette(picture: &PictureArguments, format: Format) -> Palette {
-    if format == Format::Txt { Palette::MONO } else { picture.palette() }
+fn look(picture: &PictureArguments, format: Format, terminal: Option<&Capabilities>) -> Look {
+    let look = picture.look(terminal);
+    if format == Format::Txt { Look { palette: Palette::Mono(picture.ground()), ..look } } else { look }
 }
 
 /// The format that a file's ending names. A file without one holds text; an ending that names no format is an error,

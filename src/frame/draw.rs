@@ -10,7 +10,7 @@ use crate::lattice::Structure;
 use crate::math::{Bounds, DVec3, Grid};
 use crate::plan::{Channels, EngineChoice, Plan, Precision};
 use crate::shade::{Channel, Shader, TileHits};
-use crate::stage::{Counts, Meter, Silent, Stage, StageTimes, Stopwatch};
+use crate::stage::{Counts, Meter, Silent, Stage, StageTimes, Stopwatch, Task};
 use crate::trace::{Exact, Fast};
 use crate::view::{Lens, Picture, TILE, Tile, tiles};
 
@@ -18,7 +18,7 @@ use super::blocks::Blocks;
 use super::gather::{PictureDots, TileDots};
 use super::kept::{Hits, Reused};
 use super::points::{Points, Tracer};
-use super::{Frame, Request, Space, Studio, Wants};
+use super::{Frame, NothingInView, Request, Space, Studio, Wants};
 
 /// One tile in this many is timed stage by stage: reading the clock at every change of stage costs about as much
 /// as the stage.
@@ -107,6 +107,7 @@ impl Studio {
             normal: dots.normal.map(Arc::new),
             object: dots.object.map(Arc::new),
             cells: None,
+            nothing: (counts.primary_hits == 0).then(|| NothingInView::cause(&self.assembly, &lens)),
             counts,
             times,
             objects: self.assembly.objects.len(),
@@ -173,8 +174,11 @@ impl Viewed<'_> {
         // Of workers that have no tile in hand. Taken anew for each tile, since rayon would make more memories
         // than it has threads.
         let workers = Mutex::new(Vec::new());
+        let progress = &self.studio.progress;
+        let tiles = tiles(size);
+        progress.begin(Task::Tracing, tiles.len() as u64);
         let idle = || workers.lock().unwrap_or_else(PoisonError::into_inner);
-        let drawn = tiles(size).into_par_iter().map(|tile| {
+        let drawn = tiles.into_par_iter().map(|tile| {
             let taken = idle().pop();
             // Behind a pointer: it is large, and handed on with every tile.
             let mut worker = taken.unwrap_or_else(|| Box::new((tracer.memory(), TileDots::new(self.wants))));
@@ -191,6 +195,7 @@ impl Viewed<'_> {
             };
             bands[(tile.corner[1] / TILE) as usize].take(size.width, &tile, dots);
             idle().push(worker);
+            progress.advance(1);
             measured
         });
         let all = drawn.reduce(Default::default, |mut all, one| {

@@ -11,6 +11,8 @@ use crate::scene::Camera;
 use crate::stage::{Counts, StageTimes};
 use crate::tone::{Level, Tone};
 
+use super::NothingInView;
+
 /// One picture that is asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Request {
@@ -79,6 +81,8 @@ pub struct Frame {
     pub object: Option<Arc<Grid<u32>>>,
     /// The characters.
     pub cells: Option<Arc<Grid<Cell>>>,
+    /// Why it is all background; absent where anything is seen.
+    pub nothing: Option<NothingInView>,
     /// What was counted while this frame was drawn: nothing where its light is that of the picture before, and where hits
     /// were taken over, as rays from the eye only those that had to be traced again.
     pub counts: Counts,
@@ -154,6 +158,7 @@ impl Frame {
             normal: None,
             object: None,
             cells: Some(Arc::new(cells)),
+            nothing: None,
             counts: Counts::default(),
             times: StageTimes::default(),
             objects: 0,

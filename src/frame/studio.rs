@@ -10,6 +10,7 @@ use crate::math::DVec3;
 use crate::plan::StructureChoice;
 use crate::scene::{Camera, Scene};
 use crate::solid::{Assembly, AssemblyError};
+use crate::stage::Progress;
 use crate::view::framed;
 
 use super::kept::Kept;
@@ -20,6 +21,7 @@ use super::spare::Spare;
 #[derive(Debug)]
 pub struct Studio {
     scene: Scene,
+    pub(super) progress: Progress,
     pub(super) assembly: Assembly,
     assembling: Duration,
     level: Level,
@@ -47,11 +49,17 @@ pub struct Built {
 impl Studio {
     /// Makes a scene ready. Fails for solids that no reader gives.
     pub fn new(scene: Scene) -> Result<Self, AssemblyError> {
+        Self::watched(scene, Progress::default())
+    }
+
+    /// The same, where `progress` says how far this is, and how far each picture.
+    pub fn watched(scene: Scene, progress: Progress) -> Result<Self, AssemblyError> {
         let start = Instant::now();
-        let assembly = Assembly::new(&scene)?;
+        let assembly = Assembly::watched(&scene, &progress)?;
         let assembling = start.elapsed();
         Ok(Self {
             scene,
+            progress,
             assembly,
             assembling,
             level: Level::new(),
@@ -98,7 +106,7 @@ impl Studio {
             }
             self.scene = scene;
         } else {
-            let new = Self::new(scene)?;
+            let new = Self::watched(scene, self.progress.clone())?;
             let (workers, spare) = (std::mem::take(&mut self.workers), std::mem::take(&mut self.spare));
             *self = Self { level: self.level, workers, spare, ..new };
         }
@@ -108,6 +116,11 @@ impl Studio {
     /// The scene.
     pub fn scene(&self) -> &Scene {
         &self.scene
+    }
+
+    /// Where it can be read how far a picture is that is being drawn.
+    pub fn progress(&self) -> &Progress {
+        &self.progress
     }
 
     /// What was built so far.
@@ -157,7 +170,8 @@ impl Studio {
         if choice == StructureChoice::None {
             return (Structure::None, None);
         }
-        let subs = &self.subs.get_or_init(|| timed(|| SubLattices::new(&self.assembly))).0;
+        let subs =
+            &self.subs.get_or_init(|| timed(|| SubLattices::watched(&self.assembly, &self.progress))).0;
         match choice {
             StructureChoice::Tree => return (Structure::Tree(self.tree(), subs), None),
             StructureChoice::Boxes => return (Structure::Boxes(self.boxes(), subs), None),

@@ -112,6 +112,23 @@ impl Palette {
         }
     }
 
+    /// The palette that these glyphs have of it: ASCII and Braille have no paper but the terminal's own, which is
+    /// dark or light, and no ink but its own where there is no color.
+    #[must_use]
+    pub const fn for_glyphs(self, glyphs: GlyphMode, ground: Ground) -> Self {
+        match (self, glyphs) {
+            (Self::Color(_), _) => self,
+            (Self::Mono(_), _) | (_, GlyphMode::Ascii | GlyphMode::Braille) => Self::Mono(ground),
+            _ => self,
+        }
+    }
+
+    /// Whether each dot can have the gray of its level. Where it can not, a mode in which each dot has its own place
+    /// is a coarse chequer.
+    pub const fn has_levels(self) -> bool {
+        matches!(self, Self::Gray(_) | Self::Color(_))
+    }
+
     /// What stands behind the terminal's own ink.
     pub const fn ground(self) -> Ground {
         match self {

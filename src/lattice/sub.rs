@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 
 use crate::math::{Bounds, DVec3, Ray};
 use crate::solid::{Assembly, Body, Expression, Object, Primitive, Pruned, Tree};
+use crate::stage::{Progress, Task};
 
 use super::loose::{Loose, MANY};
 use super::planes::{Planes, SLACK, Step, slack};
@@ -34,11 +35,18 @@ pub struct SubLattices {
 impl SubLattices {
     /// Cuts every composite object of an assembly.
     pub fn new(assembly: &Assembly) -> Self {
+        Self::watched(assembly, &Progress::default())
+    }
+
+    /// The same, where `progress` says how far this is.
+    pub fn watched(assembly: &Assembly, progress: &Progress) -> Self {
+        progress.begin(Task::Cutting, assembly.objects.len() as u64);
         let composite = |object: &&Object| matches!(object.body, Body::Composite { .. });
         let budget = Budget::shared(assembly.objects.iter().filter(composite).count());
-        let of = |object: &Object| match &object.body {
+        let of = |(number, object): (usize, &Object)| match &object.body {
             Body::Single(_) | Body::Surface(_) => None,
             Body::Composite { tree, .. } => {
+                progress.reach(number as u64);
                 SubLattice::new(tree, &assembly.primitives, &object.bounds, budget)
             }
         };
@@ -47,7 +55,7 @@ impl SubLattices {
             _ => None,
         };
         Self {
-            cells: unless_none(assembly.objects.iter().map(of)),
+            cells: unless_none(assembly.objects.iter().enumerate().map(of)),
             loose: unless_none(assembly.objects.iter().map(loose)),
         }
     }

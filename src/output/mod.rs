@@ -4,6 +4,10 @@
 
 mod cells;
 mod pictures;
+mod terminal;
+mod terminfo;
 
 pub use cells::{ansi, text};
 pub use pictures::{Pixels, grays_of_levels, grays_of_light, levels, pfm_gray, pfm_vectors, pgm, png, ppm};
+pub use terminal::{Capabilities, Colors, Environment, is_known};
+pub use terminfo::Description;

@@ -5,6 +5,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use super::{Diagnostic, Diagnostics, Scene, language, nff};
+use crate::stage::Progress;
 
 /// The largest file that is read: 256 MiB.
 pub const MAX_FILE_BYTES: u64 = 256 << 20;
@@ -34,6 +35,8 @@ pub struct ReadOptions {
     pub skip_unsupported: bool,
     /// The format, where the name must not decide.
     pub format: Option<Format>,
+    /// Where to write how far the reading is, for who watches.
+    pub progress: Option<Progress>,
 }
 
 /// Why a file gave no scene.
@@ -92,7 +95,7 @@ pub fn read(name: &str, bytes: &[u8], options: &ReadOptions) -> Result<Scene, Di
     let text = text(name, bytes)?;
     match options.format.unwrap_or_else(|| Format::of(name)) {
         Format::Language => language::read(name, text, options),
-        Format::Nff => nff::read(name, text),
+        Format::Nff => nff::read(name, text, options.progress.as_ref()),
     }
 }
 

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use crate::math::{Bounds, DAffine3, DVec3, Placement, Ray};
 use crate::scene::{self, MaterialId, Scene, Solid};
+use crate::stage::{Progress, Task};
 
 use super::ball::Ball;
 use super::expression::{Expression, Tree};
@@ -26,6 +27,13 @@ fn mapped<T: Sync, U: Send>(items: &[T], f: impl Fn(usize, &T) -> U + Sync) -> V
         return items.iter().enumerate().map(|(number, item)| f(number, item)).collect();
     }
     items.par_iter().enumerate().map(|(number, item)| f(number, item)).collect()
+}
+
+/// Tells of a stretch of items by its last one: a count that all threads share is too slow to be written for each.
+fn tell(progress: &Progress, number: usize) {
+    if (number + 1).is_multiple_of(STRETCH) {
+        progress.advance(STRETCH as u64);
+    }
 }
 
 /// Those that are there, in the memory that held them all.
@@ -257,6 +265,11 @@ pub enum AssemblyError {
 impl Assembly {
     /// Puts a scene together.
     pub fn new(scene: &Scene) -> Result<Self, AssemblyError> {
+        Self::watched(scene, &Progress::default())
+    }
+
+    /// The same, where `progress` says how far this is.
+    pub fn watched(scene: &Scene, progress: &Progress) -> Result<Self, AssemblyError> {
         let datum = Datum::of(scene);
         let mut parts = Vec::with_capacity(scene.objects.len());
         // By object: where its primitives start; one more than there are objects.
@@ -267,8 +280,12 @@ impl Assembly {
         }
         starts.push(parts.len());
         u32::try_from(parts.len()).map_err(|_| AssemblyError::TooMany)?;
-        let placed =
-            |_, p: &&scene::Primitive| datum.form(p).map(|form| Primitive { form, material: p.material });
+        // Primitives take about as long as objects.
+        progress.begin(Task::Assembling, (parts.len() + scene.objects.len()) as u64);
+        let placed = |number, p: &&scene::Primitive| {
+            tell(progress, number);
+            datum.form(p).map(|form| Primitive { form, material: p.material })
+        };
         let primitives = mapped(&parts, placed);
         if let Some(singular) = primitives.iter().position(Option::is_none) {
             let object = starts.partition_point(|&start| start <= singular);
@@ -277,8 +294,10 @@ impl Assembly {
         let primitives = present(primitives);
         drop(parts);
         let own = |number: usize| starts[number]..starts[number + 1];
-        let object =
-            |number, object: &scene::Object| Object::new(number, object, own(number).start, &primitives);
+        let object = |number, object: &scene::Object| {
+            tell(progress, number);
+            Object::new(number, object, own(number).start, &primitives)
+        };
         let objects = present(mapped(&scene.objects, object));
         for Object { number, .. } in objects.iter().filter(|object| object.is_composite()) {
             if let Some(surface) = primitives[own(*number as usize)].iter().position(|p| p.form.is_surface())

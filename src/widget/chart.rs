@@ -9,8 +9,9 @@ use ratatui_core::widgets::Widget;
 
 use super::figures;
 use crate::frame::{Frame, Space};
+use crate::math::{Grid, Size};
 use crate::plan::Shading;
-use crate::stage::{Counts, Stage, StageTimes};
+use crate::stage::{Counts, Stage, StageTimes, Step};
 
 /// Columns of a stage's number and name, and the blank before each.
 const NAME_COLUMNS: u16 = 11;
@@ -29,6 +30,7 @@ pub struct FlowChart {
     field: [f64; 2],
     shading: Option<Shading>,
     bytes: Option<usize>,
+    working: Option<Step>,
     lit: Style,
     dim: Style,
 }
@@ -51,9 +53,23 @@ impl FlowChart {
             field: frame.field,
             shading: None,
             bytes: None,
+            working: None,
             lit: Style::new().fg(Color::Gray),
             dim: Style::new().fg(Color::DarkGray),
         }
+    }
+
+    /// The chart before anything was counted.
+    pub fn idle() -> Self {
+        let nothing = Size::new(0, 0);
+        Self::new(&Frame::blank(nothing, Grid::from_values(nothing, Vec::new())))
+    }
+
+    /// What is at work: its stage has a mark, its part of the whole in place of its count, and a bar for that.
+    #[must_use]
+    pub const fn working(mut self, step: Option<Step>) -> Self {
+        self.working = step;
+        self
     }
 
     /// The model shown by SHADE.
@@ -141,6 +157,12 @@ impl Line {
     fn idle() -> Self {
         Self { count: "-".to_owned(), busy: false }
     }
+
+    fn at_work(step: &Step) -> Self {
+        let count =
+            step.percent.map_or_else(|| step.task.name().to_owned(), |percent| format!("{percent} %"));
+        Self { count, busy: true }
+    }
 }
 
 /// A bar in steps of half a column, rounded.
@@ -163,17 +185,20 @@ impl Widget for &FlowChart {
         let area = area.intersection(buffer.area);
         let bar_columns = area.width.saturating_sub(NAME_COLUMNS + COUNT_COLUMNS + 1);
         for (y, stage) in (area.top()..area.bottom()).zip(Stage::ALL) {
-            let line = self.line(stage);
+            let step = self.working.filter(|step| step.task.stage() == stage);
+            let line = step.map_or_else(|| self.line(stage), |step| Line::at_work(&step));
             let style = if line.busy { self.lit } else { self.dim };
             let text = format!(
-                "{:>2} {:<8}{:>width$} ",
+                "{:>2}{}{:<8}{:>width$} ",
                 stage.number(),
+                if step.is_some() { '►' } else { ' ' },
                 stage.name(),
                 line.count,
                 width = COUNT_COLUMNS.into()
             );
             let (x, _) = buffer.set_stringn(area.x, y, text, area.width.into(), style);
-            let share = self.share(stage);
+            let share =
+                step.map_or_else(|| self.share(stage), |step| f64::from(step.percent.unwrap_or(0)) / 100.0);
             buffer.set_stringn(x, y, "░".repeat(bar_columns.into()), bar_columns.into(), self.dim);
             buffer.set_stringn(x, y, bar(share, bar_columns), bar_columns.into(), self.lit);
         }
@@ -183,7 +208,7 @@ impl Widget for &FlowChart {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{Grid, Size};
+    use crate::stage::Task;
 
     fn frame() -> Frame {
         let mut times = StageTimes::default();
@@ -241,6 +266,18 @@ mod tests {
         );
         assert_eq!(buffer[(0, 10)].fg, Color::Gray);
         assert_eq!(buffer[(3, 7)].fg, Color::DarkGray, "CSG did nothing");
+    }
+
+    #[test]
+    fn the_stage_at_work_has_a_mark_and_a_bar() {
+        let step = Step { task: Task::Cutting, percent: Some(50) };
+        let (_, lines) = drawn(&FlowChart::idle().working(Some(step)), 24, 3);
+        assert_eq!(
+            lines,
+            [" 1 OBJECTS        - ░░░░", " 2►LATTICE     50 % ██░░", " 3 VIEW           - ░░░░"]
+        );
+        let (_, lines) = drawn(&FlowChart::idle().working(Some(Step { percent: None, ..step })), 24, 2);
+        assert_eq!(lines[1], " 2►LATTICE building ░░░░");
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! A program in a pseudo-terminal, and the screen that it draws.
 
+use std::collections::VecDeque;
 use std::fs::File;
 use std::io::{Read, Write};
 use std::num::NonZeroU16;
@@ -25,8 +26,8 @@ pub struct Size {
 }
 
 /// A shell script around the program: it waits for a line, sets the size before the program looks, and reports
-/// the program's number, how it ended, and whether it left the modes of the terminal as they were. The named
-/// pipe ends with the last process.
+/// the program's number, how it ended, whether it left the modes of the terminal as they were, and what it left to
+/// be read, now or a little later. The named pipe ends with the last process.
 const SCRIPT: &str = r#"
     read -r line; exec 9>"$1"; stty cols "$2" rows "$3"; shift 3
     before=$(stty -g)
@@ -34,7 +35,9 @@ const SCRIPT: &str = r#"
     sh -c 'echo "pid=$$."; exec "$0" "$@"' "$@"
     code=$?
     while [ $code -eq 147 ]; do echo "stopped $(modes)"; read -r line; fg >/dev/null; code=$?; done
-    echo "code=$code $(modes)"
+    is=$(modes); stty -icanon -echo min 0 time 2
+    left=$(dd bs=999 count=1 2>/dev/null | od -An -c | tr -d ' \n'); stty "$before"
+    echo "code=$code $is left=[$left]"
 "#;
 
 /// A program in a pseudo-terminal.
@@ -44,6 +47,38 @@ pub struct Pty {
     all_ended: Receiver<()>,
     parser: vt100::Parser,
     log: Vec<u8>,
+    answers: Answers,
+}
+
+/// How the terminal answers.
+#[derive(Default)]
+struct Answers {
+    /// How long an answer is on its way; absent where there is none.
+    delay: Option<Duration>,
+    /// The bytes that have been looked through for questions.
+    read: usize,
+    /// What is on its way, and when it arrives.
+    sent: VecDeque<(Instant, &'static str)>,
+}
+
+/// Questions, and what xterm answers.
+const QUESTIONS: [(&str, &str); 2] = [("\x1b[5n", "\x1b[0n"), ("\x1b[>c", "\x1b[>41;388;0c")];
+
+impl Answers {
+    /// Looks for questions in what came since.
+    fn look(&mut self, log: &[u8]) {
+        while let Some(rest) = log.get(self.read..).filter(|rest| !rest.is_empty()) {
+            let question = |(question, _): &&(&str, &str)| rest.starts_with(question.as_bytes());
+            if let Some(&(question, answer)) = QUESTIONS.iter().find(question) {
+                self.sent.extend(self.delay.map(|delay| (Instant::now() + delay, answer)));
+                self.read += question.len();
+            } else if QUESTIONS.iter().any(|(question, _)| question.as_bytes().starts_with(rest)) {
+                return;
+            } else {
+                self.read += 1;
+            }
+        }
+    }
 }
 
 impl Pty {
@@ -84,7 +119,13 @@ impl Pty {
         let size = if size.columns == 0 { Size { columns: 80, rows: 25 } } else { size };
         let [rows, columns] = sides(size);
         let parser = vt100::Parser::new(rows, columns, 0);
-        Self { process, line, all_ended, parser, log: Vec::new() }
+        let answers = Answers { delay: Some(Duration::ZERO), ..Answers::default() };
+        Self { process, line, all_ended, parser, log: Vec::new(), answers }
+    }
+
+    /// From now on the terminal answers questions after a time, or not at all.
+    pub fn answer_after(&mut self, delay: Option<Duration>) {
+        self.answers.delay = delay;
     }
 
     /// The size of the screen.
@@ -148,29 +189,47 @@ impl Pty {
     pub fn wait_for(&mut self, what: &str, mut condition: impl FnMut(&Self) -> bool) {
         let deadline = Instant::now() + DEADLINE;
         while !condition(self) {
-            let bytes = self.read_before(deadline);
-            assert!(!bytes.is_empty(), "no {what} on the screen:\n{}", self.text());
-            self.parser.process(&bytes);
-            self.log.extend(bytes);
+            assert!(
+                self.take_output(deadline) && Instant::now() < deadline,
+                "no {what} on the screen:\n{}",
+                self.text()
+            );
         }
     }
 
-    /// The next output; nothing at the deadline or after the last process.
-    fn read_before(&mut self, deadline: Instant) -> Vec<u8> {
-        let left = deadline.saturating_duration_since(Instant::now());
-        let mut line = [PollFd::new(&self.line, PollFlags::IN)];
-        poll(&mut line, Some(&left.try_into().unwrap())).unwrap();
-        let ready = line[0].revents().contains(PollFlags::IN);
-        let mut bytes = vec![0; 65_536];
-        // Linux reports the end of the last process as an error.
-        let n = if ready { self.line.read(&mut bytes).unwrap_or(0) } else { 0 };
-        bytes.truncate(n);
-        bytes
+    /// Takes what comes in a time.
+    pub fn watch(&mut self, time: Duration) {
+        let end = Instant::now() + time;
+        while Instant::now() < end && self.take_output(end) {}
     }
 
-    /// Waits for the program's end, with this code and the terminal as it was.
+    /// Takes what comes next, or sends the answer that is due; `false` after the last process.
+    fn take_output(&mut self, deadline: Instant) -> bool {
+        let due = self.answers.sent.front().map(|&(due, _)| due);
+        let until = due.map_or(deadline, |due| due.min(deadline));
+        let left = until.saturating_duration_since(Instant::now());
+        let mut line = [PollFd::new(&self.line, PollFlags::IN)];
+        poll(&mut line, Some(&left.try_into().unwrap())).unwrap();
+        let come = line[0].revents();
+        if come.contains(PollFlags::IN) {
+            let mut bytes = vec![0; 65_536];
+            // Linux reports the end of the last process as an error.
+            let n = self.line.read(&mut bytes).unwrap_or(0);
+            self.parser.process(&bytes[..n]);
+            self.log.extend(&bytes[..n]);
+            self.answers.look(&self.log);
+            return n > 0;
+        }
+        while self.answers.sent.front().is_some_and(|&(due, _)| due <= Instant::now()) {
+            let (_, answer) = self.answers.sent.pop_front().unwrap();
+            self.line.write_all(answer.as_bytes()).unwrap();
+        }
+        !come.contains(PollFlags::HUP)
+    }
+
+    /// Waits for the program's end, with this code, the terminal as it was, and nothing left to be read by the shell.
     pub fn wait_for_end(&mut self, code: i32) {
-        let report = format!("code={code} modes=same");
+        let report = format!("code={code} modes=same left=[]");
         self.wait_for(&report, |pty| pty.text().contains(&report) && pty.given_back());
     }
 

@@ -18,6 +18,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use crate::math::DVec3;
+use crate::stage::{Progress, Task};
 
 use super::diagnostic::{Reported, Sink};
 use super::{Camera, Diagnostic, Diagnostics, Scene};
@@ -28,8 +29,8 @@ use solids::Solids;
 use tokens::{Token, Tokens};
 
 /// Reads a scene.
-pub(super) fn read(name: &str, text: &str) -> Result<Scene, Diagnostics> {
-    let reader = in_stretches(text, STRETCH).unwrap_or_else(|| Reader::of(text, 0..text.len()));
+pub(super) fn read(name: &str, text: &str, progress: Option<&Progress>) -> Result<Scene, Diagnostics> {
+    let reader = in_stretches(text, STRETCH, progress).unwrap_or_else(|| Reader::of(text, 0..text.len()));
     reader.finish(name, text)
 }
 
@@ -41,13 +42,20 @@ const STRETCH: usize = 1 << 20;
 /// Each stretch begins with a line that begins an entity. A text without errors means the same when it is read so: no
 /// entity that is right has a word among its numbers, so none goes on behind the beginning of another. Where there are
 /// errors, one thread has to find them in the order of the text.
-fn in_stretches(text: &str, bytes: usize) -> Option<Reader> {
+fn in_stretches(text: &str, bytes: usize, progress: Option<&Progress>) -> Option<Reader> {
     let stretches = stretches(text, bytes);
     if stretches.len() == 1 {
         return None;
     }
+    if let Some(progress) = progress {
+        progress.begin(Task::Reading, text.len() as u64);
+    }
     let read = stretches.into_par_iter().map(|stretch| {
+        let length = stretch.len();
         let reader = Reader::of(text, stretch);
+        if let Some(progress) = progress {
+            progress.advance(length as u64);
+        }
         reader.sink.is_clean().then_some(reader)
     });
     let readers: Vec<Reader> = read.collect::<Option<_>>()?;

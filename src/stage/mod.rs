@@ -2,8 +2,12 @@
 //!
 //! The order and the names are those of `docs/flow-chart.md`; a test compares the two.
 
+mod progress;
+
 use std::ops::{Add, AddAssign, Index, IndexMut};
 use std::time::{Duration, Instant};
+
+pub use progress::{Progress, Step, Task};
 
 /// One stage of the flow chart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

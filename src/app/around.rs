@@ -1,0 +1,138 @@
+//! What stands around the picture: frame, titles, function keys. It is the same before the scene is there and after.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Block, BorderType, Widget};
+
+use super::keys;
+use super::layout::{Around, Panels, Rows};
+use super::theme::Theme;
+use crate::stage::Step;
+
+/// What the frame says.
+#[derive(Clone, Debug, Default)]
+pub struct Labels<'a> {
+    /// The name of the scene.
+    pub title: &'a str,
+    /// What the view is called; absent before there is one.
+    pub view: Option<String>,
+    /// What is shown otherwise than asked for.
+    pub note: Option<String>,
+    /// What is at work, where that takes long enough to be said.
+    pub working: Option<Step>,
+}
+
+/// How far a piece of work is, in words.
+pub fn words(step: &Step) -> String {
+    let name = step.task.name();
+    step.percent.map_or_else(|| name.to_owned(), |percent| format!("{name} {percent} %"))
+}
+
+/// Draws it. What is inside the panels, and the line of figures, is left alone.
+pub fn draw(around: &Around, labels: &Labels, theme: &Theme, buffer: &mut Buffer) {
+    match around {
+        Around::Nothing => {}
+        Around::Rows(rows) => draw_rows(rows, labels, theme, buffer),
+        Around::Panels(panels) => draw_panels(panels, labels, theme, buffer),
+    }
+}
+
+/// What the panel of the flow chart has inside its border.
+pub fn inside(panel: Rect) -> Rect {
+    Block::bordered().inner(panel)
+}
+
+fn draw_panels(panels: &Panels, labels: &Labels, theme: &Theme, buffer: &mut Buffer) {
+    let title = format!(" {} ═", labels.title.to_uppercase());
+    Block::bordered()
+        .border_type(BorderType::Double)
+        .style(theme.text)
+        .title(Line::from(vec![Span::raw("═"), Span::styled(" RAY13 ", theme.bright)]))
+        .title(Line::from(title).right_aligned())
+        .render(panels.outer, buffer);
+    let chart = Block::bordered().style(theme.text).title(Span::styled(" FLOW CHART ", theme.bright));
+    chart.render(panels.chart, buffer);
+
+    let mut picture = Block::bordered().style(theme.text).title(Span::styled(" PICTURE ", theme.bright));
+    if let Some(view) = &labels.view {
+        picture = picture.title(Line::from(format!(" view: {view} ")).right_aligned());
+    }
+    if let Some(note) = &labels.note {
+        picture = picture.title_bottom(format!(" {note} "));
+    }
+    if let Some(step) = &labels.working {
+        picture = picture.title_bottom(Line::from(format!(" {} ", words(step))).right_aligned());
+    }
+    picture.render(panels.picture, buffer);
+    draw_bar(panels.bar, theme, buffer);
+}
+
+/// The rows alone: in the lower one, right of the keys, what is at work or shown otherwise than asked for.
+fn draw_rows(rows: &Rows, labels: &Labels, theme: &Theme, buffer: &mut Buffer) {
+    let program = " RAY13 ";
+    buffer.set_string(rows.title.x, rows.title.y, "═".repeat(rows.title.width.into()), theme.text);
+    buffer.set_string(rows.title.x + 1, rows.title.y, program, theme.bright);
+    let view = labels.view.as_ref().map(|view| format!(" view: {view} ═"));
+    let name = format!(" {} ═", labels.title.to_uppercase());
+    let whole = name.clone() + view.as_deref().unwrap_or_default();
+    // Between the two names there is a piece of the line; the program's own stays whole.
+    let room = rows.title.width.saturating_sub(program.len() as u16 + 2);
+    let fits = |text: &String| Line::from(text.as_str()).width() <= room.into();
+    let text =
+        [whole, name].into_iter().find(fits).unwrap_or_else(|| format!(" {}", labels.title.to_uppercase()));
+    let columns = (Line::from(text.as_str()).width() as u16).min(room);
+    let place = Rect { x: rows.title.right() - columns, width: columns, ..rows.title };
+    Line::from(text).style(theme.text).render(place, buffer);
+
+    let used = draw_bar(rows.bar, theme, buffer);
+    let left = Rect { x: rows.bar.x + used, width: rows.bar.width - used, ..rows.bar };
+    if let Some(text) = labels.working.as_ref().map(words).or_else(|| labels.note.clone()) {
+        let columns = (Line::from(text.as_str()).width() as u16).min(left.width.saturating_sub(1));
+        let place = Rect { x: left.right() - columns, width: columns, ..left };
+        Line::from(text).style(theme.dim).render(place, buffer);
+    }
+}
+
+/// Draws the function keys that fit, each whole; gives the columns that they take.
+fn draw_bar(area: Rect, theme: &Theme, buffer: &mut Buffer) -> u16 {
+    let keys = keys_that_fit(area.width);
+    let mut spans = vec![Span::raw(" ")];
+    for (number, label) in keys {
+        spans.push(Span::styled(number.to_string(), theme.bright));
+        spans.push(Span::styled(label, theme.label));
+        spans.push(Span::raw(" "));
+    }
+    let line = Line::from(spans).style(theme.text);
+    let columns = (line.width() as u16).min(area.width);
+    line.render(area, buffer);
+    columns
+}
+
+/// The first key, which is Help, and the last, which is Quit; of those between as many as fit, counted from the last.
+fn keys_that_fit(columns: u16) -> Vec<(u8, &'static str)> {
+    let mut keys = keys::function_keys();
+    let width = |keys: &[(u8, &str)]| {
+        1 + keys.iter().map(|(number, label)| number.to_string().len() + label.len() + 1).sum::<usize>()
+    };
+    // The blank behind the last needs no room.
+    while keys.len() > 2 && width(&keys) > usize::from(columns) + 1 {
+        keys.remove(1);
+    }
+    keys
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_go_from_the_left_but_help_and_quit_stay() {
+        let labels = |columns| keys_that_fit(columns).into_iter().map(|(_, label)| label).collect::<Vec<_>>();
+        assert_eq!(labels(80), ["Help", "View", "Glyphs", "Quit"]);
+        assert_eq!(labels(27), ["Help", "View", "Glyphs", "Quit"]);
+        assert_eq!(labels(26), ["Help", "Glyphs", "Quit"]);
+        assert_eq!(labels(20), ["Help", "Quit"]);
+        assert_eq!(labels(1), ["Help", "Quit"]);
+    }
+}

@@ -117,7 +117,8 @@ mod tests {
             let answers = answers(colors, background);
             let mut settings = settings(INDEXED);
             settings.take_in(&answers);
-            let bytes = colors.map(|color| [0, 2, 4].map(|at| u8::from_str_radix(&color[at..at + 2], 16).unwrap()));
+            let bytes =
+                colors.map(|color| [0, 2, 4].map(|at| u8::from_str_radix(&color[at..at + 2], 16).unwrap()));
             let own = Palette::Dos(FourGrays::Attributes(bytes));
             assert_eq!(settings.palette, if fits { own } else { INDEXED }, "{colors:?}");
             let light = ["ffffff", "fdf6e3"].contains(&background);

@@ -178,7 +178,11 @@ impl Session {
     }
 
     /// Shows the painter's pictures until the end.
-    fn show<P: Painter + 'static>(mut self, painter: &Arc<P>, mut settings: Settings) -> Result<(), AppError> {
+    fn show<P: Painter + 'static>(
+        mut self,
+        painter: &Arc<P>,
+        mut settings: Settings,
+    ) -> Result<(), AppError> {
         let tracer = Tracer::start(painter.clone(), self.sender.clone())?;
         let (terminal, inbox) = (&mut self.terminal, &mut self.inbox);
         let name = env::var("TERM").unwrap_or_default();

@@ -203,9 +203,8 @@ impl Model {
         let now = self.settings.glyphs;
         let dotted = |glyphs| matches!(glyphs, GlyphMode::Half | GlyphMode::Quadrant);
         let coarse = |glyphs| dotted(glyphs) && !self.settings.palette.has_levels();
-        let drawn = |&glyphs: &GlyphMode| {
-            glyphs == now || self.settings.terminal.draws(glyphs) && !coarse(glyphs)
-        };
+        let drawn =
+            |&glyphs: &GlyphMode| glyphs == now || self.settings.terminal.draws(glyphs) && !coarse(glyphs);
         let all: Vec<_> = GlyphMode::ALL.into_iter().filter(drawn).collect();
         after(&all, now)
     }

@@ -215,7 +215,8 @@ impl Hold {
         }
         enable_raw_mode()?;
         (ours.screen, ours.modes) = (true, true);
-        let enter = if ours.only_screen { commands(&[&Hide]) } else { commands(&[&EnterAlternateScreen, &Hide]) };
+        let enter =
+            if ours.only_screen { commands(&[&Hide]) } else { commands(&[&EnterAlternateScreen, &Hide]) };
         send(&enter)
     }
 

@@ -243,7 +243,8 @@ impl PictureArguments {
         let here = || terminal.copied().unwrap_or_else(capabilities);
         let depth = || here().color_depth();
         // Nothing answers a still, and people change the attributes' colours; those by number they leave.
-        let four_grays = || if here().has_256_colors() { Palette::Dos(FourGrays::Indexed) } else { Palette::DOS };
+        let four_grays =
+            || if here().has_256_colors() { Palette::Dos(FourGrays::Indexed) } else { Palette::DOS };
         let ground = self.ground();
         match self.palette {
             Some(PaletteName::Gray) => Palette::Gray(depth()),

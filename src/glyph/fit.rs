@@ -107,7 +107,8 @@ impl BestFit {
     pub fn compose(&self, light: &Grid<f64>, tone: Tone) -> Grid<Cell> {
         let cells = Size::new(light.size().width / DOTS.width, light.size().height / DOTS.height);
         Grid::from_fn_in_parallel(cells, |column, row| {
-            let dots = dots_of(light, column, row).map(|light| tone.shown(light));
+            // NaN counts as no light.
+            let dots = dots_of(light, column, row).map(|light| tone.shown(light).max(0.0));
             match self.nearest(&dots, || levels_around(light, column, row, tone)) {
                 Show::Level(level) => self.shades.cell(level, column, row),
                 Show::Edge(cell) => cell,
@@ -131,7 +132,7 @@ impl BestFit {
             }
         }
         let least = least.into_iter().fold(f32::INFINITY, f32::min);
-        // Of equals the first. NaN, which no stage gives, is nowhere the least.
+        // Of equals the first. The levels of the dots themselves are always open, so the least is finite.
         let best = costs.as_flattened().iter().position(|&cost| cost == least).unwrap_or(0);
         self.shows.get(best).copied().unwrap_or(self.shows[0])
     }

@@ -95,7 +95,7 @@ impl PairFit {
 
     fn two_grays(&self, dots: &Dots, grays: &Grays, around: impl FnOnce() -> LevelRange) -> Cell {
         if dots.iter().all(|dot| *dot == dots[0]) {
-            return Cell::flat(grays.nearest(lightness(dots[0])));
+            return Cell::flat(grays.of_light(dots[0]));
         }
         let (shape, [[ink, paper]]) = self.best([lightnesses(*dots)]);
         // Least squares may reach beyond the dots, to make up for what the shape can not have.
@@ -157,6 +157,13 @@ impl Grays {
     /// Those of a palette of four.
     pub fn four(grays: FourGrays) -> Self {
         Self(grays.lightnesses().into_iter().zip(grays.paints()).collect())
+    }
+
+    /// That of even light. Where there are all levels it is the light's level by definition, not by rounded lightness.
+    fn of_light(&self, light: f64) -> Paint {
+        let level = usize::from(Level::nearest(light).get());
+        let all = self.0.len() > usize::from(Level::MAX.get());
+        if all { self.0[level].1 } else { self.nearest(lightness(light)) }
     }
 
     /// The nearest to an L*.

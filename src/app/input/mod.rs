@@ -47,8 +47,6 @@ use ratatui::crossterm::event::KeyEvent;
 #[cfg(test)]
 pub use answers::in_command;
 pub use answers::{Answer, Colored};
-#[cfg(test)]
-use answers::Colored;
 pub use reader::start;
 
 /// What the terminal sent.

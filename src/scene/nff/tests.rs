@@ -198,7 +198,7 @@ fn a_text_read_in_stretches_means_the_same() {
         let text = long_text(lines);
         let whole = Reader::of(&text, 0..text.len()).finish("test", &text).unwrap();
         for bytes in [1, 10, 100, 1000] {
-            let Some(read) = in_stretches(&text, bytes) else {
+            let Some(read) = in_stretches(&text, bytes, None) else {
                 assert!(lines == 1 || text.len() < 2 * bytes, "{bytes} of {}", text.len());
                 continue;
             };
@@ -211,7 +211,7 @@ fn a_text_read_in_stretches_means_the_same() {
 fn errors_of_a_long_text_are_those_of_one_thread() {
     for wrong in ["s 0 0 0", "s 0 0 0 -1", "5", "s 0 0 x 1", "q"] {
         let text = format!("{0}{wrong}\n{0}{wrong}\n{0}", long_text(50));
-        assert!(in_stretches(&text, 100).is_none());
+        assert!(in_stretches(&text, 100, None).is_none());
         let found = Reader::of(&text, 0..text.len()).finish("test.nff", &text);
         assert_eq!(read(&text), found);
         assert!(found.is_err());

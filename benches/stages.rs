@@ -167,7 +167,7 @@ fn composing(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("compose");
     for mode in GlyphMode::ALL {
         group.bench_function(mode.name(), |bencher| {
-            bencher.iter(|| compose(black_box(&light), mode, Palette::Dos, Tone::Lightness));
+            bencher.iter(|| compose(black_box(&light), mode, Palette::DOS, Tone::Lightness));
         });
     }
     group.finish();
@@ -181,7 +181,7 @@ fn request(studio: &Studio) -> Request {
         wants: Wants::CELLS,
         options: Options::default(),
         glyphs: GlyphMode::Blocks,
-        palette: Palette::Dos,
+        palette: Palette::DOS,
         tone: Tone::Lightness,
     }
 }

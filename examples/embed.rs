@@ -32,7 +32,7 @@ fn request(studio: &Studio, area: Rect) -> Request {
         options: Options::default(),
         wants: Wants::CELLS,
         glyphs,
-        palette: Palette::Mono, // `Palette::Dos` where there are colours
+        palette: Palette::MONO, // `Palette::DOS` where there are colours
         tone: Tone::default(),
     }
 }

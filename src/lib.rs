@@ -26,7 +26,7 @@
 //!     options: Options::default(),
 //!     wants: Wants::LIGHT,
 //!     glyphs: GlyphMode::Shade,
-//!     palette: Palette::Mono,
+//!     palette: Palette::MONO,
 //!     tone: Tone::Lightness,
 //! });
 //! let mut levels = Vec::new();

@@ -4,7 +4,7 @@ mod request;
 mod scenery;
 
 use ray13::frame::{Frame, Studio};
-use ray13::glyph::GlyphMode;
+use ray13::glyph::{GlyphMode, Palette};
 use ray13::math::Size;
 use ray13::output::{ansi, levels, text};
 use ray13::scene::Camera;
@@ -35,13 +35,23 @@ fn each_view(mut look: impl FnMut(&str, &Studio, &dyn Fn(f64) -> Camera)) {
     }
 }
 
+/// The cells of all screens here.
+const CELLS: Size = Size::new(60, 20);
+
 /// A picture in characters, on cells twice as high as wide.
-fn in_characters(studio: &Studio, camera: &dyn Fn(f64) -> Camera, glyphs: GlyphMode, cells: Size) -> Frame {
+fn in_characters(
+    studio: &Studio,
+    camera: &dyn Fn(f64) -> Camera,
+    glyphs: GlyphMode,
+    palette: Palette,
+) -> Frame {
+    let cells = CELLS;
     let per_cell = glyphs.dots_per_cell();
     let dots = Size::new(cells.width * per_cell.width, cells.height * per_cell.height);
     let aspect = f64::from(cells.width) / (2.0 * f64::from(cells.height));
     let mut request = request(camera(aspect), dots);
     request.glyphs = glyphs;
+    request.palette = palette;
     request.dot_aspect = aspect * f64::from(dots.height) / f64::from(dots.width);
     let frame = studio.draw(&request);
     assert_eq!(frame.cells.as_ref().unwrap().size(), cells);
@@ -63,11 +73,13 @@ fn as_levels() {
 #[test]
 fn as_shades() {
     each_view(|name, studio, camera| {
-        let frame = in_characters(studio, camera, GlyphMode::Shade, Size::new(60, 20));
+        // Text alone is in the terminal's own ink.
+        let frame = in_characters(studio, camera, GlyphMode::Shade, Palette::MONO);
         insta::assert_snapshot!(
             format!("shade-{name}"),
             written(|out| text(frame.cells.as_ref().unwrap(), out))
         );
+        let frame = in_characters(studio, camera, GlyphMode::Shade, Palette::DOS);
         insta::assert_snapshot!(
             format!("shade-ansi-{name}"),
             visible(&written(|out| ansi(frame.cells.as_ref().unwrap(), out)))
@@ -78,11 +90,13 @@ fn as_shades() {
 #[test]
 fn as_blocks() {
     each_view(|name, studio, camera| {
-        let frame = in_characters(studio, camera, GlyphMode::Blocks, Size::new(60, 20));
+        // Text alone is in the terminal's own ink.
+        let frame = in_characters(studio, camera, GlyphMode::Blocks, Palette::MONO);
         insta::assert_snapshot!(
             format!("blocks-{name}"),
             written(|out| text(frame.cells.as_ref().unwrap(), out))
         );
+        let frame = in_characters(studio, camera, GlyphMode::Blocks, Palette::DOS);
         insta::assert_snapshot!(
             format!("blocks-ansi-{name}"),
             visible(&written(|out| ansi(frame.cells.as_ref().unwrap(), out)))

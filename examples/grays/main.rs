@@ -1,8 +1,9 @@
 //! Measures how near each glyph mode comes to the picture it shows, and prints the table of `docs/13-grays.md`:
-//! `cargo run --release --example grays`.
+//! `cargo run --release --example grays`; with `terminals` behind `--` only that of the levels on known terminals.
 
 mod drawn;
 mod measure;
+mod terminals;
 
 use std::io::{self, Write};
 use std::rc::Rc;
@@ -32,33 +33,34 @@ struct Row {
 /// `shade` in four grays, or in ink alone, stands before the rows that are compared with it.
 const ROWS: [Row; 20] = {
     use GlyphMode::{Blocks, Braille, Cp437, Half, Quadrant, Shade};
-    use Palette::{Dos, Mono};
+    const DOS: Palette = Palette::DOS;
+    const MONO: Palette = Palette::MONO;
     const GRAY: Palette = Palette::Gray(ColorDepth::Direct);
     const GRAY_256: Palette = Palette::Gray(ColorDepth::Indexed);
     const fn row(mode: GlyphMode, palette: Palette, rays: u32) -> Row {
         Row { mode, palette, rays }
     }
     [
-        row(Shade, Dos, 1),
-        row(Blocks, Dos, 1),
-        row(Cp437, Dos, 1),
-        row(Quadrant, Dos, 1),
-        row(Half, Dos, 1),
+        row(Shade, DOS, 1),
+        row(Blocks, DOS, 1),
+        row(Cp437, DOS, 1),
+        row(Quadrant, DOS, 1),
+        row(Half, DOS, 1),
         row(Shade, GRAY, 1),
         row(Blocks, GRAY, 1),
         row(Blocks, GRAY_256, 1),
         row(Cp437, GRAY, 1),
         row(Quadrant, GRAY, 1),
         row(Half, GRAY, 1),
-        row(Shade, Dos, 4),
-        row(Blocks, Dos, 4),
-        row(Cp437, Dos, 4),
+        row(Shade, DOS, 4),
+        row(Blocks, DOS, 4),
+        row(Cp437, DOS, 4),
         row(Shade, GRAY, 4),
         row(Blocks, GRAY, 4),
-        row(Shade, Mono, 1),
-        row(Blocks, Mono, 1),
-        row(Quadrant, Mono, 1),
-        row(Braille, Mono, 1),
+        row(Shade, MONO, 1),
+        row(Blocks, MONO, 1),
+        row(Quadrant, MONO, 1),
+        row(Braille, MONO, 1),
     ]
 };
 
@@ -70,6 +72,11 @@ struct Column {
 
 fn main() -> io::Result<()> {
     let mut out = io::stdout().lock();
+    terminals::table(&mut out)?;
+    if std::env::args().nth(1).is_some_and(|only| only == "terminals") {
+        return Ok(());
+    }
+    writeln!(out)?;
     table(&mut out)?;
     small_pictures(&mut out)
 }
@@ -97,7 +104,7 @@ fn table(out: &mut impl Write) -> io::Result<()> {
                 shown
                     .map(|(picture, reference)| {
                         let light = picture.dots(times(SCREEN, mode.dots_per_cell()), rays);
-                        errors(reference, &compose(&light, mode, palette, Tone::default()))
+                        errors(reference, &compose(&light, mode, palette, Tone::default()), palette)
                     })
                     .collect()
             })
@@ -110,7 +117,7 @@ fn table(out: &mut impl Write) -> io::Result<()> {
         }
         let scenes = &found[..found.len() - 1];
         write!(out, " {:.2} |", mean(scenes.iter().map(|views| mean(views.concat().into_iter()))))?;
-        if mode == GlyphMode::Shade && matches!(palette, Palette::Dos | Palette::Mono) {
+        if mode == GlyphMode::Shade && matches!(palette, Palette::Dos(_) | Palette::Mono(_)) {
             writeln!(out, " |")?;
             shade = found;
             continue;
@@ -189,7 +196,7 @@ fn request(studio: &Studio, view: usize, screen: Size, dots: Size, glyphs: Glyph
         options: Options::default(),
         wants: Wants::CELLS,
         glyphs,
-        palette: Palette::Mono,
+        palette: Palette::MONO,
         tone: Tone::default(),
     }
 }

@@ -1,6 +1,6 @@
 //! How far cells are from the picture they show, as an eye sees both.
 
-use ray13::glyph::{Cell, appearance};
+use ray13::glyph::{Cell, Palette, appearance};
 use ray13::math::{Grid, Size};
 use ray13::tone::lightness;
 
@@ -15,8 +15,8 @@ pub struct Picture {
 }
 
 /// RMS error in L* of `cells` against what each eye sees of the picture itself.
-pub fn errors(meant: &[Grid<f64>; 2], cells: &Grid<Cell>) -> [f64; 2] {
-    let shown = seen(&appearance(cells, SAMPLES));
+pub fn errors(meant: &[Grid<f64>; 2], cells: &Grid<Cell>, palette: Palette) -> [f64; 2] {
+    let shown = seen(&appearance(cells, palette, SAMPLES));
     std::array::from_fn(|eye| {
         let pairs = meant[eye].values().iter().zip(shown[eye].values());
         let squares = pairs.map(|(meant, shown)| (meant - shown) * (meant - shown));

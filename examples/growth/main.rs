@@ -143,7 +143,7 @@ fn fastest(studio: &Studio, dots: Size, options: Options) -> Duration {
         wants: Wants::LIGHT,
         options,
         glyphs: GlyphMode::Blocks,
-        palette: Palette::Dos,
+        palette: Palette::DOS,
         tone: Tone::Lightness,
     };
     studio.draw(&request);

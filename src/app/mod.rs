@@ -8,6 +8,7 @@
 mod around;
 mod caption;
 mod charset;
+mod colors;
 mod encoder;
 mod events;
 mod fence;
@@ -40,13 +41,14 @@ use std::sync::mpsc::{self, Receiver, Sender};
 
 use ratatui::crossterm::style::force_color_output;
 
-use crate::glyph::{GlyphMode, Palette};
+use crate::glyph::{GlyphMode, Ground, Palette};
 use crate::output::Capabilities;
 use crate::plan::Options;
 use crate::scene::Camera;
 use crate::stage::Progress;
 use crate::tone::Tone;
 
+pub use colors::Questions;
 pub(crate) use encoder::Encoder;
 use events::{Event, Inbox};
 use identity::Identity;
@@ -74,6 +76,10 @@ pub struct Settings {
     pub glyphs: GlyphMode,
     /// Colours, of the picture and of the panels.
     pub palette: Palette,
+    /// What the terminal's own paper is, where there is only that.
+    pub ground: Ground,
+    /// What of these two the terminal has a say in.
+    pub questions: Questions,
     /// Light to level.
     pub tone: Tone,
     /// What the terminal can be told and what it can draw.
@@ -179,11 +185,15 @@ impl Session {
     }
 
     /// Shows the painter's pictures until the end.
-    fn show<P: Painter + 'static>(mut self, painter: &Arc<P>, settings: Settings) -> Result<(), AppError> {
+    fn show<P: Painter + 'static>(
+        mut self,
+        painter: &Arc<P>,
+        mut settings: Settings,
+    ) -> Result<(), AppError> {
         let tracer = Tracer::start(painter.clone(), self.sender.clone())?;
-        let model = Model::new(&**painter, settings, terminal::window());
         let (terminal, inbox) = (&mut self.terminal, &mut self.inbox);
-        let pacing = look_ahead(terminal, inbox)?;
+        let pacing = look_ahead(terminal, inbox, &mut settings)?;
+        let model = Model::new(&**painter, settings, terminal::window());
         let mut viewer = Viewer::new(&**painter, model, tracer, terminal, inbox, pacing);
         let end = viewer.run();
         drop(viewer);
@@ -205,16 +215,18 @@ impl Session {
     }
 }
 
-/// Asks who draws the screen, and how far away that is.
-fn look_ahead(terminal: &mut Terminal, inbox: &mut Inbox) -> io::Result<Pacing> {
+/// Asks who draws the screen, how far away that is, and which colours it has.
+fn look_ahead(terminal: &mut Terminal, inbox: &mut Inbox, settings: &mut Settings) -> io::Result<Pacing> {
     let name = env::var("TERM").unwrap_or_default();
     let mut pacing = Pacing::default();
     let mut answers = Vec::new();
     if identity::may_be_asked(&name) {
-        let replies = terminal.ask(identity::QUESTION, inbox)?;
+        let questions = [settings.questions.text(settings.palette), identity::QUESTION].concat();
+        let replies = terminal.ask(&questions, inbox)?;
         pacing.asked(replies.took);
         answers = replies.answers;
     }
+    settings.take_in(&answers);
     pacing.set_relayed(Identity::of(&answers, &name) == Identity::Relay);
     Ok(pacing)
 }

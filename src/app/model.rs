@@ -152,7 +152,7 @@ impl Model {
             options: self.settings.options,
             wants: Wants::CELLS,
             glyphs: self.settings.glyphs,
-            palette: self.settings.palette,
+            palette: self.settings.palette.for_glyphs(self.settings.glyphs, self.settings.ground),
             tone: self.settings.tone,
         })
     }
@@ -221,7 +221,10 @@ impl Model {
     /// The next set of characters that the terminal draws; the present one where it draws no other.
     fn next_glyphs(&self) -> GlyphMode {
         let now = self.settings.glyphs;
-        let drawn = |glyphs: &GlyphMode| *glyphs == now || self.settings.terminal.draws(*glyphs);
+        let dotted = |glyphs| matches!(glyphs, GlyphMode::Half | GlyphMode::Quadrant);
+        let coarse = |glyphs| dotted(glyphs) && !self.settings.palette.has_levels();
+        let drawn =
+            |&glyphs: &GlyphMode| glyphs == now || self.settings.terminal.draws(glyphs) && !coarse(glyphs);
         let all: Vec<_> = GlyphMode::ALL.into_iter().filter(drawn).collect();
         after(&all, now)
     }
@@ -248,6 +251,7 @@ fn after<T: Copy + PartialEq>(all: &[T], now: T) -> T {
 mod tests {
     use super::*;
     use crate::frame::{Frame, Studio};
+    use crate::glyph::{ColorDepth, Palette};
     use crate::math::{DAffine3, DVec3};
     use crate::scene::{Material, MaterialId, Object, Primitive, Scene, Shape, Solid};
 
@@ -386,7 +390,11 @@ mod tests {
         let first = model.settings.glyphs;
         press(&mut model, &[Action::NextGlyphs]);
         assert_ne!(model.settings.glyphs, first);
-        press(&mut model, &[Action::NextGlyphs; GlyphMode::ALL.len() - 1]);
+        // Half blocks and quadrants are coarse chequers of four grays.
+        press(&mut model, &[Action::NextGlyphs; GlyphMode::ALL.len() - 3]);
+        assert_eq!(model.settings.glyphs, first);
+        model.settings.palette = Palette::Gray(ColorDepth::Direct);
+        press(&mut model, &[Action::NextGlyphs; GlyphMode::ALL.len()]);
         assert_eq!(model.settings.glyphs, first);
     }
 

@@ -333,7 +333,7 @@ mod tests {
     #[test]
     fn the_terminals_own_colours_mean_no_colour_anywhere() {
         let mut model = model(80, 25);
-        model.settings.palette = Palette::Mono;
+        model.settings.palette = Palette::MONO;
         model.help = true;
         let plain =
             |cell: &Cell| cell.fg == ratatui::style::Color::Reset && cell.bg == ratatui::style::Color::Reset;

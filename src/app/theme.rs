@@ -21,7 +21,7 @@ impl Theme {
     /// The styles that go with a picture's palette.
     pub const fn of(palette: Palette) -> Self {
         match palette {
-            Palette::Dos | Palette::Gray(_) | Palette::Color(_) => {
+            Palette::Dos(_) | Palette::Gray(_) | Palette::Color(_) => {
                 let text = Style::new().fg(Color::Gray).bg(Color::Black);
                 Self {
                     text,
@@ -30,7 +30,7 @@ impl Theme {
                     label: Style::new().fg(Color::Black).bg(Color::Gray),
                 }
             }
-            Palette::Mono => {
+            Palette::Mono(_) => {
                 let text = Style::new();
                 Self {
                     text,

@@ -141,7 +141,7 @@ mod tests {
             options: Options { threads: 1, ..Options::default() },
             wants: Wants::CELLS,
             glyphs: GlyphMode::Shade,
-            palette: Palette::Dos,
+            palette: Palette::DOS,
             tone: Tone::Lightness,
         }
     }

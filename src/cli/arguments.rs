@@ -173,6 +173,13 @@ pub struct PictureArguments {
     /// Colours of the picture [default: dos; mono in txt, where `NO_COLOR` is set, and where the terminal has no grays]
     #[arg(long, value_enum)]
     pub palette: Option<PaletteName>,
+    /// For light backgrounds: puts the terminal's own ink where the picture is dark, in mono, ascii and braille. The
+    /// viewer asks the terminal, and needs this only where it does not answer
+    #[arg(long)]
+    pub invert: bool,
+    /// Puts ink where the picture is light, whatever the terminal answers
+    #[arg(long, conflicts_with = "invert")]
+    pub no_invert: bool,
     /// How light becomes a level [default: lightness]
     #[arg(long, value_enum)]
     pub tone: Option<ToneName>,

@@ -108,6 +108,8 @@ fn load(
         options: picture.options()?,
         glyphs: picture.look(Some(&opening.terminal)).glyphs,
         palette: opening.palette,
+        ground: picture.ground(),
+        questions: picture.questions(),
         tone: picture.tone(),
         terminal: opening.terminal,
     };

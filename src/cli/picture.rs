@@ -2,8 +2,9 @@
 
 use clap::ValueEnum;
 
+use crate::app::Questions;
 use crate::frame::{Request, Studio, Wants, pcat};
-use crate::glyph::{CELL_ASPECT, GlyphMode, Palette};
+use crate::glyph::{CELL_ASPECT, FourGrays, GlyphMode, Ground, Palette};
 use crate::math::Size;
 use crate::output::Capabilities;
 use crate::plan::{CUTOFF, DEPTH, EngineChoice, Options, PrecisionChoice, Shading, StructureChoice};
@@ -81,8 +82,10 @@ pub struct Look {
 /// The palettes by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum PaletteName {
-    /// The four grays of 16-colour attributes
+    /// The four grays of a PC: by the attributes that are the terminal's own grays, else by number of its 256 colours
     Dos,
+    /// The four grays by attributes 0, 8, 7 and 15, taken for those of a PC whatever the terminal has made of them
+    Dos16,
     /// The 13 levels themselves as ink and paper, on terminals of 256 or more colours
     Gray,
     /// The terminal's own ink and paper
@@ -229,21 +232,43 @@ impl PictureArguments {
 
     /// Characters and colours asked for; else those that `terminal` has, where a terminal is meant.
     pub fn look(&self, terminal: Option<&Capabilities>) -> Look {
-        Look { glyphs: self.glyphs.unwrap_or(Glyphs::Auto).mode(terminal), palette: self.palette(terminal) }
+        let glyphs = self.glyphs.unwrap_or(Glyphs::Auto).mode(terminal);
+        Look { glyphs, palette: self.palette(terminal).for_glyphs(glyphs, self.ground()) }
+    }
+
+    /// What the terminal's own paper is taken for, where nothing is known of it.
+    pub fn ground(&self) -> Ground {
+        if self.invert { Ground::Light } else { Ground::Dark }
+    }
+
+    /// What the viewer asks the terminal for: what no option says.
+    pub fn questions(&self) -> Questions {
+        Questions {
+            grays: self.palette != Some(PaletteName::Dos16),
+            ground: !(self.invert || self.no_invert),
+        }
     }
 
     /// The palette asked for; else what the terminal and `NO_COLOR` (<https://no-color.org>) leave.
     fn palette(&self, terminal: Option<&Capabilities>) -> Palette {
         let forbidden = || std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
         // In a file they are meant for a terminal like the one here.
-        let depth = || terminal.copied().unwrap_or_else(capabilities).color_depth();
+        let here = || terminal.copied().unwrap_or_else(capabilities);
+        let depth = || here().color_depth();
+        // Nothing answers a still, and people change the attributes' colours; those by number they leave.
+        let four_grays =
+            || if here().has_256_colors() { Palette::Dos(FourGrays::Indexed) } else { Palette::DOS };
+        let ground = self.ground();
         match self.palette {
             Some(PaletteName::Gray) => Palette::Gray(depth()),
-            Some(PaletteName::Mono) => Palette::Mono,
+            Some(PaletteName::Mono) => Palette::Mono(ground),
             Some(PaletteName::Color) => Palette::Color(depth()),
-            Some(PaletteName::Dos) => Palette::Dos,
-            None if forbidden() || terminal.is_some_and(|terminal| !terminal.has_grays()) => Palette::Mono,
-            None => Palette::Dos,
+            Some(PaletteName::Dos16) => Palette::DOS,
+            Some(PaletteName::Dos) => four_grays(),
+            None if forbidden() || terminal.is_some_and(|terminal| !terminal.has_grays()) => {
+                Palette::Mono(ground)
+            }
+            None => four_grays(),
         }
     }
 

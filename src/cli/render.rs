@@ -124,7 +124,7 @@ fn wants(still: &Still) -> Wants {
 /// Text has no colours to lose: its shades are ink.
 fn look(picture: &PictureArguments, format: Format, terminal: Option<&Capabilities>) -> Look {
     let look = picture.look(terminal);
-    if format == Format::Txt { Look { palette: Palette::Mono, ..look } } else { look }
+    if format == Format::Txt { Look { palette: Palette::Mono(picture.ground()), ..look } } else { look }
 }
 
 /// The format that a file's ending names. A file without one holds text; an ending that names no format is an error,

@@ -72,9 +72,9 @@ fn characters(request: &Request) -> StagePlan {
     let per_cell = request.glyphs.dots_per_cell();
     let (columns, rows) = (request.dots.width / per_cell.width, request.dots.height / per_cell.height);
     let colors = match request.palette {
-        Palette::Dos => "four grays",
+        Palette::Dos(_) => "four grays",
         Palette::Gray(_) => "13 grays",
-        Palette::Mono => "the terminal's ink",
+        Palette::Mono(_) => "the terminal's ink",
         Palette::Color(_) => "any colour",
     };
     let glyphs = request.glyphs.name();

@@ -98,7 +98,7 @@ mod tests {
             options: Options { threads: 1, ..Options::default() },
             wants: Wants::CELLS,
             glyphs: GlyphMode::Ascii,
-            palette: Palette::Mono,
+            palette: Palette::MONO,
             tone: Tone::Lightness,
         };
         let first = studio.draw(&request).nothing;

@@ -15,18 +15,12 @@ pub struct Cell {
 }
 
 impl Cell {
-    /// A cell of one colour. The attributes are written as the levels that they are, with a paper that every
-    /// terminal has.
+    /// A cell of one colour: a blank, as the strokes of a full block leave seams in fonts that are scaled, and are
+    /// more bytes.
     pub const fn flat(paint: Paint) -> Self {
-        let (glyph, ink, paper) = match paint {
-            Paint::Black => (' ', Paint::DarkGray, Paint::Black),
-            Paint::DarkGray => ('█', paint, Paint::Black),
-            Paint::LightGray => ('█', paint, paint),
-            Paint::White => ('█', paint, Paint::LightGray),
-            // The terminal's own colour, where nothing is said about ink, is that of its paper.
-            Paint::Terminal | Paint::Indexed(_) | Paint::Rgb(_) => (' ', paint, paint),
-        };
-        Self { glyph, ink, paper }
+        // The ink is that of neighbouring levels, so that it changes least.
+        let ink = if matches!(paint, Paint::Black) { Paint::DarkGray } else { paint };
+        Self { glyph: ' ', ink, paper: paint }
     }
 
     /// A cell of two colours; with ink and paper in each other's place where that spares a bright paper.
@@ -40,16 +34,6 @@ impl Cell {
             }
             _ => Self { glyph: shape.glyph, ink, paper },
         }
-    }
-
-    /// The light of the ink. The terminal's own ink counts as white.
-    pub fn ink_light(self) -> f64 {
-        self.ink.light().unwrap_or(1.0)
-    }
-
-    /// The light of the paper. The terminal's own paper counts as black.
-    pub fn paper_light(self) -> f64 {
-        self.paper.light().unwrap_or(0.0)
     }
 
     /// The same for a terminal of that depth.

@@ -1,5 +1,7 @@
 //! The choices that decide what may stand in a cell.
 
+use super::cell::Cell;
+use super::grays::FourGrays;
 use super::paint::{ColorDepth, Paint};
 use crate::math::Size;
 
@@ -63,39 +65,92 @@ impl GlyphMode {
 }
 
 /// Which colours draw the picture.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Palette {
-    /// The four grays of 16-colour attributes.
-    #[default]
-    Dos,
+    /// Four grays, as the attributes of 16-colour terminals are.
+    Dos(FourGrays),
     /// The 13 levels themselves as ink and paper, on a terminal of that depth.
     Gray(ColorDepth),
     /// The terminal's own ink and paper only.
-    Mono,
+    Mono(Ground),
     /// Any colour as ink and paper, on a terminal of that depth; no levels.
     Color(ColorDepth),
 }
 
+/// What the terminal's own paper is, against its ink.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Ground {
+    /// Dark: ink is light.
+    #[default]
+    Dark,
+    /// Light, so ink is dark, and is put where the picture is dark.
+    Light,
+}
+
+impl Default for Palette {
+    fn default() -> Self {
+        Self::DOS
+    }
+}
+
 impl Palette {
-    /// The inks among the attributes; none for the palettes that give a colour by number.
-    pub const fn inks(self) -> &'static [Paint] {
+    /// The four grays of a PC's attributes.
+    pub const DOS: Self = Self::Dos(FourGrays::VGA);
+    /// The terminal's own ink on dark paper.
+    pub const MONO: Self = Self::Mono(Ground::Dark);
+
+    /// The inks that edges have, of colors that every cell can be given; none for the palettes of many colors. Dim
+    /// ones first, so that they become papers: a Linux console has no bright ones.
+    pub fn inks(self) -> Vec<Paint> {
         match self {
-            Self::Dos => &[Paint::Black, Paint::LightGray, Paint::DarkGray, Paint::White],
-            Self::Mono => &[Paint::Terminal],
-            Self::Gray(_) | Self::Color(_) => &[],
+            Self::Dos(grays) => {
+                let [black, dark, light, white] = grays.paints();
+                vec![black, light, dark, white]
+            }
+            Self::Mono(_) => vec![Paint::Terminal],
+            Self::Gray(_) | Self::Color(_) => Vec::new(),
         }
     }
 
-    /// The papers, those first that every terminal has: a Linux console has no bright ones.
-    pub const fn papers(self) -> &'static [Paint] {
-        self.inks()
+    /// The palette that these glyphs have of it: ASCII and Braille have no paper but the terminal's own, which is
+    /// dark or light, and no ink but its own where there is no color.
+    #[must_use]
+    pub const fn for_glyphs(self, glyphs: GlyphMode, ground: Ground) -> Self {
+        match (self, glyphs) {
+            (Self::Color(_), _) => self,
+            (Self::Mono(_), _) | (_, GlyphMode::Ascii | GlyphMode::Braille) => Self::Mono(ground),
+            _ => self,
+        }
     }
 
-    /// The papers that every terminal has.
-    pub const fn dim_papers(self) -> &'static [Paint] {
+    /// Whether each dot can have the gray of its level. Where it can not, a mode in which each dot has its own place
+    /// is a coarse chequer.
+    pub const fn has_levels(self) -> bool {
+        matches!(self, Self::Gray(_) | Self::Color(_))
+    }
+
+    /// What stands behind the terminal's own ink.
+    pub const fn ground(self) -> Ground {
         match self {
-            Self::Dos => &[Paint::Black, Paint::LightGray],
-            _ => self.papers(),
+            Self::Mono(ground) => ground,
+            Self::Dos(_) | Self::Gray(_) | Self::Color(_) => Ground::Dark,
+        }
+    }
+
+    /// The linear light of a cell's ink, 0 to 1.
+    pub fn ink_light(self, cell: Cell) -> f64 {
+        self.light(cell.ink).unwrap_or(if self.ground() == Ground::Dark { 1.0 } else { 0.0 })
+    }
+
+    /// The linear light of a cell's paper, 0 to 1.
+    pub fn paper_light(self, cell: Cell) -> f64 {
+        self.light(cell.paper).unwrap_or(if self.ground() == Ground::Dark { 0.0 } else { 1.0 })
+    }
+
+    fn light(self, paint: Paint) -> Option<f64> {
+        match self {
+            Self::Dos(grays) => grays.light(paint).or_else(|| paint.light()),
+            _ => paint.light(),
         }
     }
 
@@ -108,16 +163,16 @@ impl Palette {
     pub const fn depth(self) -> ColorDepth {
         match self {
             Self::Gray(depth) | Self::Color(depth) => depth,
-            Self::Dos | Self::Mono => ColorDepth::Direct,
+            Self::Dos(_) | Self::Mono(_) => ColorDepth::Direct,
         }
     }
 
     /// The name on the command line.
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Dos => "dos",
+            Self::Dos(_) => "dos",
             Self::Gray(_) => "gray",
-            Self::Mono => "mono",
+            Self::Mono(_) => "mono",
             Self::Color(_) => "color",
         }
     }

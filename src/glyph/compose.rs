@@ -1,12 +1,12 @@
 //! A picture's light as character cells.
 
 use super::cell::Cell;
-use super::choice::{GlyphMode, Palette};
+use super::choice::{GlyphMode, Ground, Palette};
 use super::dots::{braille, half, half_in_color, quadrant, quadrant_in_color};
 use super::fit::BestFit;
 use super::paint::{ColorDepth, Paint};
 use super::pair::{Grays, PairFit, paint};
-use super::shade::{ascii, shade};
+use super::shade::{Papers, Shades, ascii};
 use super::shape::{BLOCKS, DOT_COUNT, DOTS, HALVES};
 use crate::math::{DVec3, Grid};
 use crate::shade::luminance;
@@ -15,8 +15,9 @@ use crate::tone::Tone;
 /// The cells that show `light`, a gray in linear light per traced dot, with [`GlyphMode::dots_per_cell`] dots to a
 /// cell. Light is clamped to 0 to 1. Dots right of the last whole cell and below it are ignored.
 ///
-/// A cell depends on its own dots and on its place on the screen, on nothing else, so a still part of a moving
-/// picture stays still. A cell whose dots are all of one light shows that light's level.
+/// A cell depends on its own dots, on the ring of dots around it and on its place on the screen, on nothing else, so a
+/// still part of a moving picture stays still. A cell whose dots are all of one light shows that light's level. In the
+/// modes that fit, neither ink nor paper of an edge is brighter or darker than all of these dots by more than a level.
 ///
 /// ```
 /// use ray13::glyph::{GlyphMode, Palette, compose};
@@ -33,16 +34,19 @@ pub fn compose(light: &Grid<f64>, mode: GlyphMode, palette: Palette, tone: Tone)
         return compose_color(&light.map(|&light| DVec3::splat(light)), mode, depth, tone);
     }
     let cells = match mode {
-        GlyphMode::Shade => Grid::from_fn_in_parallel(light.size(), |column, row| {
-            shade(tone.level(light[(column, row)]), palette, column, row)
-        }),
-        GlyphMode::Ascii => mapped(light, |light| ascii(tone.level(light))),
+        GlyphMode::Shade => {
+            let shades = Shades::new(palette, Papers::All);
+            Grid::from_fn_in_parallel(light.size(), |column, row| {
+                shades.cell(tone.level(light[(column, row)]), column, row)
+            })
+        }
+        GlyphMode::Ascii => mapped(light, |light| ascii(tone.level(light), palette.ground())),
         GlyphMode::Half => half(light, palette, tone),
         GlyphMode::Quadrant => quadrant(light, palette, tone),
-        GlyphMode::Braille => braille(light, tone, |_, _| Paint::Terminal),
+        GlyphMode::Braille => braille(light, palette.ground(), tone, |_, _| Paint::Terminal),
         GlyphMode::Blocks | GlyphMode::Cp437 => {
-            let shapes = if mode == GlyphMode::Blocks { BLOCKS } else { HALVES };
-            let papers = if mode == GlyphMode::Blocks { palette.papers() } else { palette.dim_papers() };
+            let (shapes, papers) =
+                if mode == GlyphMode::Blocks { (BLOCKS, Papers::All) } else { (HALVES, Papers::Dim) };
             match palette {
                 Palette::Gray(_) => PairFit::new(shapes).compose_grays(light, &Grays::levels(), tone),
                 _ => BestFit::new(shapes, papers, palette).compose(light, tone),
@@ -59,12 +63,13 @@ pub fn compose_color(color: &Grid<DVec3>, mode: GlyphMode, depth: ColorDepth, to
     let light = || mapped(color, luminance);
     let cells = match mode {
         GlyphMode::Shade => mapped(color, |color| Cell::flat(paint(tone.shown_color(color)))),
-        GlyphMode::Ascii => {
-            mapped(color, |color| Cell { ink: hue(color), ..ascii(tone.level(luminance(color))) })
-        }
+        GlyphMode::Ascii => mapped(color, |color| Cell {
+            ink: hue(color),
+            ..ascii(tone.level(luminance(color)), Ground::Dark)
+        }),
         GlyphMode::Half => half_in_color(color, tone),
         GlyphMode::Quadrant => quadrant_in_color(color, tone),
-        GlyphMode::Braille => braille(&light(), tone, |column, row| {
+        GlyphMode::Braille => braille(&light(), Ground::Dark, tone, |column, row| {
             let dots = (0..DOT_COUNT as u32).map(|dot| {
                 let (x, y) = (dot % DOTS.width, dot / DOTS.width);
                 color[(column * DOTS.width + x, row * DOTS.height + y)]
@@ -103,12 +108,12 @@ mod tests {
     use proptest::prelude::*;
 
     /// With levels or the terminal's own ink.
-    const LEVELLED: [Palette; 3] = [Palette::Dos, Palette::Gray(ColorDepth::Direct), Palette::Mono];
+    const LEVELLED: [Palette; 3] = [Palette::DOS, Palette::Gray(ColorDepth::Direct), Palette::MONO];
     const PALETTES: [Palette; 6] = [
-        Palette::Dos,
+        Palette::DOS,
         Palette::Gray(ColorDepth::Direct),
         Palette::Gray(ColorDepth::Indexed),
-        Palette::Mono,
+        Palette::MONO,
         Palette::Color(ColorDepth::Direct),
         Palette::Color(ColorDepth::Indexed),
     ];
@@ -127,10 +132,11 @@ mod tests {
             for (palette, tone) in LEVELLED.into_iter().flat_map(|p| TONES.map(|t| (p, t))) {
                 let cells = |mode| compose(&flat(mode, light), mode, palette, tone);
                 let shades = cells(GlyphMode::Shade);
-                assert_eq!(shades[(3, 2)], shade(tone.level(light), palette, 3, 2));
+                let shade = |papers| Shades::new(palette, papers).cell(tone.level(light), 3, 2);
+                assert_eq!(shades[(3, 2)], shade(Papers::All));
                 assert_eq!(cells(GlyphMode::Blocks), shades);
-                assert_eq!(cells(GlyphMode::Cp437), shades);
-                assert_eq!(cells(GlyphMode::Ascii)[(3, 2)], ascii(tone.level(light)));
+                assert_eq!(cells(GlyphMode::Cp437)[(3, 2)], shade(Papers::Dim));
+                assert_eq!(cells(GlyphMode::Ascii)[(3, 2)], ascii(tone.level(light), Ground::Dark));
             }
         }
     }
@@ -186,9 +192,9 @@ mod tests {
     #[test]
     fn dots_beyond_the_last_whole_cell_are_ignored() {
         let light = Grid::filled(Size::new(7, 6), 0.5);
-        let cells = compose(&light, GlyphMode::Blocks, Palette::Dos, Tone::Lightness);
+        let cells = compose(&light, GlyphMode::Blocks, Palette::DOS, Tone::Lightness);
         assert_eq!(cells.size(), Size::new(3, 1));
-        let none = compose(&Grid::filled(Size::new(0, 0), 0.0), GlyphMode::Cp437, Palette::Mono, Tone::Even);
+        let none = compose(&Grid::filled(Size::new(0, 0), 0.0), GlyphMode::Cp437, Palette::MONO, Tone::Even);
         assert_eq!(none.size(), Size::new(0, 0));
     }
 
@@ -199,11 +205,11 @@ mod tests {
             compose(&light, mode, palette, Tone::Lightness)[(0, 0)]
         };
         let white = |glyph| Cell { glyph, ink: Paint::White, paper: Paint::Black };
-        assert_eq!(edge(|_, y| y < 2, GlyphMode::Blocks, Palette::Dos), white('▀'));
-        assert_eq!(edge(|_, y| y == 3, GlyphMode::Blocks, Palette::Dos), white('▂'));
-        assert_eq!(edge(|x, y| x == 1 && y > 1, GlyphMode::Blocks, Palette::Dos), white('▗'));
-        assert_eq!(edge(|x, _| x == 1, GlyphMode::Cp437, Palette::Dos), white('▐'));
-        assert_eq!(edge(|x, y| x == 0 || y > 1, GlyphMode::Blocks, Palette::Mono).glyph, '▙');
+        assert_eq!(edge(|_, y| y < 2, GlyphMode::Blocks, Palette::DOS), white('▀'));
+        assert_eq!(edge(|_, y| y == 3, GlyphMode::Blocks, Palette::DOS), white('▂'));
+        assert_eq!(edge(|x, y| x == 1 && y > 1, GlyphMode::Blocks, Palette::DOS), white('▗'));
+        assert_eq!(edge(|x, _| x == 1, GlyphMode::Cp437, Palette::DOS), white('▐'));
+        assert_eq!(edge(|x, y| x == 0 || y > 1, GlyphMode::Blocks, Palette::MONO).glyph, '▙');
     }
 
     /// Light of 3 × 2 cells: anything, the grays themselves among it, and beyond the range.
@@ -222,7 +228,7 @@ mod tests {
         #[test]
         fn each_mode_keeps_to_its_glyphs_and_paints(light in any_light(), even in any::<bool>()) {
             let tone = TONES[usize::from(even)];
-            for cell in compose(&light, GlyphMode::Cp437, Palette::Dos, tone).values() {
+            for cell in compose(&light, GlyphMode::Cp437, Palette::DOS, tone).values() {
                 prop_assert!(" ░▒▓█▀▄▌▐".contains(cell.glyph));
                 prop_assert!(matches!(cell.paper, Paint::Black | Paint::LightGray));
             }
@@ -233,20 +239,22 @@ mod tests {
                 }
             }
             for mode in GlyphMode::ALL {
-                for cell in compose(&light, mode, Palette::Mono, tone).values() {
-                    prop_assert_eq!((cell.ink, cell.paper), (Paint::Terminal, Paint::Terminal));
-                    prop_assert!(coverage(cell.glyph).is_some());
+                for ground in [Ground::Dark, Ground::Light] {
+                    for cell in compose(&light, mode, Palette::Mono(ground), tone).values() {
+                        prop_assert_eq!((cell.ink, cell.paper), (Paint::Terminal, Paint::Terminal));
+                        prop_assert!(coverage(cell.glyph).is_some());
+                    }
                 }
             }
         }
 
         #[test]
-        fn a_cell_depends_on_its_own_dots_only(light in any_light(), other in any_light()) {
+        fn a_cell_depends_on_its_own_dots_and_their_ring_only(light in any_light(), other in any_light()) {
             for mode in [GlyphMode::Blocks, GlyphMode::Cp437, GlyphMode::Braille] {
                 for palette in PALETTES {
-                    // The middle cell of the upper row is kept, all around it is changed.
+                    // The middle cell of the upper row and its ring are kept, all around is changed.
                     let mixed = Grid::from_fn(light.size(), |x, y| {
-                        let kept = (2..4).contains(&x) && y < 4;
+                        let kept = (1..5).contains(&x) && y < 5;
                         if kept { light[(x, y)] } else { other[(x, y)] }
                     });
                     let [before, after] =

@@ -1,16 +1,15 @@
 //! Modes in which every traced dot has a place of its own: half blocks, quadrants and Braille.
 
 use super::cell::Cell;
-use super::choice::Palette;
+use super::choice::{Ground, Palette};
+use super::grays::FourGrays;
 use super::paint::Paint;
 use super::pair::{Grays, PairFit, paint};
 use super::shape::{DOT_COUNT, DOTS, HALVES, QUADRANTS, Shape, block_of, braille_of};
 use crate::math::{DVec3, Grid, Size};
-use crate::tone::{FOUR_GRAYS, INK_ONLY, Level, Tone};
+use crate::tone::{FOUR_GRAYS, INK_ONLY, Level, Tone, lightness};
 
-/// The four grays of the attributes with their levels, from the darkest.
-const ATTRIBUTES: [Paint; 4] = [Paint::Black, Paint::DarkGray, Paint::LightGray, Paint::White];
-/// Levels from one of them to the next.
+/// Steps of the matrix from one gray to the next.
 const STEPS: u8 = 4;
 
 /// The dots of a half-block and of a quadrant cell.
@@ -24,8 +23,11 @@ const UPPER: Shape = HALVES[0];
 pub fn half(light: &Grid<f64>, palette: Palette, tone: Tone) -> Grid<Cell> {
     let level = |x, y| tone.level(light[(x, y)]);
     match palette {
-        Palette::Mono => inked(light.size(), HALF, level),
-        Palette::Dos => halves(light.size(), |x, y| attribute(level(x, y), x, y)),
+        Palette::Mono(ground) => inked(light.size(), HALF, ground, level),
+        Palette::Dos(grays) => {
+            let (dither, paints) = (Dither::new(grays), grays.paints());
+            halves(light.size(), |x, y| paints[dither.gray(level(x, y), x, y)])
+        }
         Palette::Gray(_) | Palette::Color(_) => halves(light.size(), |x, y| Paint::of_level(level(x, y))),
     }
 }
@@ -39,12 +41,12 @@ pub fn half_in_color(color: &Grid<DVec3>, tone: Tone) -> Grid<Cell> {
 pub fn quadrant(light: &Grid<f64>, palette: Palette, tone: Tone) -> Grid<Cell> {
     let level = |x, y| tone.level(light[(x, y)]);
     match palette {
-        Palette::Mono => inked(light.size(), QUARTERS, level),
-        Palette::Dos => {
-            let dithered = Grid::from_fn_in_parallel(light.size(), |x, y| {
-                attribute(level(x, y), x, y).light().unwrap_or_default()
-            });
-            PairFit::new(QUADRANTS).compose_grays(&doubled(&dithered), &Grays::attributes(), Tone::default())
+        Palette::Mono(ground) => inked(light.size(), QUARTERS, ground, level),
+        Palette::Dos(grays) => {
+            let (dither, lights) = (Dither::new(grays), grays.lights());
+            let dithered =
+                Grid::from_fn_in_parallel(light.size(), |x, y| lights[dither.gray(level(x, y), x, y)]);
+            PairFit::new(QUADRANTS).compose_grays(&doubled(&dithered), &Grays::four(grays), Tone::default())
         }
         Palette::Gray(_) | Palette::Color(_) => {
             PairFit::new(QUADRANTS).compose_grays(&doubled(light), &Grays::levels(), tone)
@@ -60,10 +62,15 @@ pub fn quadrant_in_color(color: &Grid<DVec3>, tone: Tone) -> Grid<Cell> {
 /// 2 × 4 dots to a cell, with ink or without, and the cell's ink. Braille dots do not touch, so all of them together
 /// are far from white: as many twelfths of them are set as the level says, which keeps the order of the levels and
 /// even steps, not their light.
-pub fn braille(light: &Grid<f64>, tone: Tone, ink: impl Fn(u32, u32) -> Paint + Sync) -> Grid<Cell> {
+pub fn braille(
+    light: &Grid<f64>,
+    ground: Ground,
+    tone: Tone,
+    ink: impl Fn(u32, u32) -> Paint + Sync,
+) -> Grid<Cell> {
     let lit = |x, y| {
         let share = f64::from(tone.level(light[(x, y)]).get()) / f64::from(Level::MAX.get());
-        share > INK_ONLY.threshold(x, y)
+        (share > INK_ONLY.threshold(x, y)) == (ground == Ground::Dark)
     };
     Grid::from_fn_in_parallel(cells(light.size(), DOTS), |column, row| Cell {
         glyph: braille_of(mask(DOTS, column, row, lit)),
@@ -72,12 +79,34 @@ pub fn braille(light: &Grid<f64>, tone: Tone, ink: impl Fn(u32, u32) -> Paint + 
     })
 }
 
-/// One of the two grays about a level, as the matrix over the dots says.
-fn attribute(level: Level, x: u32, y: u32) -> Paint {
-    let (dark, steps) = (level.get() / STEPS, level.get() % STEPS);
-    let bright = f64::from(steps) / f64::from(STEPS) > FOUR_GRAYS.threshold(x, y);
-    // White is the last level, with no steps above it.
-    ATTRIBUTES[usize::from(dark + u8::from(bright))]
+/// For each level the gray below it, and how many quarters of the matrix have the next one.
+struct Dither([(usize, u8); 13]);
+
+impl Dither {
+    /// The nearest in lightness.
+    fn new(grays: FourGrays) -> Self {
+        let lights = grays.lights();
+        let mixed = |(dark, steps): (usize, u8)| {
+            let share = f64::from(steps) / f64::from(STEPS);
+            // White is the last, with no steps above it.
+            let bright = lights.get(dark + 1).copied().unwrap_or_default();
+            lightness(lights[dark] * (1.0 - share) + bright * share)
+        };
+        let all = (0..4).flat_map(|dark| (0..STEPS).map(move |steps| (dark, steps)));
+        let all: Vec<_> = all.filter(|&(dark, steps)| dark < 3 || steps == 0).collect();
+        Self(std::array::from_fn(|k| {
+            let meant = lightness(Level::new(k as u8).unwrap_or_default().light());
+            let away = |&mix: &(usize, u8)| (mixed(mix) - meant).abs();
+            let nearest = all.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
+            nearest.copied().unwrap_or_default()
+        }))
+    }
+
+    /// One of the two grays about a level, as the matrix over the dots says.
+    fn gray(&self, level: Level, x: u32, y: u32) -> usize {
+        let (dark, steps) = self.0[usize::from(level.get())];
+        dark + usize::from(f64::from(steps) / f64::from(STEPS) > FOUR_GRAYS.threshold(x, y))
+    }
 }
 
 fn halves(dots: Size, paint: impl Fn(u32, u32) -> Paint + Sync) -> Grid<Cell> {
@@ -87,8 +116,8 @@ fn halves(dots: Size, paint: impl Fn(u32, u32) -> Paint + Sync) -> Grid<Cell> {
 }
 
 /// Full dots of the terminal's ink, as many as give the level's light.
-fn inked(dots: Size, per_cell: Size, level: impl Fn(u32, u32) -> Level + Sync) -> Grid<Cell> {
-    let lit = |x, y| level(x, y).light() > INK_ONLY.threshold(x, y);
+fn inked(dots: Size, per_cell: Size, ground: Ground, level: impl Fn(u32, u32) -> Level + Sync) -> Grid<Cell> {
+    let lit = |x, y| (level(x, y).light() > INK_ONLY.threshold(x, y)) == (ground == Ground::Dark);
     Grid::from_fn_in_parallel(cells(dots, per_cell), |column, row| Cell {
         // All choices of halves and quadrants are characters.
         glyph: block_of(mask(per_cell, column, row, lit)).unwrap_or(' '),
@@ -128,8 +157,8 @@ mod tests {
     use super::*;
     use crate::glyph::{ColorDepth, appearance};
 
-    fn mean(cells: &Grid<Cell>) -> f64 {
-        let seen = appearance(cells, DOTS);
+    fn mean(cells: &Grid<Cell>, palette: Palette) -> f64 {
+        let seen = appearance(cells, palette, DOTS);
         seen.values().iter().sum::<f64>() / seen.values().len() as f64
     }
 
@@ -139,10 +168,10 @@ mod tests {
             let flat = |per_cell: Size| {
                 Grid::filled(Size::new(4 * per_cell.width, 2 * per_cell.height), level.light())
             };
-            let halves = half(&flat(HALF), Palette::Dos, Tone::default());
-            let quarters = quadrant(&flat(QUARTERS), Palette::Dos, Tone::default());
-            assert!((mean(&halves) - level.light()).abs() < 1e-15, "{level:?}");
-            assert!((mean(&quarters) - level.light()).abs() < 1e-15, "{level:?}");
+            let halves = half(&flat(HALF), Palette::DOS, Tone::default());
+            let quarters = quadrant(&flat(QUARTERS), Palette::DOS, Tone::default());
+            assert!((mean(&halves, Palette::DOS) - level.light()).abs() < 1e-15, "{level:?}");
+            assert!((mean(&quarters, Palette::DOS) - level.light()).abs() < 1e-15, "{level:?}");
             // The matrix is as large as the cell.
             assert!(quarters.values().iter().all(|cell| *cell == quarters[(0, 0)]), "{level:?}");
         }
@@ -159,7 +188,7 @@ mod tests {
     #[test]
     fn a_bright_paper_is_spared_where_it_can_be() {
         let light = Grid::from_fn(Size::new(1, 2), |_, y| f64::from(y));
-        let cell = half(&light, Palette::Dos, Tone::default())[(0, 0)];
+        let cell = half(&light, Palette::DOS, Tone::default())[(0, 0)];
         assert_eq!(cell, Cell { glyph: '▄', ink: Paint::White, paper: Paint::Black });
     }
 
@@ -167,7 +196,7 @@ mod tests {
     fn a_level_lights_its_twelfths_of_the_braille_dots() {
         for level in Level::all() {
             let light = Grid::filled(Size::new(4, 12), level.light());
-            let cells = braille(&light, Tone::default(), |_, _| Paint::Terminal);
+            let cells = braille(&light, Ground::Dark, Tone::default(), |_, _| Paint::Terminal);
             let set: u32 = cells
                 .values()
                 .iter()
@@ -182,10 +211,10 @@ mod tests {
         for level in Level::all() {
             let light = Grid::filled(Size::new(8, 12), level.light());
             for cells in [
-                half(&light, Palette::Mono, Tone::default()),
-                quadrant(&light, Palette::Mono, Tone::default()),
+                half(&light, Palette::MONO, Tone::default()),
+                quadrant(&light, Palette::MONO, Tone::default()),
             ] {
-                assert!((mean(&cells) - level.light()).abs() <= 0.5 / 12.0 + 1e-12);
+                assert!((mean(&cells, Palette::MONO) - level.light()).abs() <= 0.5 / 12.0 + 1e-12);
             }
         }
     }

@@ -7,14 +7,20 @@ mod compose;
 mod dots;
 mod eye;
 mod fit;
+mod grays;
 mod paint;
 mod pair;
+mod range;
 mod shade;
 mod shape;
 
 pub use appearance::appearance;
 pub use cell::Cell;
-pub use choice::{CELL_ASPECT, GlyphMode, Palette};
+pub use choice::{CELL_ASPECT, GlyphMode, Ground, Palette};
 pub use compose::{compose, compose_color};
+pub use grays::FourGrays;
 pub use paint::{ColorDepth, Paint};
 pub use shape::{Coverage, coverage};
+
+#[cfg(test)]
+mod range_tests;

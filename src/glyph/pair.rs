@@ -9,7 +9,9 @@
 
 use super::cell::Cell;
 use super::eye::{Dots, overlaps};
+use super::grays::FourGrays;
 use super::paint::Paint;
+use super::range::{LevelRange, dots_of, levels_around};
 use super::shape::{DOT_COUNT, DOTS, HALVES, Shape};
 use crate::math::{DVec3, Grid, Size};
 use crate::tone::{Level, Tone, color_of_lab, labs_of_colors, lightness, lightnesses, srgb_of_light};
@@ -78,30 +80,42 @@ impl PairFit {
     /// The cells of two grays out of `grays` nearest to `light`, of [`DOTS`] to a cell.
     pub fn compose_grays(&self, light: &Grid<f64>, grays: &Grays, tone: Tone) -> Grid<Cell> {
         // NaN counts as no light.
-        cells(light, |dots| self.two_grays(&dots.map(|light| tone.shown(light).max(0.0)), grays))
+        let shown = |light: f64| tone.shown(light).max(0.0);
+        cells(light, |column, row| {
+            let around = || levels_around(light, column, row, tone);
+            self.two_grays(&dots_of(light, column, row).map(shown), grays, around)
+        })
     }
 
     /// The cells of two colours nearest to `color`, of [`DOTS`] to a cell.
     pub fn compose_colors(&self, color: &Grid<DVec3>, tone: Tone) -> Grid<Cell> {
         let shown = |color: DVec3| tone.shown_color(color).max(DVec3::ZERO);
-        cells(color, |dots| self.two_colors(&dots.map(shown)))
+        cells(color, |column, row| self.two_colors(&dots_of(color, column, row).map(shown)))
     }
 
-    fn two_grays(&self, dots: &Dots, grays: &Grays) -> Cell {
-        // Even light is its level by definition, not by the least of rounded costs.
+    fn two_grays(&self, dots: &Dots, grays: &Grays, around: impl FnOnce() -> LevelRange) -> Cell {
         if dots.iter().all(|dot| *dot == dots[0]) {
-            return Cell::flat(grays.of_level(Level::nearest(dots[0])));
+            return Cell::flat(grays.of_light(dots[0]));
         }
         let (shape, [[ink, paper]]) = self.best([lightnesses(*dots)]);
-        Cell::pair(shape, grays.nearest(ink), grays.nearest(paper))
+        // Least squares may reach beyond the dots, to make up for what the shape can not have.
+        let within = around().lightness_to_a_level();
+        let [ink, paper] = [ink, paper].map(|l| grays.nearest(l.clamp(within[0], within[1])));
+        Cell::pair(shape, ink, paper)
     }
 
     fn two_colors(&self, dots: &[DVec3; DOT_COUNT]) -> Cell {
         if dots.iter().all(|dot| *dot == dots[0]) {
             return Cell::flat(paint(dots[0]));
         }
-        let (shape, best) = self.best(labs_of_colors(*dots));
-        let [ink, paper] = [0, 1].map(|side| paint(color_of_lab(best.map(|axis| axis[side]))));
+        let labs = labs_of_colors(*dots);
+        let (shape, best) = self.best(labs);
+        let least = labs.map(|axis| axis.into_iter().fold(f64::INFINITY, f64::min));
+        let most = labs.map(|axis| axis.into_iter().fold(f64::NEG_INFINITY, f64::max));
+        let [ink, paper] = [0, 1].map(|side| {
+            // There are no levels here to go beyond the dots by.
+            paint(color_of_lab(std::array::from_fn(|k| best[k][side].clamp(least[k], most[k]))))
+        });
         Cell::pair(shape, ink, paper)
     }
 
@@ -126,14 +140,9 @@ pub fn paint(color: DVec3) -> Paint {
 }
 
 /// A cell for each [`DOTS`] of a picture.
-fn cells<T: Copy + Sync>(dots: &Grid<T>, cell: impl Fn([T; DOT_COUNT]) -> Cell + Sync) -> Grid<Cell> {
+fn cells<T: Sync>(dots: &Grid<T>, cell: impl Fn(u32, u32) -> Cell + Sync) -> Grid<Cell> {
     let size = Size::new(dots.size().width / DOTS.width, dots.size().height / DOTS.height);
-    Grid::from_fn_in_parallel(size, |column, row| {
-        cell(std::array::from_fn(|dot| {
-            let (x, y) = (dot as u32 % DOTS.width, dot as u32 / DOTS.width);
-            dots[(column * DOTS.width + x, row * DOTS.height + y)]
-        }))
-    })
+    Grid::from_fn_in_parallel(size, cell)
 }
 
 /// The grays that a pair may have, with their L*, from the darkest.
@@ -145,16 +154,16 @@ impl Grays {
         Self(Level::all().map(|level| (lightness(level.light()), Paint::of_level(level))).collect())
     }
 
-    /// The four of the attributes.
-    pub fn attributes() -> Self {
-        let paints = [Paint::Black, Paint::DarkGray, Paint::LightGray, Paint::White];
-        Self(paints.into_iter().filter_map(|paint| Some((lightness(paint.light()?), paint))).collect())
+    /// Those of a palette of four.
+    pub fn four(grays: FourGrays) -> Self {
+        Self(grays.lightnesses().into_iter().zip(grays.paints()).collect())
     }
 
-    /// That of a level, where it is one of them; else the one below it.
-    fn of_level(&self, level: Level) -> Paint {
-        let last = self.0.len() - 1;
-        self.0[usize::from(level.get()) * last / usize::from(Level::MAX.get())].1
+    /// That of even light. Where there are all levels it is the light's level by definition, not by rounded lightness.
+    fn of_light(&self, light: f64) -> Paint {
+        let level = usize::from(Level::nearest(light).get());
+        let all = self.0.len() > usize::from(Level::MAX.get());
+        if all { self.0[level].1 } else { self.nearest(lightness(light)) }
     }
 
     /// The nearest to an L*.
@@ -172,6 +181,9 @@ mod tests {
     use crate::tone::light_of_lightness;
     use proptest::prelude::*;
 
+    /// Dots all around of every light.
+    const ANY: LevelRange = LevelRange { darkest: Level::MIN, lightest: Level::MAX };
+
     #[test]
     fn complements_are_there_once() {
         for (shapes, count) in [(BLOCKS, 9), (HALVES, 2), (QUADRANTS, 7)] {
@@ -186,7 +198,8 @@ mod tests {
         for shape in BLOCKS {
             for (dark, bright) in [(0, 1), (3, 7), (0, 12), (11, 12)] {
                 let [dark, bright] = [dark, bright].map(|k: usize| grays.0[k]);
-                let cell = fit.two_grays(&shape.dots(bright.0, dark.0).map(light_of_lightness), &grays);
+                let cell =
+                    fit.two_grays(&shape.dots(bright.0, dark.0).map(light_of_lightness), &grays, || ANY);
                 let inked = if cell.ink == bright.1 { shape.mask } else { !shape.mask };
                 assert_eq!(block_of(inked), Some(cell.glyph), "{shape:?}");
             }
@@ -228,14 +241,14 @@ mod tests {
             let reach = (here - grays.0[level - 1].0).min(grays.0[level + 1].0 - here);
             // Least squares may reach a little beyond the dots.
             let dots = dots.map(|away: f64| light_of_lightness(here + away * reach / 8.0));
-            prop_assert_eq!(PairFit::new(BLOCKS).two_grays(&dots, &grays), Cell::flat(grays.0[level].1));
+            prop_assert_eq!(PairFit::new(BLOCKS).two_grays(&dots, &grays, || ANY), Cell::flat(grays.0[level].1));
         }
 
         #[test]
         fn gray_colors_are_as_light_as_their_dots(dots in prop::array::uniform8(20.0..=80.0)) {
             let colors = dots.map(|l: f64| DVec3::splat(light_of_lightness(l)));
             let cell = PairFit::new(BLOCKS).two_colors(&colors);
-            for light in [cell.ink_light(), cell.paper_light()] {
+            for light in [cell.ink, cell.paper].map(|paint| paint.light().unwrap_or(f64::NAN)) {
                 prop_assert!((0.0..=1.0).contains(&light));
             }
             let Paint::Rgb([r, g, b]) = cell.ink else { panic!("a colour") };

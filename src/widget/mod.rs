@@ -18,7 +18,7 @@
 //!     options: Options::default(),
 //!     wants: Wants::CELLS,
 //!     glyphs: GlyphMode::Shade,
-//!     palette: Palette::Dos,
+//!     palette: Palette::DOS,
 //!     tone: Tone::Lightness,
 //! });
 //!

@@ -167,9 +167,50 @@ fn tells_colours_as_the_terminal_takes_them() {
         let picture = with("", palette);
         assert!(picture.contains("48;5;") && !picture.contains("48;2;"), "{picture}");
     }
-    for palette in ["dos", "mono"] {
+    for palette in ["dos16", "mono"] {
         assert_eq!(with("truecolor", palette), with("", palette));
     }
+}
+
+/// Solarized's attribute 8 is darker than its 0, and nothing answers a still.
+#[test]
+fn sends_grays_that_nobody_changes_where_there_are_256_colours() {
+    let (_, file) = scene("grays", RED);
+    let with = |term: &str, palette: &[&str]| {
+        let arguments = [&["render", &file, "--cells", "30x12", "--format", "ans"], palette].concat();
+        let mut command = ray13();
+        command.env("TERM", term).env_remove("COLORTERM").env("LANG", "C.UTF-8").env_remove("LC_ALL");
+        text(&done(&command.args(arguments).output().unwrap()))
+    };
+    let by_number = ["48;5;16", "38;5;240", "38;5;248"];
+    for palette in [&[][..], &["--palette", "dos"]] {
+        let picture = with("xterm-256color", palette);
+        assert!(by_number.iter().all(|color| picture.contains(color)), "{picture}");
+        assert!(!picture.contains("[90") && !picture.contains(";40m"), "{picture}");
+        let picture = with("xterm", palette);
+        assert!(picture.contains("90") && !picture.contains("8;5;"), "{picture}");
+    }
+    assert_eq!(with("xterm-256color", &["--palette", "dos16"]), with("xterm", &[]));
+}
+
+/// In the terminal's own ink a picture was a negative on white paper.
+#[test]
+fn puts_ink_where_it_is_dark_when_asked() {
+    let (_, file) = scene("invert", BALL);
+    let still = |more: &[&str]| {
+        let arguments = [&["render", &file, "--cells", "40x20", "--format", "txt"][..], more].concat();
+        text(&done(&run(&arguments)))
+    };
+    let inked = |picture: &str, marks: &str| picture.chars().filter(|mark| marks.contains(*mark)).count();
+    for (glyphs, blank, full) in [("blocks", " ", "█"), ("ascii", " ", "@"), ("braille", " ", "⣿")] {
+        let [dark, light] = [&["--glyphs", glyphs][..], &["--glyphs", glyphs, "--invert"]].map(still);
+        // Around the ball it is black: blank on dark paper, full of ink on light.
+        assert!(inked(&dark, blank) > 200 && inked(&dark, full) < 200, "{dark}");
+        assert!(inked(&light, full) > 200 && inked(&light, blank) < 200, "{light}");
+    }
+    assert_eq!(still(&["--no-invert"]), still(&[]));
+    let message = fails(&run(&["render", &file, "--invert", "--no-invert"]), 2);
+    assert!(message.contains("--no-invert"), "{message}");
 }
 
 #[test]

@@ -46,9 +46,9 @@ use std::io;
 
 use ratatui::crossterm::event::KeyEvent;
 
-pub use answers::Answer;
 #[cfg(test)]
-use answers::Colored;
+pub use answers::in_command;
+pub use answers::{Answer, Colored};
 pub use reader::start;
 
 /// What the terminal sent.

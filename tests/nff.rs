@@ -1,9 +1,14 @@
 //! Files of NFF: how many objects the databases hold, and what a shell is told of bad files.
 
+mod request;
+
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use ray13::frame::Studio;
+use ray13::math::Size;
 use ray13::scene::{ReadOptions, Scene, read_file};
+use request::request;
 
 /// The databases are not part of this repository; they may stand beside it.
 fn folder() -> PathBuf {
@@ -33,6 +38,20 @@ fn balls_of_every_size_hold_as_many_balls_as_they_should() {
     }
 }
 
+/// As in `mount`, where each of the surfaces in a glass ball had added 0.5 of ambient light, and the ball was
+/// white.
+#[test]
+fn glass_does_not_shine_by_itself() {
+    let text = "v from 0 -5 0 at 0 0 0 up 0 0 1 angle 30\nl 9 -9 9\nf 1 1 1 .1 .1 101 .9 1.5\ns 0 0 0 1";
+    let scene = ray13::scene::read("glass.nff", text.as_bytes(), &ReadOptions::default()).unwrap();
+    let studio = Studio::new(scene).unwrap();
+    let frame = studio.draw(&request(studio.camera(0, 1.0), Size::new(64, 64)));
+    let brightest = frame.light.values().iter().copied().fold(0.0, f64::max);
+    // Without a background: ambient and diffuse light of 0.1 each have half of white, at up to six surfaces
+    // in a row, and the highlight has 0.05.
+    assert!(brightest < 6.0 * 0.1 + 0.05, "{brightest}");
+}
+
 /// What `ray13 check` says of a file with these contents.
 fn told(name: &str, contents: &[u8]) -> (Option<i32>, String) {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name).with_extension("nff");
@@ -52,6 +71,7 @@ fn a_bad_file_is_refused_with_its_place() {
         ("infinite", "s 0 0 0 1e400\n", "beyond the largest number"),
         ("radius", "s 0 0 0 0\n", "above 0"),
         ("empty", "# nothing\n", "empty"),
+        ("sense8", "nff\nversion 2.0\nviewpos 0 0 0\n", "Sense8's WorldToolKit"),
     ] {
         let (code, message) = told(name, contents.as_bytes());
         assert_eq!(code, Some(2), "{name}: {message}");

@@ -92,7 +92,7 @@ pub fn read(name: &str, bytes: &[u8], options: &ReadOptions) -> Result<Scene, Di
     let text = text(name, bytes)?;
     match options.format.unwrap_or_else(|| Format::of(name)) {
         Format::Language => language::read(name, text, options),
-        Format::Nff => nff::read(name, text),
+        Format::Nff => nff::read(name, text, options),
     }
 }
 

@@ -4,6 +4,7 @@ use crate::math::DVec3;
 use crate::scene::Diagnostic;
 use crate::scene::diagnostic::{Reported, Sink};
 
+use super::ignored::{Extra, Ignored};
 use super::tokens::{Token, Tokens};
 
 /// The words that begin entities, with what each is.
@@ -18,9 +19,25 @@ pub const ENTITIES: [(&str, &str); 8] = [
     ("pp", "polygonal patch"),
 ];
 
-/// Whether a word begins an entity.
-pub fn begins_an_entity(token: Token) -> bool {
-    ENTITIES.iter().any(|(word, _)| *word == token.word)
+/// What other programs add to them: BART's textured triangles, the textured patches, textures and facets that
+/// Assimp reads.
+const ADDED: [&str; 5] = ["tt", "ttp", "tpp", "shader", "tess"];
+
+/// Shapes of other programs, with what each is: of ENFF, and of Assimp.
+pub const OTHER_SHAPES: [(&str, &str); 7] = [
+    ("pb", "a Bézier patch"),
+    ("pn", "a NURBS surface"),
+    ("pnn", "a NURBS surface"),
+    ("tet", "a tetrahedron"),
+    ("hex", "a hexahedron"),
+    ("oct", "an octahedron"),
+    ("dod", "a dodecahedron"),
+];
+
+/// Whether a word begins an entity, of whatever program.
+pub fn begins_an_entity(word: &[u8]) -> bool {
+    let known = ENTITIES.iter().chain(&OTHER_SHAPES).map(|(known, _)| known).chain(&ADDED);
+    known.into_iter().any(|known| known.as_bytes() == word)
 }
 
 /// A number and where it stands.
@@ -41,6 +58,8 @@ pub struct Entity<'r, 'a> {
     pub tokens: &'r mut Tokens<'a>,
     /// Where remarks go.
     pub sink: &'r mut Sink,
+    /// Where it is counted what nothing is shown of.
+    pub ignored: &'r mut Ignored,
 }
 
 impl<'a> Entity<'_, 'a> {
@@ -86,6 +105,19 @@ impl<'a> Entity<'_, 'a> {
         Ok(DVec3::from_array(channels.map(|channel| channel.value)))
     }
 
+    /// Ignores a texture's name, which is on the line of the keyword: a name could be any word, and a line
+    /// that begins with an entity's word has to begin that entity.
+    pub fn texture_name(&mut self) -> Result<(), Reported> {
+        match self.tokens.peek_on_line(self.keyword.span().end) {
+            Some(name) => {
+                self.tokens.take();
+                self.ignored.add(Extra::Texture, name.span());
+                Ok(())
+            }
+            None => Err(self.wrong(self.keyword, "the texture's name is missing on this line")),
+        }
+    }
+
     /// Reports a number that breaks a rule.
     pub fn check(&mut self, number: Number, holds: bool, rule: &str) -> Result<(), Reported> {
         if holds { Ok(()) } else { Err(self.wrong(number.token, rule)) }
@@ -108,7 +140,7 @@ impl<'a> Entity<'_, 'a> {
 
     fn no_number(&mut self, token: Token<'a>, missing: &str) -> Reported {
         let entity = self.keyword.word;
-        if begins_an_entity(token) {
+        if begins_an_entity(token.word.as_bytes()) {
             let message = format!("`{entity}` ends too early: {missing} is missing");
             let error = Diagnostic::error(token.span(), message);
             return self.sink.report(error.label(format!("here `{}` begins", token.word)));

@@ -7,7 +7,9 @@ use crate::math::DVec3;
 use crate::scene::diagnostic::{Reported, Sink};
 use crate::scene::{Anchor, Diagnostic, Light, Material, MaterialId, Scene};
 
-use super::entity::Entity;
+use super::entity::{Entity, begins_an_entity};
+use super::ignored::Extra;
+use super::tokens::Token;
 
 /// The lights, some perhaps without an intensity of their own.
 #[derive(Debug, Default)]
@@ -16,11 +18,11 @@ pub struct Lamps {
 }
 
 impl Lamps {
-    /// `l x y z [r g b]`.
+    /// `l x y z [r g b]`, or ENFF's `l x y z intensity r g b`.
     pub fn read(&mut self, entity: &mut Entity) -> Result<(), Reported> {
         let at = entity.vector(|| "the light".to_owned())?;
         let colored = entity.tokens.peek().is_some_and(|token| token.begins_a_number());
-        let color = if colored { Some(entity.color()?) } else { None };
+        let color = if colored { Some(intensity(entity)?) } else { None };
         self.lamps.push((at, color));
         Ok(())
     }
@@ -48,6 +50,46 @@ impl Lamps {
     }
 }
 
+/// The intensity of a light in each channel: three numbers, or one and a colour.
+fn intensity(entity: &mut Entity) -> Result<DVec3, Reported> {
+    let first = entity.color()?;
+    if !entity.tokens.peek().is_some_and(|token| token.begins_a_number()) {
+        return Ok(first);
+    }
+    let [blue] = entity.numbers(["blue"])?;
+    entity.check(blue, blue.value >= 0.0, "a colour is not negative")?;
+    let product = first.x * DVec3::new(first.y, first.z, blue.value);
+    if product.is_finite() {
+        Ok(product)
+    } else {
+        Err(entity.wrong(entity.keyword, "intensity and colour multiply to more than a 64-bit float holds"))
+    }
+}
+
+/// Ignores what programs write behind the index, on its line: a share of ambient light, and the name of a
+/// texture. Blanks part a name into words, so all of them are passed over.
+fn ignore_rest(entity: &mut Entity, index: &Token) {
+    let mut end = index.span().end;
+    let (mut numbers, mut words) = (0, 0);
+    while let Some(token) = entity.tokens.peek_on_line(end) {
+        let is_number = token.number().is_some();
+        if begins_an_entity(token.word.as_bytes()) || is_number && numbers + words > 0 {
+            break;
+        }
+        entity.tokens.take();
+        end = token.span().end;
+        if is_number {
+            numbers += 1;
+            entity.ignored.add(Extra::AmbientShare, token.span());
+        } else {
+            words += 1;
+            if words == 1 {
+                entity.ignored.add(Extra::Texture, token.span());
+            }
+        }
+    }
+}
+
 /// The materials, each stored once.
 #[derive(Debug, Default)]
 pub struct Fills {
@@ -61,7 +103,7 @@ pub struct Fills {
 }
 
 impl Fills {
-    /// `f red green blue Kd Ks Shine T index`.
+    /// `f red green blue Kd Ks Shine T index`, and perhaps what other programs add.
     pub fn read(&mut self, entity: &mut Entity) -> Result<(), Reported> {
         let numbers =
             entity.numbers(["red", "green", "blue", "Kd", "Ks", "Shine", "T", "the index of refraction"])?;
@@ -80,6 +122,7 @@ impl Fills {
             self.too_bright.get_or_insert_with(|| entity.keyword.span());
         }
         self.current = Some(self.id(values));
+        ignore_rest(entity, &index.token);
         Ok(())
     }
 
@@ -122,12 +165,13 @@ impl Fills {
     }
 }
 
-/// The format has one share, Kd, for all light that a surface scatters, from lamps and from everywhere. So the colour of
-/// ambient and diffuse light is Kd times the file's, and what is left of `kd` says whether there is any.
+/// The format has one share, Kd, for all light that a surface scatters, from lamps and from everywhere. So
+/// the colour of ambient and diffuse light is Kd times the file's, and what is left of `kd` says whether
+/// there is any.
 ///
-/// It has one share, Ks, for the highlight and for what is mirrored. Of the mirror it is no more than T leaves: files give
-/// glass a strong highlight without meaning that light comes of nothing. An index of 0 is that of a surface through which
-/// nothing is seen.
+/// It has one share, Ks, for the highlight and for what is mirrored. Of the mirror it is no more than T
+/// leaves: files give glass a strong highlight without meaning that light comes of nothing. An index of 0 is
+/// that of a surface through which nothing is seen.
 fn material([r, g, b, kd, ks, n, kt, index]: [f64; 8]) -> Material {
     let index = if index > 0.0 { index } else { 1.0 };
     let kr = if ks + kt > 1.0 { 1.0 - kt } else { ks };

@@ -15,6 +15,9 @@ use super::polygon::{drop_repeated, has_area};
 /// The shortest corner that can be written: three digits, each with a blank.
 const CORNER_BYTES: usize = 6;
 
+/// The shortest place in a texture: two digits, each with a blank.
+const TEXTURE_BYTES: usize = 4;
+
 /// Lengths whose reciprocals and products of three are far from the limits of f64.
 const PLAIN: RangeInclusive<f64> = 1e-90..=1e90;
 
@@ -73,9 +76,42 @@ impl Solids {
     /// `p n`, then n corners.
     pub fn face(&mut self, entity: &mut Entity, fills: &mut Fills) -> Result<(), Reported> {
         let count = corner_count(entity, CORNER_BYTES)?;
+        self.face_of(entity, fills, CornerList { count, textured: false })
+    }
+
+    /// `pp n`, then n times a corner and its normal.
+    pub fn patch(&mut self, entity: &mut Entity, fills: &mut Fills) -> Result<(), Reported> {
+        let count = corner_count(entity, 2 * CORNER_BYTES)?;
+        self.patch_of(entity, fills, CornerList { count, textured: false })
+    }
+
+    /// `tt name`, then 3 times a corner and its place in the texture.
+    pub fn textured_triangle(&mut self, entity: &mut Entity, fills: &mut Fills) -> Result<(), Reported> {
+        entity.texture_name()?;
+        self.face_of(entity, fills, CornerList { count: 3, textured: true })
+    }
+
+    /// `ttp name`, then 3 times a corner, its normal and its place in the texture.
+    pub fn textured_triangle_patch(
+        &mut self,
+        entity: &mut Entity,
+        fills: &mut Fills,
+    ) -> Result<(), Reported> {
+        entity.texture_name()?;
+        self.patch_of(entity, fills, CornerList { count: 3, textured: true })
+    }
+
+    /// `tpp n`, then n times a corner, its normal and its place in the texture that the last `f` names.
+    pub fn textured_patch(&mut self, entity: &mut Entity, fills: &mut Fills) -> Result<(), Reported> {
+        let count = corner_count(entity, 2 * CORNER_BYTES + TEXTURE_BYTES)?;
+        self.patch_of(entity, fills, CornerList { count, textured: true })
+    }
+
+    fn face_of(&mut self, entity: &mut Entity, fills: &mut Fills, list: CornerList) -> Result<(), Reported> {
         self.places.clear();
-        for number in 1..=count {
-            self.places.push(entity.vector(|| corner_name(number, count))?);
+        for number in 1..=list.count {
+            self.places.push(entity.vector(|| list.corner_name(number))?);
+            list.ignore_texture(entity, number)?;
         }
         drop_repeated(&mut self.places, |&place| place);
         if has_area(self.places.iter().copied()) {
@@ -86,14 +122,13 @@ impl Solids {
         }
     }
 
-    /// `pp n`, then n times a corner and its normal.
-    pub fn patch(&mut self, entity: &mut Entity, fills: &mut Fills) -> Result<(), Reported> {
-        let count = corner_count(entity, 2 * CORNER_BYTES)?;
+    fn patch_of(&mut self, entity: &mut Entity, fills: &mut Fills, list: CornerList) -> Result<(), Reported> {
         self.corners.clear();
-        for number in 1..=count {
-            let place = entity.vector(|| corner_name(number, count))?;
-            let normal = entity.vector(|| format!("the normal of {}", corner_name(number, count)))?;
+        for number in 1..=list.count {
+            let place = entity.vector(|| list.corner_name(number))?;
+            let normal = entity.vector(|| format!("the normal of {}", list.corner_name(number)))?;
             self.corners.push(Corner { place, normal });
+            list.ignore_texture(entity, number)?;
         }
         drop_repeated(&mut self.corners, |corner| corner.place);
         if has_area(self.corners.iter().map(|corner| corner.place)) {
@@ -146,6 +181,11 @@ impl Solids {
         self.first_without_area = self.first_without_area.take().or(next.first_without_area);
     }
 
+    /// Whether any face was left out.
+    pub fn any_left_out(&self) -> bool {
+        self.without_area > 0
+    }
+
     /// How many objects there are.
     pub fn len(&self) -> usize {
         self.objects.len()
@@ -188,6 +228,26 @@ fn too_far(entity: &mut Entity) -> Reported {
     entity.wrong(entity.keyword, &format!("it reaches farther than {REACH:e} from the origin"))
 }
 
-fn corner_name(number: usize, count: usize) -> String {
-    format!("corner {number} of {count}")
+/// The corners that an entity lists.
+#[derive(Clone, Copy, Debug)]
+struct CornerList {
+    count: usize,
+    /// Whether each has its place in a texture behind it.
+    textured: bool,
+}
+
+impl CornerList {
+    /// Corners are counted from 1.
+    fn corner_name(self, number: usize) -> String {
+        format!("corner {number} of {}", self.count)
+    }
+
+    fn ignore_texture(self, entity: &mut Entity, number: usize) -> Result<(), Reported> {
+        if self.textured {
+            for axis in ["u", "v"] {
+                entity.number(|| format!("{axis} of {}", self.corner_name(number)))?;
+            }
+        }
+        Ok(())
+    }
 }

@@ -68,8 +68,8 @@ fn lights_without_intensity_share_by_the_rule_of_the_format() {
     assert_eq!((dark.lights.len(), dark.world.ambient), (0, Scene::default().world.ambient));
 }
 
-/// All of `mount` was burnt out: its glass with a Kd of 0.1 had half of white from ambient light, once for each surface
-/// behind another.
+/// All of `mount` was burnt out: its glass with a Kd of 0.1 had half of white from ambient light, once for
+/// each surface behind another.
 #[test]
 fn a_surface_scatters_of_ambient_light_what_it_scatters_of_lamps() {
     let scene = read("l 0 0 9 f 1 .5 .2 .1 .1 101 .9 1.5 s 0 0 0 1 f 1 1 1 0 1 9 0 0 s 4 0 0 1").unwrap();
@@ -78,6 +78,95 @@ fn a_surface_scatters_of_ambient_light_what_it_scatters_of_lamps() {
     assert_eq!(scene.world.ambient * glass.color, 0.1 * DVec3::new(0.5, 0.25, 0.1));
     // What scatters nothing is asked for no light.
     assert_eq!((mirror.color, mirror.kd), (DVec3::ZERO, 0.0));
+}
+
+#[test]
+fn what_other_programs_add_is_ignored_with_a_word() {
+    let scene = read(
+        "v from 0 -5 0 at 0 0 0 up 0 0 1 angle 45 hither 1 yon 100 resolution 9 9\n\
+         tess 4\n\
+         f 1 1 1 1 0 1 0 0 ./../3d wood.jpg s 0 0 0 1\n\
+         f 1 1 1 1 0 1 0 0 0.2\n\
+         f 1 1 1 1 0 1 0 0 .2 tiles # of marble\n\
+         shader sky.png\n\
+         tess 2",
+    )
+    .unwrap();
+    assert_eq!((scene.objects.len(), scene.views.len(), scene.materials.len()), (1, 1, 1));
+    assert_eq!(
+        scene.notes,
+        [
+            "line 1: `yon` is ignored: what is far away is seen too",
+            "line 2: `tess` is ignored (2 times, of which this is the first): what is round is shown round",
+            "line 3: a texture is ignored (3 times, of which this is the first): the surface has the colour of \
+             its `f`",
+            "line 4: the ninth number of `f` is ignored (2 times, of which this is the first): the share of \
+             ambient light is Kd",
+        ]
+    );
+}
+
+#[test]
+fn faces_with_textures_are_faces() {
+    let scene = read(
+        "tt wood.jpg\n0 0 0 0 0 1 0 0 1 0 0 1 0 1 1\n\
+         ttp s\n0 0 0 0 0 1 0 0 1 0 0 0 0 1 1 0 0 1 0 0 0 1 1 1\n\
+         tpp 3\n0 0 0 0 0 1 0 0 1 0 0 0 0 1 1 0 0 1 0 0 0 1\n1\n1",
+    )
+    .unwrap();
+    let [Shape::Face(face), Shape::Patch(triangle), Shape::Patch(patch)] =
+        &primitives(&scene).iter().map(|p| p.shape.clone()).collect::<Vec<_>>()[..]
+    else {
+        panic!("a face and two patches")
+    };
+    assert_eq!(face[..], [DVec3::ZERO, DVec3::X, DVec3::Y]);
+    assert_eq!(triangle, patch);
+    assert_eq!((patch[2].place, patch[2].normal), (DVec3::Y, DVec3::Z));
+    assert_eq!(scene.notes.len(), 1);
+}
+
+#[test]
+fn a_light_of_enff_has_its_intensity_before_its_colour() {
+    let scene = read("l 0 0 1 2 1 .5 .25 s 0 0 0 1").unwrap();
+    assert_eq!((scene.lights[0].intensity, scene.lights[0].color), (2.0, DVec3::new(1.0, 0.5, 0.25)));
+}
+
+#[test]
+fn shapes_of_other_programs_are_left_out_where_that_is_asked_for() {
+    let text = "dod 0 0 0 5\ns 0 0 0 1\npb 1 1 0 0 0 1 0 0 0 1 0 1 1 0\ns 2 0 0 1";
+    assert_eq!(
+        wrong(text),
+        "1:1: error: `dod`, a dodecahedron, is not of NFF but of other programs: \
+        this is left out with --skip-unsupported"
+    );
+    let options = ReadOptions { skip_unsupported: true, ..ReadOptions::default() };
+    let scene = crate::scene::read("test.nff", text.as_bytes(), &options).unwrap();
+    assert_eq!(scene.objects.len(), 2);
+    let note = "line 1: a shape that other programs know is ignored (2 times, of which this is the first): it is \
+                left out";
+    assert_eq!(scene.notes, [note]);
+}
+
+#[test]
+fn a_scene_of_which_nothing_is_left_says_why() {
+    let found = read("p 3 0 0 0 1 1 1 2 2 2").unwrap_err().to_string();
+    let why = "test.nff:1:1: note: a face has no area and is left out";
+    assert_eq!(
+        found,
+        format!("test.nff: error: nothing is left of the scene: all that it shows is left out\n{why}")
+    );
+}
+
+#[test]
+fn the_other_nff_is_named() {
+    for text in [
+        "nff\nversion 2.0\nviewpos 0 0 0\ncube\n8\n0 0 0\n",
+        "// a room for 'WTK'\n\n// and more\nNFF version 2.1",
+    ] {
+        let message = wrong(text);
+        assert!(message.contains("this is another format that is called NFF: that of Sense8's"), "{message}");
+    }
+    assert!(wrong("// nff").contains("NFF has no such entity"));
 }
 
 #[test]
@@ -160,6 +249,18 @@ fn each_fault_has_its_place_and_its_words() {
             "v from 0 0 0 at 0 0 0 up 0 1 0 angle 45",
             "1:1: error: `v`: `from` and `at` are the same point: there is no direction to look in",
         ),
+        ("shader\nsky.png", "1:1: error: `shader`: the texture's name is missing on this line"),
+        ("tt\ns\n0 0 0", "1:1: error: `tt`: the texture's name is missing on this line"),
+        (
+            "tt sky\n0 0 0 0 s",
+            "2:9: error: `tt` ends too early: v of corner 1 of 3 is missing: here `s` begins",
+        ),
+        ("tess s", "1:6: error: `tess` ends too early: the number of divisions is missing: here `s` begins"),
+        ("f 1 1 1 1 0 1 0 0 .2 9", "1:22: error: a number stands where an entity begins: this is `9`"),
+        (
+            "l 0 0 0 1e200 1e200 1 1",
+            "1:1: error: `l`: intensity and colour multiply to more than a 64-bit float holds",
+        ),
         ("v resolution 512 -1", "1:18: error: `v`: the resolution is two whole numbers above 0: this is -1"),
         ("", " error: the scene is empty: there is nothing to see in it"),
         ("# nothing", " error: the scene is empty: there is nothing to see in it"),
@@ -187,7 +288,7 @@ fn a_mirror_has_no_more_than_glass_leaves() {
 
 /// Entities of every kind, some with a remark, one after the other in an order of their own.
 fn long_text(lines: usize) -> String {
-    const LINES: [&str; 12] = [
+    const LINES: [&str; 17] = [
         "s 0 0 0 1",
         "f 1 .5 0 .5 .25 30 0 0",
         "c 0 0 0 2 # s 1 1 1 1\n  0 0 4 1",
@@ -200,18 +301,23 @@ fn long_text(lines: usize) -> String {
         "p 3 0 0 0 1 0 0 2 0 0",
         "v from 0 -5 0 at 0 0 0 up 0 0 1 angle 45",
         "pp 3 0 0 0 0 0 1 1 0 0 0 0 1 0 1 0 0 0 1",
+        "tt s\n 0 0 0 0 0 1 0 0\n 1 0 0 1 0 1 1",
+        "tess 4",
+        "f 0 .5 1 .5 .75 30 .5 1 .1 a texture",
+        "shader s",
+        "tpp 3 0 0 0 0 0 1 0 0 1 0 0 0 0 1 1 0 0 1 0 0 0 1 1 1",
     ];
-    // 5 and 12 have no common factor; the third power mixes the order from round to round.
-    (0..lines).map(|i| format!("{}\n", LINES[(5 * i + i * i * i / 12) % LINES.len()])).collect()
+    // 5 and 17 have no common factor; the third power mixes the order from round to round.
+    (0..lines).map(|i| format!("{}\n", LINES[(5 * i + i * i * i / 17) % LINES.len()])).collect()
 }
 
 #[test]
 fn a_text_read_in_stretches_means_the_same() {
     for lines in [1, 40, 300] {
         let text = long_text(lines);
-        let whole = Reader::of(&text, 0..text.len()).finish("test", &text).unwrap();
+        let whole = Reader::of(&text, 0..text.len(), &ReadOptions::default()).finish("test", &text).unwrap();
         for bytes in [1, 10, 100, 1000] {
-            let Some(read) = in_stretches(&text, bytes) else {
+            let Some(read) = in_stretches(&text, bytes, &ReadOptions::default()) else {
                 assert!(lines == 1 || text.len() < 2 * bytes, "{bytes} of {}", text.len());
                 continue;
             };
@@ -224,8 +330,8 @@ fn a_text_read_in_stretches_means_the_same() {
 fn errors_of_a_long_text_are_those_of_one_thread() {
     for wrong in ["s 0 0 0", "s 0 0 0 -1", "5", "s 0 0 x 1", "q"] {
         let text = format!("{0}{wrong}\n{0}{wrong}\n{0}", long_text(50));
-        assert!(in_stretches(&text, 100).is_none());
-        let found = Reader::of(&text, 0..text.len()).finish("test.nff", &text);
+        assert!(in_stretches(&text, 100, &ReadOptions::default()).is_none());
+        let found = Reader::of(&text, 0..text.len(), &ReadOptions::default()).finish("test.nff", &text);
         assert_eq!(read(&text), found);
         assert!(found.is_err());
     }

@@ -92,6 +92,11 @@ impl<'a> Tokens<'a> {
         self.next
     }
 
+    /// The next word, if no line ends between it and a place before it, in bytes.
+    pub fn peek_on_line(&self, after: usize) -> Option<Token<'a>> {
+        self.next.filter(|token| !self.text[after..token.start].contains('\n'))
+    }
+
     /// Takes the next word.
     #[inline]
     pub fn take(&mut self) -> Option<Token<'a>> {

@@ -4,9 +4,10 @@ use crate::scene::diagnostic::Reported;
 use crate::scene::{Camera, CameraError, FieldSpan};
 
 use super::entity::Entity;
+use super::ignored::Extra;
 
 /// The words of a viewpoint, in the order that the format gives them; any other order is read too.
-const WORDS: [&str; 6] = ["from", "at", "up", "angle", "hither", "resolution"];
+const WORDS: [&str; 7] = ["from", "at", "up", "angle", "hither", "yon", "resolution"];
 
 /// The camera of a viewpoint. Its picture is square, and its angle is that between the outermost centres of dots.
 pub fn camera(entity: &mut Entity) -> Result<Camera, Reported> {
@@ -26,6 +27,10 @@ pub fn camera(entity: &mut Entity) -> Result<Camera, Reported> {
             }
             "hither" => {
                 entity.numbers(["the distance of `hither`"])?;
+            }
+            "yon" => {
+                entity.numbers(["the distance of `yon`"])?;
+                entity.ignored.add(Extra::FarPlane, word.span());
             }
             _ => {
                 for number in entity.numbers(["the width of `resolution`", "the height of `resolution`"])? {

@@ -38,16 +38,17 @@ fn balls_of_every_size_hold_as_many_balls_as_they_should() {
     }
 }
 
-/// As in `mount`, where each of the surfaces in a glass ball had added 0.5 of ambient light, and the ball was white.
+/// As in `mount`, where each of the surfaces in a glass ball had added 0.5 of ambient light, and the ball was
+/// white.
 #[test]
 fn glass_does_not_shine_by_itself() {
     let text = "v from 0 -5 0 at 0 0 0 up 0 0 1 angle 30\nl 9 -9 9\nf 1 1 1 .1 .1 101 .9 1.5\ns 0 0 0 1";
     let scene = ray13::scene::read("glass.nff", text.as_bytes(), &ReadOptions::default()).unwrap();
     let studio = Studio::new(scene).unwrap();
     let frame = studio.draw(&request(studio.camera(0, 1.0), Size::new(64, 64)));
-    let brightest = frame.light.values().iter().copied().fold(0.0, f32::max);
-    // Without a background: ambient and diffuse light of 0.1 each have half of white, at up to six surfaces in a row,
-    // and the highlight has 0.05.
+    let brightest = frame.light.values().iter().copied().fold(0.0, f64::max);
+    // Without a background: ambient and diffuse light of 0.1 each have half of white, at up to six surfaces
+    // in a row, and the highlight has 0.05.
     assert!(brightest < 6.0 * 0.1 + 0.05, "{brightest}");
 }
 

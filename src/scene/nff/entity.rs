@@ -19,8 +19,8 @@ pub const ENTITIES: [(&str, &str); 8] = [
     ("pp", "polygonal patch"),
 ];
 
-/// What other programs add to them: BART's textured triangles, the textured patches, textures and facets that Assimp
-/// reads.
+/// What other programs add to them: BART's textured triangles, the textured patches, textures and facets that
+/// Assimp reads.
 const ADDED: [&str; 5] = ["tt", "ttp", "tpp", "shader", "tess"];
 
 /// Shapes of other programs, with what each is: of ENFF, and of Assimp.
@@ -105,8 +105,8 @@ impl<'a> Entity<'_, 'a> {
         Ok(DVec3::from_array(channels.map(|channel| channel.value)))
     }
 
-    /// Ignores a texture's name, which is on the line of the keyword: a name could be any word, and a line that begins with
-    /// an entity's word has to begin that entity.
+    /// Ignores a texture's name, which is on the line of the keyword: a name could be any word, and a line
+    /// that begins with an entity's word has to begin that entity.
     pub fn texture_name(&mut self) -> Result<(), Reported> {
         match self.tokens.peek_on_line(self.keyword.span().end) {
             Some(name) => {

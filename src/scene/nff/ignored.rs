@@ -1,4 +1,5 @@
-//! What other programs add to the format and nothing is shown of: read, counted, and told in one note of each kind.
+//! What other programs add to the format and nothing is shown of: read, counted, and told in one note of each
+//! kind.
 
 use std::ops::Range;
 

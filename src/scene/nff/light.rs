@@ -66,8 +66,8 @@ fn intensity(entity: &mut Entity) -> Result<DVec3, Reported> {
     }
 }
 
-/// Ignores what programs write behind the index, on its line: a share of ambient light, and the name of a texture. Blanks
-/// part a name into words, so all of them are passed over.
+/// Ignores what programs write behind the index, on its line: a share of ambient light, and the name of a
+/// texture. Blanks part a name into words, so all of them are passed over.
 fn ignore_rest(entity: &mut Entity, index: &Token) {
     let mut end = index.span().end;
     let (mut numbers, mut words) = (0, 0);
@@ -165,12 +165,13 @@ impl Fills {
     }
 }
 
-/// The format has one share, Kd, for all light that a surface scatters, from lamps and from everywhere. So the colour of
-/// ambient and diffuse light is Kd times the file's, and what is left of `kd` says whether there is any.
+/// The format has one share, Kd, for all light that a surface scatters, from lamps and from everywhere. So
+/// the colour of ambient and diffuse light is Kd times the file's, and what is left of `kd` says whether
+/// there is any.
 ///
-/// It has one share, Ks, for the highlight and for what is mirrored. Of the mirror it is no more than T leaves: files give
-/// glass a strong highlight without meaning that light comes of nothing. An index of 0 is that of a surface through which
-/// nothing is seen.
+/// It has one share, Ks, for the highlight and for what is mirrored. Of the mirror it is no more than T
+/// leaves: files give glass a strong highlight without meaning that light comes of nothing. An index of 0 is
+/// that of a surface through which nothing is seen.
 fn material([r, g, b, kd, ks, n, kt, index]: [f64; 8]) -> Material {
     let index = if index > 0.0 { index } else { 1.0 };
     let kr = if ks + kt > 1.0 { 1.0 - kt } else { ks };

@@ -40,8 +40,8 @@ pub(super) fn read(name: &str, text: &str, options: &ReadOptions) -> Result<Scen
     reader.finish(name, text)
 }
 
-/// The word `nff`, with which a file of Sense8's WorldToolKit begins, whose format has the same name. Comments there begin
-/// with `//`.
+/// The word `nff`, with which a file of Sense8's `WorldToolKit` begins, whose format has the same name.
+/// Comments there begin with `//`.
 fn sense8_keyword(text: &str) -> Option<Token<'_>> {
     let mut tokens = Tokens::new(text, 0..text.len());
     loop {

@@ -68,8 +68,8 @@ fn lights_without_intensity_share_by_the_rule_of_the_format() {
     assert_eq!((dark.lights.len(), dark.world.ambient), (0, Scene::default().world.ambient));
 }
 
-/// All of `mount` was burnt out: its glass with a Kd of 0.1 had half of white from ambient light, once for each surface
-/// behind another.
+/// All of `mount` was burnt out: its glass with a Kd of 0.1 had half of white from ambient light, once for
+/// each surface behind another.
 #[test]
 fn a_surface_scatters_of_ambient_light_what_it_scatters_of_lamps() {
     let scene = read("l 0 0 9 f 1 .5 .2 .1 .1 101 .9 1.5 s 0 0 0 1 f 1 1 1 0 1 9 0 0 s 4 0 0 1").unwrap();

@@ -60,7 +60,7 @@ fn view(arguments: &ViewerArguments) -> Result<(), CliError> {
     if !io::stdout().is_terminal() {
         return render::still(file, arguments.skip_unsupported, picture);
     }
-    let no_effects = effects::check(picture, &effects::Shown::Viewer)?;
+    let no_effects = effects::check(picture, effects::Shown::Viewer)?;
     // The viewer shows what it can, and says on the screen what it left out.
     let scene = input::read(file, true)?;
     let notes = scene.notes.clone();

@@ -26,7 +26,7 @@ pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
     to.check(&arguments.scene.file)?;
     let format = arguments.format.map_or_else(|| format_of(&to), Ok)?;
     let still = Still { format, channel: arguments.channel, levels: arguments.levels };
-    let notes = effects::check(&arguments.picture, &effects::Shown::Still(still))?;
+    let notes = effects::check(&arguments.picture, effects::Shown::Still(still))?;
     input::say(&notes);
     let reading = Instant::now();
     let scene = input::read(&arguments.scene.file, arguments.scene.skip_unsupported)?;
@@ -35,7 +35,7 @@ pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
     let read = reading.elapsed();
     let size = if format.is_pixels() { Unsized::Pixels } else { Unsized::Screen };
     let palette = palette(&arguments.picture, format);
-    let mut request = arguments.picture.request(&studio, palette, wants(&still), size)?;
+    let mut request = arguments.picture.request(&studio, palette, wants(still), size)?;
     // Raw values are for whoever computes with them.
     if format == Format::Pfm && request.options.precision == PrecisionChoice::Auto {
         request.options.precision = PrecisionChoice::Double;
@@ -46,7 +46,7 @@ pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
         return Err(CliError::Input(format!("{over}: use --structure tree")));
     }
     let writing = Instant::now();
-    let look = Look::new(&still, &arguments.picture);
+    let look = Look::new(still, &arguments.picture);
     let bytes = encoded(&frame, &request, format, look)?;
     frame.times[crate::stage::Stage::Display] = writing.elapsed();
     to.write(&bytes)?;
@@ -61,7 +61,7 @@ pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
 /// One still on standard output, which is no terminal: characters only.
 pub fn still(file: &str, skip_unsupported: bool, picture: &PictureArguments) -> Result<(), CliError> {
     let still = Still { format: Format::Txt, channel: None, levels: false };
-    let notes = effects::check(picture, &effects::Shown::Still(still))?;
+    let notes = effects::check(picture, effects::Shown::Still(still))?;
     input::say(&notes);
     let scene = input::read(file, skip_unsupported)?;
     input::say(&scene.notes);
@@ -94,7 +94,7 @@ enum Look {
 
 impl Look {
     /// What is asked for. The picture of 1986 had levels; a colour has none.
-    fn new(still: &Still, picture: &PictureArguments) -> Self {
+    fn new(still: Still, picture: &PictureArguments) -> Self {
         match still.channel {
             Some(channel) => Self::Raw(channel),
             None if still.format == Format::Pfm => Self::Raw(Channel::Light),
@@ -105,7 +105,7 @@ impl Look {
 }
 
 /// What the format shows of a picture.
-fn wants(still: &Still) -> Wants {
+fn wants(still: Still) -> Wants {
     match (still.format, still.channel) {
         (Format::Txt | Format::Ans, _) => Wants::CELLS,
         (_, Some(Channel::Depth)) => Wants { depth: true, ..Wants::LIGHT },

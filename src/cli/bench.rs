@@ -27,7 +27,7 @@ const TURN: f64 = 5.0;
 
 /// Measures a scene and prints the figures.
 pub fn run(arguments: &BenchArguments) -> Result<(), CliError> {
-    input::say(&effects::check(&arguments.picture, &effects::Shown::Cells)?);
+    input::say(&effects::check(&arguments.picture, effects::Shown::Cells)?);
     let reading = Instant::now();
     let scene = input::read(&arguments.scene.file, arguments.scene.skip_unsupported, arguments.scene.memory)?;
     input::say(&scene.notes);

@@ -31,7 +31,7 @@ pub struct Still {
 /// What a row of the table is asked about.
 struct Given<'a> {
     picture: &'a PictureArguments,
-    shown: &'a Shown,
+    shown: Shown,
 }
 
 /// What becomes of an option without effect.
@@ -158,7 +158,7 @@ const OF_NO_LIGHT: &str = "depth, normal and object are found without light";
 const NOT_SENT: &str = "mirror and Snell rays come with --shading 4";
 
 /// Refuses options that contradict each other; gives a line for each that is without effect.
-pub fn check(picture: &PictureArguments, shown: &Shown) -> Result<Vec<String>, CliError> {
+pub fn check(picture: &PictureArguments, shown: Shown) -> Result<Vec<String>, CliError> {
     let given = Given { picture, shown };
     let mut lines = Vec::new();
     for Row { option, verdict, why, .. } in ROWS.iter().filter(|row| (row.holds)(&given)) {
@@ -176,7 +176,7 @@ impl Given<'_> {
         matches!(self.shown, Shown::Viewer)
     }
 
-    fn still(&self) -> Option<&Still> {
+    fn still(&self) -> Option<Still> {
         match self.shown {
             Shown::Still(still) => Some(still),
             Shown::Viewer | Shown::Cells => None,
@@ -253,7 +253,7 @@ mod tests {
     use super::*;
     use crate::cli::arguments::Arguments;
 
-    fn checked(arguments: &[&str], shown: &Shown) -> Result<Vec<String>, String> {
+    fn checked(arguments: &[&str], shown: Shown) -> Result<Vec<String>, String> {
         let arguments = [&["ray13", "die"], arguments].concat();
         let parsed = Arguments::try_parse_from(arguments).expect("arguments");
         check(&parsed.viewer.picture, shown).map_err(|e| e.to_string())
@@ -263,21 +263,21 @@ mod tests {
     #[test]
     fn the_viewer_refuses_sizes() {
         for size in ["--cells", "--dots"] {
-            let refused = checked(&[size, "80x25"], &Shown::Viewer).expect_err("no effect");
+            let refused = checked(&[size, "80x25"], Shown::Viewer).expect_err("no effect");
             assert!(refused.contains(size) && refused.contains("fills its terminal"), "{refused}");
-            assert_eq!(checked(&[size, "80x25"], &Shown::Cells), Ok(Vec::new()));
+            assert_eq!(checked(&[size, "80x25"], Shown::Cells), Ok(Vec::new()));
         }
-        assert_eq!(checked(&["--samples", "2", "--zoom", "3"], &Shown::Viewer), Ok(Vec::new()));
+        assert_eq!(checked(&["--samples", "2", "--zoom", "3"], Shown::Viewer), Ok(Vec::new()));
     }
 
     #[test]
     fn what_mirrors_do_is_said_to_be_of_no_effect_without_them() {
-        let lines = checked(&["--shading", "3", "--depth", "2", "--cutoff", "0"], &Shown::Cells);
+        let lines = checked(&["--shading", "3", "--depth", "2", "--cutoff", "0"], Shown::Cells);
         let lines = lines.expect("nothing is refused");
         assert!(lines.len() == 2 && lines.iter().all(|line| line.contains("--shading 4")), "{lines:?}");
-        assert_eq!(checked(&["--depth", "2"], &Shown::Cells), Ok(Vec::new()));
+        assert_eq!(checked(&["--depth", "2"], Shown::Cells), Ok(Vec::new()));
         assert_eq!(
-            checked(&["--preset", "pcat", "--depth", "2"], &Shown::Cells).map(|lines| lines.len()),
+            checked(&["--preset", "pcat", "--depth", "2"], Shown::Cells).map(|lines| lines.len()),
             Ok(1)
         );
     }

@@ -68,7 +68,7 @@ fn view(arguments: &ViewerArguments) -> Result<(), CliError> {
         tell(&terminal::why_a_still());
         return still();
     }
-    let no_effects = effects::check(picture, &effects::Shown::Viewer)?;
+    let no_effects = effects::check(picture, effects::Shown::Viewer)?;
     let look = picture.look(Some(&terminal));
     let opening = Opening { title: input::title(file), palette: look.palette, terminal };
     let viewed = if file == "-" && io::stdin().is_terminal() {

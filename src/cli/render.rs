@@ -26,7 +26,7 @@ pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
     to.check(&arguments.scene.file)?;
     let format = arguments.format.map_or_else(|| format_of(&to), Ok)?;
     let still = Still { format, channel: arguments.channel, levels: arguments.levels };
-    let notes = effects::check(&arguments.picture, &effects::Shown::Still(still))?;
+    let notes = effects::check(&arguments.picture, effects::Shown::Still(still))?;
     input::say(&notes);
     let reading = Instant::now();
     let scene = input::read(&arguments.scene.file, arguments.scene.skip_unsupported, arguments.scene.memory)?;
@@ -37,7 +37,7 @@ pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
     let terminal = if arguments.output.is_some() { None } else { terminal::of_output() };
     let look = look(&arguments.picture, format, terminal.as_ref());
     let size = if format.is_pixels() { Unsized::Pixels } else { Unsized::Screen };
-    let mut request = arguments.picture.request(&studio, look, wants(&still), size)?;
+    let mut request = arguments.picture.request(&studio, look, wants(still), size)?;
     // Raw values are for whoever computes with them.
     if format == Format::Pfm && request.options.precision == PrecisionChoice::Auto {
         request.options.precision = PrecisionChoice::Double;
@@ -48,7 +48,7 @@ pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
         return Err(CliError::Input(format!("{over}: use --structure tree")));
     }
     let writing = Instant::now();
-    let values = Values::new(&still, &arguments.picture);
+    let values = Values::new(still, &arguments.picture);
     let bytes = encoded(&frame, &request, format, values)?;
     frame.times[crate::stage::Stage::Display] = writing.elapsed();
     to.write(&bytes)?;
@@ -67,7 +67,7 @@ pub fn still(
     picture: &PictureArguments,
 ) -> Result<(), CliError> {
     let still = Still { format: Format::Txt, channel: None, levels: false };
-    let notes = effects::check(picture, &effects::Shown::Still(still))?;
+    let notes = effects::check(picture, effects::Shown::Still(still))?;
     input::say(&notes);
     let scene = input::read(file, skip_unsupported, memory)?;
     input::say(&scene.notes);
@@ -100,7 +100,7 @@ enum Values {
 
 impl Values {
     /// What is asked for. The picture of 1986 had levels; a colour has none.
-    fn new(still: &Still, picture: &PictureArguments) -> Self {
+    fn new(still: Still, picture: &PictureArguments) -> Self {
         match still.channel {
             Some(channel) => Self::Raw(channel),
             None if still.format == Format::Pfm => Self::Raw(Channel::Light),
@@ -111,7 +111,7 @@ impl Values {
 }
 
 /// What the format shows of a picture.
-fn wants(still: &Still) -> Wants {
+fn wants(still: Still) -> Wants {
     match (still.format, still.channel) {
         (Format::Txt | Format::Ans, _) => Wants::CELLS,
         (_, Some(Channel::Depth)) => Wants { depth: true, ..Wants::LIGHT },

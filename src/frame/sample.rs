@@ -30,19 +30,18 @@ const MOST: usize = 64;
 /// timed, so that the same picture has the same sample on every machine.
 const RAYS: u64 = 8192;
 
-/// Nor is one after so long: of a plate with a thousand holes a single ray takes 90 µs. Scenes that people draw by hand are
-/// far from it.
-const ENOUGH: Duration = Duration::from_millis(100);
+/// Nor is one after so much time of the blocks alone: of a plate with a thousand holes a single ray takes 90 µs. Scenes that
+/// people draw by hand are far from it.
+const ENOUGH: Duration = Duration::from_millis(50);
 
 /// So many blocks are traced all the same.
 const LEAST: usize = 8;
 
 /// After its stages have been timed, each block is timed so often without them, since to read the clock takes as long as a
-/// short stage. The least time is taken: whatever else a machine does only adds to it. One that takes `LONG` is timed once more,
-/// one that takes `VERY_LONG` not again: a clock's 30 ns are nothing beside so much work of so few stages.
+/// short stage. The least time is taken: whatever else a machine does only adds to it. One that takes `LONG` at least is timed
+/// once more: twice in a row the machine is seldom busy elsewhere for much longer than that.
 const TIMES: usize = 3;
 const LONG: Duration = Duration::from_micros(200);
-const VERY_LONG: Duration = Duration::from_millis(1);
 
 /// Cells that are composed by one thread: fewer than rayon would share out.
 const CELLS: usize = 512;
@@ -75,11 +74,10 @@ impl<C: Channel> Work<C> for Sampling<'_> {
         let mut dots = TileDots::new(Wants::LIGHT);
         let mut light = Vec::new();
         let mut sample = Sample::default();
-        let start = Instant::now();
         for (number, block) in blocks(request.dots).into_iter().enumerate() {
             let counts = &sample.counts;
             let rays = counts.primary_rays + counts.shadow_rays + counts.secondary_rays;
-            if number >= LEAST && (rays >= RAYS || start.elapsed() > ENOUGH) {
+            if number >= LEAST && (rays >= RAYS || sample.times.total() > ENOUGH) {
                 break;
             }
             dots.fit(&block);
@@ -87,17 +85,16 @@ impl<C: Channel> Work<C> for Sampling<'_> {
             tracer.tile(&block, &mut memory, &mut dots, &mut meter);
             let shares = meter.probe.stop();
             sample.counts += meter.counts;
-            let again = match shares.total() {
-                total if total > VERY_LONG => 0,
-                total if total > LONG => 1,
-                _ => TIMES,
-            };
-            let least = (0..again).map(|_| {
+            let mut least = shares.total();
+            for again in 0..TIMES {
+                if again > 0 && least > LONG {
+                    break;
+                }
                 let start = Instant::now();
                 tracer.tile(&block, &mut memory, &mut dots, &mut Meter::new(Silent));
-                start.elapsed()
-            });
-            sample.times += least.min().map_or(shares, |least| shared_out(&shares, least));
+                least = least.min(start.elapsed());
+            }
+            sample.times += shared_out(&shares, least);
             sample.dots += block.size.area();
             if block.size == Size::new(SIDE, SIDE) {
                 light.extend_from_slice(&dots.light);

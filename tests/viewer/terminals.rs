@@ -1,11 +1,7 @@
 //! What is sent to which terminal, byte by byte: the rows of docs/terminals.md.
-#![cfg(all(unix, feature = "app"))]
 
-mod pty;
-
-use pty::{Pty, Size};
-
-const VIEWER: &str = env!("CARGO_BIN_EXE_ray13");
+use crate::VIEWER;
+use crate::pty::{Pty, Size};
 
 const SCREEN: Size = Size { columns: 80, rows: 24 };
 

@@ -31,8 +31,8 @@ impl Encoder {
         self.bytes.push_str("\x1b[m\x1b[2J");
     }
 
-    /// Appends what turns a screen that shows `before` into one that shows `after`, of the same size. Bold, dim and
-    /// reversed are all the modifiers that it knows.
+    /// Appends what turns a screen that shows `before` into one that shows `after`, of the same size. Bold,
+    /// dim and reversed are all the modifiers that it knows.
     pub fn turn(&mut self, before: &Buffer, after: &Buffer) {
         // Somebody else may have moved the cursor: a place is absolute first.
         let mut cursor = None;
@@ -64,7 +64,7 @@ impl Encoder {
     }
 
     fn put(&mut self, cell: &Cell) {
-        self.pen = self.pen.change_to(self.pen_of(cell), &mut self.bytes);
+        self.pen.change_to(self.pen_of(cell), &mut self.bytes);
         self.bytes.push_str(cell.symbol());
     }
 
@@ -73,8 +73,8 @@ impl Encoder {
         if cell.symbol() == " " { self.pen.for_blank(meant) } else { meant }
     }
 
-    /// Moves the cursor, by what stands between where that is shorter. The cursor's own place is absent where it is
-    /// not known: behind the last column, and behind what may be two columns wide.
+    /// Moves the cursor, by what stands between where that is shorter. The cursor's own place is absent where
+    /// it is not known: behind the last column, and behind what may be two columns wide.
     fn go(&mut self, from: Option<Place>, to: Place, screen: &Buffer) {
         // A string takes every character.
         let _ = match from {
@@ -96,8 +96,8 @@ impl Encoder {
         };
     }
 
-    /// What stands between a column and a place to the right of it, where that is written with the same pen and in
-    /// no more than so many bytes.
+    /// What stands between a column and a place to the right of it, where that is written with the same pen
+    /// and in no more than so many bytes.
     fn between(&self, from: u16, to: Place, bytes: usize, screen: &Buffer) -> Option<String> {
         let mut text = String::new();
         for x in from..to.0 {
@@ -155,8 +155,8 @@ const fn color(color: style::Color) -> Color {
     })
 }
 
-/// Whether every terminal puts the cursor one column on: Latin letters, and what frames and pictures are made of.
-/// Of anything else it is not asked; the next place is then absolute.
+/// Whether every terminal puts the cursor one column on: Latin letters, and what frames and pictures are made
+/// of. Of anything else it is not asked; the next place is then absolute.
 fn is_one_column(symbol: &str) -> bool {
     let mut characters = symbol.chars();
     let one = matches!(

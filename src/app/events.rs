@@ -61,8 +61,8 @@ impl From<Input> for Event {
     }
 }
 
-/// Starts to listen to the terminal. The thread lasts as long as the process or the terminal, whoever still listens, for
-/// an answer that is on its way is waited for.
+/// Starts to listen to the terminal. The thread lasts as long as the process or the terminal, whoever still
+/// listens, for an answer that is on its way is waited for.
 pub fn listen_to_terminal(events: Sender<Event>, fence: Fence) -> io::Result<()> {
     input::start(move |input| {
         match input {

@@ -1,17 +1,19 @@
-//! Status requests that the terminal has not answered yet: what comes of them after the end would be the shell's.
+//! Status requests that the terminal has not answered yet: what comes of them after the end would be the
+//! shell's.
 
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// So long is an answer waited for where none has ever come: what a terminal across an ocean takes. A person who waits
-/// for the first picture, or for the shell, hardly notices.
+/// So long is an answer waited for where none has ever come: what a terminal across an ocean takes. A person
+/// who waits for the first picture, or for the shell, hardly notices.
 pub const UNKNOWN_PATIENCE: Duration = Duration::from_millis(200);
 
-/// So long are answers waited for at the end where the terminal has answered before, so that they are certainly on
-/// their way: the shell would take them for typed.
+/// So long are answers waited for at the end where the terminal has answered before, so that they are
+/// certainly on their way: the shell would take them for typed.
 const LAST_PATIENCE: Duration = Duration::from_secs(1);
 
-/// The count of requests without an answer, shared by the threads that write, read, and give the terminal back.
+/// The count of requests without an answer, shared by the threads that write, read, and give the terminal
+/// back.
 #[derive(Clone, Default)]
 pub struct Fence(Arc<Shared>);
 
@@ -51,7 +53,8 @@ impl Fence {
         waited.unwrap_or_else(PoisonError::into_inner).0.unanswered = 0;
     }
 
-    /// Expects no answers any more: they have come to whoever had the terminal meanwhile, or the terminal is gone.
+    /// Expects no answers any more: they have come to whoever had the terminal meanwhile, or the terminal is
+    /// gone.
     pub fn forget(&self) {
         self.lock().unanswered = 0;
         self.0.answered.notify_all();

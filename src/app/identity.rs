@@ -1,4 +1,5 @@
-//! Which program draws our screen, as far as it matters: whether it answers for a terminal that is somewhere else.
+//! Which program draws our screen, as far as it matters: whether it answers for a terminal that is somewhere
+//! else.
 
 use std::env;
 
@@ -12,13 +13,13 @@ pub const QUESTION: &[u8] = b"\x1b[>c";
 pub enum Identity {
     /// A terminal: its answers come from where the picture is seen.
     Terminal,
-    /// mosh, tmux or screen: they answer at once, whatever way the picture has still to go, and show it at a rate of
-    /// their own.
+    /// mosh, tmux or screen: they answer at once, whatever way the picture has still to go, and show it at a
+    /// rate of their own.
     Relay,
 }
 
-/// Whether a terminal of this name (`TERM`) may be asked: the Linux console answers a status request only, and what
-/// is called dumb could print the question.
+/// Whether a terminal of this name (`TERM`) may be asked: the Linux console answers a status request only,
+/// and what is called dumb could print the question.
 pub fn may_be_asked(name: &str) -> bool {
     !matches!(name, "" | "dumb" | "linux")
 }
@@ -30,7 +31,8 @@ impl Identity {
         told.unwrap_or_else(|| Self::from_environment(name, |variable| env::var_os(variable).is_some()))
     }
 
-    /// Who tells so by an answer. mosh says to be a VT220 of version 10, which no other does; tmux is `T`, screen `S`.
+    /// Who tells so by an answer. mosh says to be a VT220 of version 10, which no other does; tmux is `T`,
+    /// screen `S`.
     pub fn told(answer: Answer) -> Option<Self> {
         match answer {
             Answer::Identity { kind: 1, version: 10 } | Answer::Identity { kind: 83 | 84, .. } => {

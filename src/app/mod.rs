@@ -94,15 +94,14 @@ pub enum AppError {
     Panicked,
 }
 
-/// Shows the scene until the person quits. Standard output has to be a terminal; keys come from standard input,
-/// or from the controlling terminal where standard input is something else.
+/// Shows the scene until the person quits. Standard output has to be a terminal; keys come from standard
+/// input, or from the controlling terminal where standard input is something else.
 ///
-/// The terminal is given back on every way out: before this returns, before the message of a panic, and before
-/// the process ends by SIGHUP, SIGINT, SIGQUIT or SIGTERM, which is how it ends when it gets one of these.
-/// A thread keeps reading the terminal afterwards, so a program runs one viewer in its life.
+/// The terminal is given back on every way out: before this returns, before the message of a panic, and
+/// before the process ends by SIGHUP, SIGINT, SIGQUIT or SIGTERM, which is how it ends when it gets one of
+/// these. A thread keeps reading the terminal afterwards, so a program runs one viewer in its life.
 ///
-/// # Errors
-/// See [`AppError`].
+/// # Errors See [`AppError`].
 pub fn run(painter: impl Painter + 'static, settings: Settings) -> Result<(), AppError> {
     run_shared(&Arc::new(painter), settings)
 }

@@ -1,25 +1,25 @@
 //! When the next picture may be begun: when the terminal has shown enough of those before.
 //!
-//! A terminal's own queue is no measure. sshd and TCP take in a minute of pictures on a thin link, and what is shown is
-//! as old as what they hold. So a status request goes behind each picture, and the answer says that it is shown. No
-//! clock is in here: times are given.
+//! A terminal's own queue is no measure. sshd and TCP take in a minute of pictures on a thin link, and what
+//! is shown is as old as what they hold. So a status request goes behind each picture, and the answer says
+//! that it is shown. No clock is in here: times are given.
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-/// The time between two pictures through mosh, tmux or screen, which answer for themselves: 20 a second. mosh sends at
-/// most 50 and on most links 20 or fewer; more would only be thrown away there.
+/// The time between two pictures through mosh, tmux or screen, which answer for themselves: 20 a second. mosh
+/// sends at most 50 and on most links 20 or fewer; more would only be thrown away there.
 const RELAYED: Duration = Duration::from_millis(50);
 
-/// The time between two pictures where no answer ever comes: 10 a second, half of the above. At 2 KB a picture, that
-/// fills no serial line of today (230 kbit/s), and it still looks like motion.
+/// The time between two pictures where no answer ever comes: 10 a second, half of the above. At 2 KB a
+/// picture, that fills no serial line of today (230 kbit/s), and it still looks like motion.
 const UNANSWERED: Duration = Duration::from_millis(100);
 
 /// After this time a terminal that has never answered is taken for one that does not.
 const FIRST_PATIENCE: Duration = Duration::from_secs(1);
 
-/// After this time an answer is taken for lost where others have come: longer than the largest first picture (40 KB on
-/// 200 × 60 cells) takes at 80 kbit/s, and much longer than TCP needs to send a packet once more.
+/// After this time an answer is taken for lost where others have come: longer than the largest first picture
+/// (40 KB on 200 × 60 cells) takes at 80 kbit/s, and much longer than TCP needs to send a packet once more.
 const PATIENCE: Duration = Duration::from_secs(5);
 
 /// What is on its way to the terminal, and how fast it may follow.
@@ -108,8 +108,8 @@ impl Pacing {
         self.late = 0;
     }
 
-    /// How many updates may be on their way: a second one only where the way takes longer than the bytes. Where the
-    /// bytes take longer, it would only wait behind the first, and be older when it is shown.
+    /// How many updates may be on their way: a second one only where the way takes longer than the bytes.
+    /// Where the bytes take longer, it would only wait behind the first, and be older when it is shown.
     fn limit(&self) -> usize {
         match (self.shortest, self.latest) {
             (Some(shortest), Some(latest)) if shortest > latest / 2 => 2,
@@ -138,8 +138,8 @@ impl Pacing {
 mod tests {
     use super::*;
 
-    /// A link that takes `way` to and fro and `each` for the bytes of a picture; how many are shown in ten seconds if
-    /// there is always a new one, and how old the oldest is when it is shown.
+    /// A link that takes `way` to and fro and `each` for the bytes of a picture; how many are shown in ten
+    /// seconds if there is always a new one, and how old the oldest is when it is shown.
     fn run(mut pacing: Pacing, way: u64, each: u64, answers: bool) -> (usize, u64) {
         let begin = Instant::now();
         let at = |ms: u64| begin + Duration::from_millis(ms);

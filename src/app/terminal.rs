@@ -40,8 +40,8 @@ pub struct Terminal {
     encoder: Encoder,
 }
 
-/// What is ours of the terminal at the moment; shared by all threads that may have to give it back. Nothing is
-/// written to a screen that is not ours.
+/// What is ours of the terminal at the moment; shared by all threads that may have to give it back. Nothing
+/// is written to a screen that is not ours.
 #[derive(Clone)]
 pub struct Hold {
     ours: Arc<Mutex<Ours>>,
@@ -61,8 +61,8 @@ struct Ours {
 pub struct Replies {
     /// The answers, in their order.
     pub answers: Vec<Answer>,
-    /// How long it took until the terminal had come to the end of the questions, so that what has not been answered
-    /// never will be; absent where it has not come so far.
+    /// How long it took until the terminal had come to the end of the questions, so that what has not been
+    /// answered never will be; absent where it has not come so far.
     pub took: Option<Duration>,
 }
 
@@ -100,15 +100,14 @@ impl Terminal {
         Ok(())
     }
 
-    /// Asks questions, with a status request behind them, and waits for the answers up to that. What else happens
-    /// meanwhile is put aside.
+    /// Asks questions, with a status request behind them, and waits for the answers up to that. What else
+    /// happens meanwhile is put aside.
     ///
-    /// A terminal that does not know a question says nothing to it, but answers the status request, so that only one
-    /// that answers nothing at all is waited for.
+    /// A terminal that does not know a question says nothing to it, but answers the status request, so that
+    /// only one that answers nothing at all is waited for.
     pub fn ask(&mut self, questions: &[u8], inbox: &mut Inbox) -> io::Result<Replies> {
         let begun = Instant::now();
-        self.hold.write(&[questions, STATUS_REQUEST].concat())?;
-        self.hold.fence.sent();
+        self.hold.ask(questions)?;
         let mut replies = Replies::default();
         while let Ok(Some(event)) = inbox.next_arrival(Some(begun + fence::UNKNOWN_PATIENCE)) {
             match event {
@@ -150,8 +149,8 @@ impl Terminal {
         self.encoder.len()
     }
 
-    /// Sends what is queued, in one write, for the terminal to show at once, and a status request behind it. Nothing
-    /// queued, nothing sent; gives whether anything was.
+    /// Sends what is queued, in one write, for the terminal to show at once, and a status request behind it.
+    /// Nothing queued, nothing sent; gives whether anything was.
     pub fn send(&mut self) -> io::Result<bool> {
         let update = self.encoder.take();
         if update.is_empty() {
@@ -160,12 +159,7 @@ impl Terminal {
         let mut bytes = commands(&[&BeginSynchronizedUpdate]);
         bytes.extend(update.as_bytes());
         bytes.extend(commands(&[&EndSynchronizedUpdate]));
-        bytes.extend(STATUS_REQUEST);
-        let sent = self.hold.write(&bytes)?;
-        if sent {
-            self.hold.fence.sent();
-        }
-        Ok(sent)
+        self.hold.ask(&bytes)
     }
 }
 
@@ -186,7 +180,8 @@ impl Hold {
     fn acquire(&self) -> io::Result<()> {
         let mut ours = self.lock();
         if ours.modes {
-            // A shell may have changed the modes while we were stopped; crossterm believes they are still raw.
+            // A shell may have changed the modes while we were stopped; crossterm believes they are still
+            // raw.
             disable_raw_mode()?;
         }
         enable_raw_mode()?;
@@ -194,8 +189,8 @@ impl Hold {
         if ours.only_screen {
             return send(&commands(&[&ResetColor, &Hide]));
         }
-        // The alternate screen keeps colours with the cursor, and gives them back: they may be those of our last picture,
-        // after a stop that nobody could prepare.
+        // The alternate screen keeps colours with the cursor, and gives them back: they may be those of our
+        // last picture, after a stop that nobody could prepare.
         send(&commands(&[&ResetColor, &EnterAlternateScreen, &Hide]))
     }
 
@@ -204,8 +199,8 @@ impl Hold {
         self.fence.clone()
     }
 
-    /// Gives the terminal back: the screen of before, the cursor and plain attributes at once; cooked mode when the
-    /// answers have come that are on their way, for a shell would take them for typed.
+    /// Gives the terminal back: the screen of before, the cursor and plain attributes at once; cooked mode
+    /// when the answers have come that are on their way, for a shell would take them for typed.
     pub fn release(&self) -> io::Result<()> {
         let sent = self.lock().release_screen();
         if self.lock().modes {
@@ -214,8 +209,8 @@ impl Hold {
         self.lock().release().and(sent)
     }
 
-    /// Gives the terminal back as far as this goes without waiting: while another thread hangs in a write to a
-    /// terminal that takes nothing, only its modes can be.
+    /// Gives the terminal back as far as this goes without waiting: while another thread hangs in a write to
+    /// a terminal that takes nothing, only its modes can be.
     pub fn release_now(&self) {
         let _ = match self.ours.try_lock() {
             Ok(mut ours) => ours.release(),
@@ -224,11 +219,14 @@ impl Hold {
         };
     }
 
-    /// Writes where the screen is ours; gives whether it is.
-    fn write(&self, bytes: &[u8]) -> io::Result<bool> {
+    /// Writes, and a status request behind it, where the screen is ours; gives whether it is.
+    fn ask(&self, bytes: &[u8]) -> io::Result<bool> {
         let ours = self.lock();
         if ours.screen {
-            send(bytes)?;
+            // Before it is written: a terminal nearby answers sooner than this thread goes on, and the answer to what
+            // nobody has sent yet would not count.
+            self.fence.sent();
+            send(&[bytes, STATUS_REQUEST].concat())?;
         }
         Ok(ours.screen)
     }

@@ -131,8 +131,8 @@ impl<'a> Viewer<'a> {
         Ok(None)
     }
 
-    /// Sends a finished picture, with what is told beside it, in one write; and, where the terminal has shown enough of
-    /// what was sent before, begins the next picture and sends what else has changed.
+    /// Sends a finished picture, with what is told beside it, in one write; and, where the terminal has shown
+    /// enough of what was sent before, begins the next picture and sends what else has changed.
     fn show(&mut self, finished: Option<Box<Frame>>) -> Result<(), AppError> {
         let now = Instant::now();
         if let Some(frame) = finished {
@@ -169,7 +169,8 @@ impl<'a> Viewer<'a> {
         }
     }
 
-    /// Puts a picture on the screen: first with the figures of the one before, then, in the same write, its own.
+    /// Puts a picture on the screen: first with the figures of the one before, then, in the same write, its
+    /// own.
     fn put(&mut self, frame: Frame) {
         let begun = Instant::now();
         self.subject = self.next_subject.take().unwrap_or_else(|| self.model.subject());

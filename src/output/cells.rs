@@ -20,8 +20,8 @@ pub fn text(cells: &Grid<Cell>, out: &mut impl Write) -> io::Result<()> {
 }
 
 /// The cells with SGR sequences: those of 16-colour terminals for the attributes (ECMA-48, and the bright colours of
-/// aixterm), those of xterm for colours by number, one line per row. Only the colour that changes is sent, and none for the ink of a blank. Each line ends in the terminal's
-/// own colours, so that nothing beyond the picture is painted.
+/// aixterm), those of xterm for colours by number, one line per row. Only the colour that changes is sent, and none
+/// for the ink of a blank. Each line ends in the terminal's own colours, so that nothing beyond the picture is painted.
 pub fn ansi(cells: &Grid<Cell>, out: &mut impl Write) -> io::Result<()> {
     let mut line = String::new();
     for row in cells.rows() {
@@ -30,7 +30,7 @@ pub fn ansi(cells: &Grid<Cell>, out: &mut impl Write) -> io::Result<()> {
         for cell in row {
             let meant = Pen::new(cell.ink.into(), cell.paper.into());
             let next = if cell.glyph == ' ' { now.for_blank(meant) } else { meant };
-            now = now.change_to(next, &mut line);
+            now.change_to(next, &mut line);
             line.push(cell.glyph);
         }
         now.change_to(Pen::TERMINAL, &mut line);

@@ -1,4 +1,5 @@
-//! Colours and attributes as a terminal is told them: SGR sequences, and the shortest way from one to another.
+//! Colours and attributes as a terminal is told them: SGR sequences, and the shortest way from one to
+//! another.
 
 use std::fmt::Write as _;
 
@@ -56,7 +57,8 @@ impl Pen {
         Self { ink, paper, ..Self::TERMINAL }
     }
 
-    /// The pen nearest to this one that shows the same blank as `other`: strokes that are not there have no colour.
+    /// The pen nearest to this one that shows the same blank as `other`: strokes that are not there have no
+    /// colour.
     #[must_use]
     pub fn for_blank(self, other: Self) -> Self {
         if other.reversed {
@@ -66,9 +68,9 @@ impl Pen {
         }
     }
 
-    /// Appends the shortest sequence that changes this pen to `next`, which is given back.
-    pub fn change_to(self, next: Self, line: &mut String) -> Self {
-        if self != next {
+    /// Changes the pen to `next`, and appends the shortest sequence that says so.
+    pub fn change_to(&mut self, next: Self, line: &mut String) {
+        if *self != next {
             let from = line.len();
             line.push_str("\x1b[");
             self.put_changes(next, line);
@@ -86,7 +88,7 @@ impl Pen {
             }
             line.push('m');
         }
-        next
+        *self = next;
     }
 
     /// Appends the parameters that change this pen to `next`.
@@ -127,8 +129,8 @@ impl Pen {
 }
 
 /// Appends the parameters of a colour: 30 + attribute, 90 + attribute for a bright one (aixterm), 39 for the
-/// terminal's own; 38;5 and a number, or 38;2 and three bytes (with semicolons as xterm had them first, which every
-/// terminal reads).
+/// terminal's own; 38;5 and a number, or 38;2 and three bytes (with semicolons as xterm had them first, which
+/// every terminal reads).
 fn put_color(color: Color, add: u8, line: &mut String) {
     // A string takes every character.
     let _ = match color {
@@ -144,7 +146,7 @@ fn put_color(color: Color, add: u8, line: &mut String) {
 mod tests {
     use super::*;
 
-    fn change(from: Pen, to: Pen) -> String {
+    fn change(mut from: Pen, to: Pen) -> String {
         let mut line = String::new();
         from.change_to(to, &mut line);
         line

@@ -25,9 +25,9 @@ pub struct Size {
     pub rows: u16,
 }
 
-/// A shell script around the program: it waits for a line, sets the size before the program looks, and reports
-/// the program's number, how it ended, whether it left the modes of the terminal as they were, and what it left to
-/// be read, now or a little later. The named pipe ends with the last process.
+/// A shell script around the program: it waits for a line, sets the size before the program looks, and
+/// reports the program's number, how it ended, whether it left the modes of the terminal as they were, and
+/// what it left to be read, now or a little later. The named pipe ends with the last process.
 const SCRIPT: &str = r#"
     read -r line; exec 9>"$1"; stty cols "$2" rows "$3"; shift 3
     before=$(stty -g)
@@ -224,7 +224,8 @@ impl Pty {
         !come.contains(PollFlags::HUP)
     }
 
-    /// Waits for the program's end, with this code, the terminal as it was, and nothing left to be read by the shell.
+    /// Waits for the program's end, with this code, the terminal as it was, and nothing left to be read by
+    /// the shell.
     pub fn wait_for_end(&mut self, code: i32) {
         let report = format!("code={code} modes=same left=[]");
         self.wait_for(&report, |pty| pty.text().contains(&report) && pty.given_back());

@@ -32,7 +32,8 @@ pub enum Colored {
     Background,
 }
 
-/// The answer in a control sequence, given without its `ESC [`: private marks and parameters, and the final byte.
+/// The answer in a control sequence, given without its `ESC [`: private marks and parameters, and the final
+/// byte.
 pub fn in_sequence(parameters: &str, last: u8) -> Option<Answer> {
     match (parameters, last) {
         // 0 is "ready", 3 is "malfunction": either way it has come this far.
@@ -67,8 +68,8 @@ pub fn in_command(text: &str) -> Vec<Answer> {
     }
 }
 
-/// A colour as X11 writes it: `rgb:` and three numbers of one to four hexadecimal digits, of which the highest is
-/// full light; `rgba:` has a fourth for opacity.
+/// A colour as X11 writes it: `rgb:` and three numbers of one to four hexadecimal digits, of which the
+/// highest is full light; `rgba:` has a fourth for opacity.
 fn color(text: &str) -> Option<[u16; 3]> {
     let numbers = text.strip_prefix("rgb:").or_else(|| text.strip_prefix("rgba:"))?;
     let mut channels = numbers.split('/').map(channel);

@@ -1,7 +1,8 @@
 //! Bytes of a terminal to keys and answers, in whatever pieces they come.
 //!
-//! A pure state machine: the time is given, and it says until when it would like more bytes. ECMA-48 frames what is
-//! swallowed whole: a control sequence ends with its first byte from `@` to `~`, a control string with ST or BEL.
+//! A pure state machine: the time is given, and it says until when it would like more bytes. ECMA-48 frames
+//! what is swallowed whole: a control sequence ends with its first byte from `@` to `~`, a control string
+//! with ST or BEL.
 
 use std::time::{Duration, Instant};
 
@@ -9,16 +10,17 @@ use ratatui::crossterm::event::{KeyEvent, KeyModifiers};
 
 use super::{Input, answers, key_codes};
 
-/// A lone `ESC` is the key after this time. Terminals send a sequence in one write, and what parts it is one hop of
-/// the network; 50 ms is what vim and tmux came to wait too, and no person notices.
+/// A lone `ESC` is the key after this time. Terminals send a sequence in one write, and what parts it is one
+/// hop of the network; 50 ms is what vim and tmux came to wait too, and no person notices.
 const BELIEVE_ESCAPE: Duration = Duration::from_millis(50);
 
-/// What a person may have begun with Alt (`ESC [`) is waited for so long, and so long after an Esc that was believed
-/// a sequence may still go on: twice the longest way of a packet that TCP sends once more on a usual link.
+/// What a person may have begun with Alt (`ESC [`) is waited for so long, and so long after an Esc that was
+/// believed a sequence may still go on: twice the longest way of a packet that TCP sends once more on a usual
+/// link.
 const MISS_REST: Duration = Duration::from_secs(1);
 
-/// What is certainly of a terminal, because it has contents, is waited for longer: a link may stall, and half of a
-/// colour has letters that are keys.
+/// What is certainly of a terminal, because it has contents, is waited for longer: a link may stall, and half
+/// of a colour has letters that are keys.
 const MISS_END: Duration = Duration::from_secs(5);
 
 /// More than any answer that is read has; what is longer is still swallowed to its end.
@@ -92,7 +94,8 @@ impl Decoder {
         self.last.map(|last| last + patience)
     }
 
-    /// Gives up what has been waited for long enough: `ESC` alone was a key, and so was what came alone after it.
+    /// Gives up what has been waited for long enough: `ESC` alone was a key, and so was what came alone after
+    /// it.
     pub fn wait_no_longer(&mut self, now: Instant) -> Vec<Input> {
         let mut inputs = Vec::new();
         if self.patience_ends().is_some_and(|end| end <= now) {
@@ -129,8 +132,7 @@ impl Decoder {
             (State::Escape, 0x1b) => inputs.push(key('\x1b')),
             (State::Escape, byte) => self.after_escape(byte, inputs),
             (State::String, 0x1b) => self.state = State::StringEscape,
-            (State::String, 0x07) => self.end_string(inputs),
-            (State::StringEscape, b'\\') => self.end_string(inputs),
+            (State::String, 0x07) | (State::StringEscape, b'\\') => self.end_string(inputs),
             (State::StringEscape, byte) => {
                 // The string was cut off, and this is the next thing.
                 self.begin(State::Escape);
@@ -157,7 +159,8 @@ impl Decoder {
                     State::SingleShift => self.end_single_shift(byte, inputs),
                     State::LinuxConsole => self.end(key_codes::linux_console(byte), inputs),
                     State::Sequence => self.in_sequence(byte, inputs),
-                    // Each command has a number; a `]` without one, after an Esc that was believed, was a key.
+                    // Each command has a number; a `]` without one, after an Esc that was believed, was a
+                    // key.
                     _ if self.late && self.held.starts_with(b"]") && !self.held[1].is_ascii_digit() => {
                         self.give_characters(inputs);
                     }
@@ -238,8 +241,8 @@ impl Decoder {
         self.end(key, inputs);
     }
 
-    /// Ends a sequence. One without a meaning is swallowed; but what came some time after Esc and has no parameters
-    /// was typed.
+    /// Ends a sequence. One without a meaning is swallowed; but what came some time after Esc and has no
+    /// parameters was typed.
     fn end(&mut self, key: Option<KeyEvent>, inputs: &mut Vec<Input>) {
         match key {
             Some(key) => inputs.push(Input::Key(key)),

@@ -131,8 +131,8 @@ fn what_is_foreign_is_swallowed_whole() {
             let (head, rest) = foreign.split_at(at);
             for later in [0, 40, 500, 900] {
                 let keys = out(&[(head, 0), (rest, later), ("x", later + 2_000)]);
-                // An ESC alone is believed; what belongs to it is swallowed all the same, except that a lone backslash
-                // cannot be told from the key.
+                // An ESC alone is believed; what belongs to it is swallowed all the same, except that a lone
+                // backslash cannot be told from the key.
                 let escape = ["Esc".to_owned()];
                 let keys = if head == "\x1b" { keys.strip_prefix(&escape).unwrap_or(&keys) } else { &keys };
                 let keys =
@@ -212,7 +212,9 @@ proptest! {
     }
 
     #[test]
-    fn no_bytes_are_too_odd(pieces in prop::collection::vec((prop::collection::vec(any::<u8>(), 0..40), 0_u64..3_000), 0..8)) {
+    fn no_bytes_are_too_odd(
+        pieces in prop::collection::vec((prop::collection::vec(any::<u8>(), 0..40), 0_u64..3_000), 0..8),
+    ) {
         let mut at = 0;
         let pieces: Vec<_> = pieces.iter().map(|(bytes, later)| { at += later; (bytes.as_slice(), at) }).collect();
         out_of_bytes(&pieces);

@@ -1,5 +1,5 @@
-//! Keys by what terminals send for them: characters, control characters, and the sequences of xterm, rxvt, PuTTY, the
-//! Linux console and kitty.
+//! Keys by what terminals send for them: characters, control characters, and the sequences of xterm, rxvt,
+//! PuTTY, the Linux console and kitty.
 
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
@@ -37,10 +37,11 @@ pub fn linux_console(last: u8) -> Option<KeyEvent> {
     matches!(last, b'A'..=b'E').then(|| KeyCode::F(last - b'A' + 1).into())
 }
 
-/// The key in a control sequence, given without its `ESC [`: parameters and the final byte. A key that is let go
-/// is none.
+/// The key in a control sequence, given without its `ESC [`: parameters and the final byte. A key that is let
+/// go is none.
 pub fn in_sequence(parameters: &str, last: u8) -> Option<KeyEvent> {
-    // xterm: what is held down is the second parameter, less one, as bits; kitty: what happens stands behind a colon.
+    // xterm: what is held down is the second parameter, less one, as bits; kitty: what happens stands behind
+    // a colon.
     let mut fields = parameters.split(';');
     let first = number(fields.next())?;
     let mut held = fields.next().unwrap_or_default().split(':');

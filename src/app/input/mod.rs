@@ -1,9 +1,10 @@
 //! What comes from the terminal: bytes in, keys and answers out.
 //!
-//! Our own reading, because crossterm's knows the answers to its own questions only: it takes the colour of an
-//! OSC answer for keys, and the first piece of a split arrow for Esc. A parser of what goes *to* a terminal (`vte`)
-//! doesn't fit either: there `ESC` and a space begin a sequence, here they are Alt and a key; it doesn't tell when
-//! an APC or an unknown CSI ends, which is where a key may begin; and it keeps an OSC of any length.
+//! Our own reading, because crossterm's knows the answers to its own questions only: it takes the colour of
+//! an OSC answer for keys, and the first piece of a split arrow for Esc. A parser of what goes *to* a
+//! terminal (`vte`) doesn't fit either: there `ESC` and a space begin a sequence, here they are Alt and a
+//! key; it doesn't tell when an APC or an unknown CSI ends, which is where a key may begin; and it keeps an
+//! OSC of any length.
 
 mod answers;
 mod decoder;

@@ -16,7 +16,7 @@ use super::decoder::Decoder;
 /// the clock only while a sequence is unfinished.
 pub fn start(tell: impl FnMut(Input) + Send + 'static) -> io::Result<()> {
     let line = line()?;
-    thread::Builder::new().name("keys".to_owned()).spawn(move || read_to_end(line, tell)).map(drop)
+    thread::Builder::new().name("keys".to_owned()).spawn(move || read_to_end(&line, tell)).map(drop)
 }
 
 /// The terminal: standard input, or the controlling terminal where that is something else.
@@ -25,10 +25,10 @@ fn line() -> io::Result<OwnedFd> {
     if input.is_terminal() { input.as_fd().try_clone_to_owned() } else { Ok(File::open("/dev/tty")?.into()) }
 }
 
-fn read_to_end(line: OwnedFd, mut tell: impl FnMut(Input)) {
+fn read_to_end(line: &OwnedFd, mut tell: impl FnMut(Input)) {
     let mut decoder = Decoder::default();
     loop {
-        let inputs = match next_inputs(&line, &mut decoder) {
+        let inputs = match next_inputs(line, &mut decoder) {
             Ok(Some(inputs)) => inputs,
             Ok(None) => vec![Input::HungUp],
             Err(error) => vec![Input::Failed(error)],

@@ -2,7 +2,11 @@
 #![cfg(all(unix, feature = "app"))]
 
 mod link;
+#[path = "viewer/loading.rs"]
+mod loading;
 mod pty;
+#[path = "viewer/terminals.rs"]
+mod terminals;
 
 use std::path::Path;
 use std::process::Command;

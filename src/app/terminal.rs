@@ -107,8 +107,7 @@ impl Terminal {
     /// only one that answers nothing at all is waited for.
     pub fn ask(&mut self, questions: &[u8], inbox: &mut Inbox) -> io::Result<Replies> {
         let begun = Instant::now();
-        self.hold.write(&[questions, STATUS_REQUEST].concat())?;
-        self.hold.fence.sent();
+        self.hold.ask(questions)?;
         let mut replies = Replies::default();
         while let Ok(Some(event)) = inbox.next_arrival(Some(begun + fence::UNKNOWN_PATIENCE)) {
             match event {
@@ -160,12 +159,7 @@ impl Terminal {
         let mut bytes = commands(&[&BeginSynchronizedUpdate]);
         bytes.extend(update.as_bytes());
         bytes.extend(commands(&[&EndSynchronizedUpdate]));
-        bytes.extend(STATUS_REQUEST);
-        let sent = self.hold.write(&bytes)?;
-        if sent {
-            self.hold.fence.sent();
-        }
-        Ok(sent)
+        self.hold.ask(&bytes)
     }
 }
 
@@ -225,11 +219,14 @@ impl Hold {
         };
     }
 
-    /// Writes where the screen is ours; gives whether it is.
-    fn write(&self, bytes: &[u8]) -> io::Result<bool> {
+    /// Writes, and a status request behind it, where the screen is ours; gives whether it is.
+    fn ask(&self, bytes: &[u8]) -> io::Result<bool> {
         let ours = self.lock();
         if ours.screen {
-            send(bytes)?;
+            // Before it is written: a terminal nearby answers sooner than this thread goes on, and the answer to what
+            // nobody has sent yet would not count.
+            self.fence.sent();
+            send(&[bytes, STATUS_REQUEST].concat())?;
         }
         Ok(ours.screen)
     }

@@ -39,7 +39,7 @@ const THIN: &str = r#"
     nsenter -t $server -n "$(command -v sshd)" -D -f "$folder/sshd_config" & sshd=$!
     trap 'kill $sshd $server' EXIT
     ssh -F none -i "$folder/key" -o StrictHostKeyChecking=no -o UserKnownHostsFile=/dev/null -o LogLevel=ERROR \
-        -o ConnectionAttempts=20 -p 2213 -tt root@10.13.0.2 "$program $scene"
+        -o ConnectionAttempts=20 -p 2213 -tt root@10.13.0.2 "LC_ALL=C.UTF-8 $program $scene"
 "#;
 
 /// Why there is no thin link here; absent where there is one.

@@ -1,16 +1,12 @@
 //! A scene that takes long to read: the screen says what is at work, and keys work meanwhile.
-#![cfg(all(unix, feature = "app"))]
-
-mod pty;
 
 use std::fs::{self, File};
 use std::io::Write;
 use std::path::PathBuf;
 use std::process::Command;
 
-use pty::{Pty, Size};
-
-const VIEWER: &str = env!("CARGO_BIN_EXE_ray13");
+use crate::VIEWER;
+use crate::pty::{Pty, Size};
 
 const SCREEN: Size = Size { columns: 80, rows: 24 };
 

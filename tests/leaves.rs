@@ -30,7 +30,10 @@ fn text(bytes: &[u8]) -> String {
 fn the_picture_is_that_of_the_rest() {
     let whole = "difference() { cube(size = [4, 4, 4]); cylinder($fn = 0, $fa = 12, $fs = 2, h = 9, r1 = 1, r2 = 1); }";
     let rest = levels(&file("rest.csg", whole), &[]);
-    let wrong = whole.replace("cylinder(", "cube(size = [0, 1, 1]); cylinder($fn = 0, h = inf, r1 = 1, r2 = 1); cylinder(");
+    let wrong = whole.replace(
+        "cylinder(",
+        "cube(size = [0, 1, 1]); cylinder($fn = 0, h = inf, r1 = 1, r2 = 1); cylinder(",
+    );
     let scene = file("wrong.scene", &wrong);
     let (program, person) = (levels(&file("wrong.csg", &wrong), &[]), levels(&scene, &[]));
     assert!(program.status.success(), "{}", text(&program.stderr));
@@ -42,7 +45,8 @@ fn the_picture_is_that_of_the_rest() {
 
 #[test]
 fn an_intersection_with_something_unknown_is_not_its_other_child() {
-    let unknown = "intersection() { linear_extrude(height = 3) { circle(r = 5); } cube(size = [1000, 1000, 1000]); }";
+    let unknown =
+        "intersection() { linear_extrude(height = 3) { circle(r = 5); } cube(size = [1000, 1000, 1000]); }";
     let (alone, both) = ("cube(size = [10, 1, 1]);", format!("{unknown}\ncube(size = [10, 1, 1]);"));
     let shown = levels(&file("unknown.csg", &both), &["--skip-unsupported"]);
     assert_eq!(text(&shown.stdout), text(&levels(&file("alone.csg", alone), &[]).stdout));
@@ -50,13 +54,17 @@ fn an_intersection_with_something_unknown_is_not_its_other_child() {
     let none = levels(&file("none.csg", unknown), &["--skip-unsupported"]);
     let message = text(&none.stderr);
     assert_eq!(none.status.code(), Some(2));
-    assert!(message.contains("nothing is left") && message.contains("`linear_extrude` is left out"), "{message}");
+    assert!(
+        message.contains("nothing is left") && message.contains("`linear_extrude` is left out"),
+        "{message}"
+    );
     assert!(!message.contains("add a solid"), "{message}");
 }
 
 #[test]
 fn operators_two_thousand_deep_are_drawn() {
-    let levels = "difference() { cube(9, center = true); intersection() { cube(8, center = true); ".repeat(999);
+    let levels =
+        "difference() { cube(9, center = true); intersection() { cube(8, center = true); ".repeat(999);
     let nested = format!("{levels}sphere(1);{}", "}".repeat(2 * 999));
     thread::scope(|scope| {
         // Half of what a thread gets by default.

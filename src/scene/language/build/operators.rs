@@ -49,6 +49,10 @@ impl Builder {
         match word.meaning {
             Meaning::Solid(kind) => {
                 let built = match self.primitive(kind, word, call, &context) {
+                    // The most frequent of all: what is an object at once waits for nobody.
+                    Ok(solid) if is_object && call.is_ended => {
+                        return self.scene.objects.push(Object { name: None, solid });
+                    }
                     Ok(solid) => {
                         self.solids.push(solid);
                         Built::Solids(Run::One, false)

@@ -10,6 +10,9 @@ use super::layout::{Around, Panels, Rows};
 use super::theme::Theme;
 use crate::stage::Step;
 
+/// Columns of the least part of a note that tells anything: its line, and the word that it is about.
+const LEAST_NOTE: u16 = 24;
+
 /// What the frame says.
 #[derive(Clone, Debug, Default)]
 pub struct Labels<'a> {
@@ -88,9 +91,12 @@ fn draw_rows(rows: &Rows, labels: &Labels, theme: &Theme, buffer: &mut Buffer) {
     let used = draw_bar(rows.bar, theme, buffer);
     let left = Rect { x: rows.bar.x + used, width: rows.bar.width - used, ..rows.bar };
     if let Some(text) = labels.working.as_ref().map(words).or_else(|| labels.note.clone()) {
-        let columns = (Line::from(text.as_str()).width() as u16).min(left.width.saturating_sub(1));
-        let place = Rect { x: left.right() - columns, width: columns, ..left };
-        Line::from(text).style(theme.dim).render(place, buffer);
+        let (whole, room) = (Line::from(text.as_str()).width() as u16, left.width.saturating_sub(1));
+        let columns = whole.min(room);
+        if columns == whole || columns >= LEAST_NOTE {
+            let place = Rect { x: left.right() - columns, width: columns, ..left };
+            Line::from(text).style(theme.dim).render(place, buffer);
+        }
     }
 }
 

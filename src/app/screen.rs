@@ -265,7 +265,10 @@ mod tests {
         );
         model.update(&still(), Some(Action::FlyForward));
         let seen = text(&drawn(&model, Some(&shown)));
-        assert!(seen.contains("eye. Home ") && seen.contains(" goes back "), "{seen}");
+        assert!(
+            seen.contains(" the scene is behind the eye. ") && seen.contains(" Home goes back "),
+            "{seen}"
+        );
     }
 
     #[test]

@@ -31,6 +31,8 @@ pub struct FlowChart {
     shading: Option<Shading>,
     bytes: Option<usize>,
     working: Option<Step>,
+    /// Whether there is a frame that it is of.
+    counted: bool,
     lit: Style,
     dim: Style,
 }
@@ -54,6 +56,7 @@ impl FlowChart {
             shading: None,
             bytes: None,
             working: None,
+            counted: true,
             lit: Style::new().fg(Color::Gray),
             dim: Style::new().fg(Color::DarkGray),
         }
@@ -62,7 +65,7 @@ impl FlowChart {
     /// The chart before anything was counted.
     pub fn idle() -> Self {
         let nothing = Size::new(0, 0);
-        Self::new(&Frame::blank(nothing, Grid::from_values(nothing, Vec::new())))
+        Self { counted: false, ..Self::new(&Frame::blank(nothing, Grid::from_values(nothing, Vec::new()))) }
     }
 
     /// What is at work: its stage has a mark, its part of the whole in place of its count, and a bar for that.
@@ -186,7 +189,11 @@ impl Widget for &FlowChart {
         let bar_columns = area.width.saturating_sub(NAME_COLUMNS + COUNT_COLUMNS + 1);
         for (y, stage) in (area.top()..area.bottom()).zip(Stage::ALL) {
             let step = self.working.filter(|step| step.task.stage() == stage);
-            let line = step.map_or_else(|| self.line(stage), |step| Line::at_work(&step));
+            let line = match step {
+                Some(step) => Line::at_work(&step),
+                None if self.counted => self.line(stage),
+                None => Line::idle(),
+            };
             let style = if line.busy { self.lit } else { self.dim };
             let text = format!(
                 "{:>2}{}{:<8}{:>width$} ",

@@ -9,6 +9,7 @@ use super::lost::Lost;
 use super::{Builder, Context};
 use crate::scene::language::syntax::Span;
 use crate::scene::language::vocabulary::OperatorWord;
+use crate::scene::memory::ASSEMBLED_OPERATOR;
 use crate::scene::{Diagnostic, Object, Solid};
 
 /// A call that is open.
@@ -125,7 +126,12 @@ impl Builder {
             Some(OperatorWord::Difference) if frame.first_lost.is_some() => frame.first_lost,
             _ => (self.solids.len() == frame.start).then_some(none),
         };
-        let Some(lost) = lost else { return Built::Solids(frame.run, any_left_out) };
+        let Some(lost) = lost else {
+            if frame.run != Run::One && frame.operator() != Some(OperatorWord::Union) {
+                self.memory.take(ASSEMBLED_OPERATOR);
+            }
+            return Built::Solids(frame.run, any_left_out);
+        };
         self.solids.truncate(frame.start);
         if lost == Lost::Missing && frame.present > 1 {
             self.note_left_out(frame);

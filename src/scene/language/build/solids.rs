@@ -9,7 +9,7 @@ use crate::math::{DAffine3, DMat3, DVec3, Placement};
 use crate::scene::diagnostic::Sink;
 use crate::scene::language::syntax::Call;
 use crate::scene::language::vocabulary::{SolidWord, Word};
-use crate::scene::memory::{ASSEMBLED, ASSEMBLED_TRIANGLE};
+use crate::scene::memory::{ASSEMBLED, ASSEMBLED_FACES, ASSEMBLED_TRIANGLE};
 use crate::scene::model::is_within_reach;
 use crate::scene::{Diagnostic, Object, Primitive, REACH, Shape, Solid};
 
@@ -62,8 +62,9 @@ impl Builder {
         let own = match &shape {
             Shape::Mesh(mesh) => {
                 let bytes = size_of_val(mesh.points.as_slice()) + size_of_val(mesh.triangles.as_slice());
-                bytes as u64 + ASSEMBLED_TRIANGLE * mesh.triangles.len() as u64
+                bytes as u64 + ASSEMBLED_FACES + ASSEMBLED_TRIANGLE * mesh.triangles.len() as u64
             }
+            Shape::Facets(_) => ASSEMBLED_FACES,
             _ => 0,
         };
         let bytes = own + size_of::<Object>() as u64 + ASSEMBLED;

@@ -267,10 +267,10 @@ impl<'a> Parser<'a> {
     /// Counts a part of a value that is kept; an error where that is more than there may be.
     fn keep(&mut self, bytes: usize, reading: &mut Reading<'_>) -> Result<(), Reported> {
         self.value_bytes += bytes as u64;
-        // A list grows by doubling, and is copied for that: thrice its own at the worst.
-        if reading.memory.has_room_for(3 * self.value_bytes) {
+        // A list grows by doubling: up to twice its own.
+        if reading.memory.has_room_for(2 * self.value_bytes) {
             return Ok(());
         }
-        Err(reading.memory.refuse(3 * self.value_bytes, self.previous.end, reading.sink))
+        Err(reading.memory.refuse(2 * self.value_bytes, self.previous.end, reading.sink))
     }
 }

@@ -49,7 +49,7 @@ pub struct Loading<P, E> {
 /// What came of waiting.
 pub enum Waited<P, E> {
     /// The painter, or why there is none.
-    Loaded(Result<(P, Settings), E>),
+    Loaded(Box<Result<(P, Settings), E>>),
     /// The person did not wait.
     Ended(End),
 }
@@ -103,7 +103,8 @@ impl<P: Send + 'static, E: Send + 'static> Loading<P, E> {
             terminal.send()?;
             match inbox.next(None).map_err(|Gone| AppError::HungUp)? {
                 Some(Event::Loaded) => {
-                    return self.loaded.try_recv().map(Waited::Loaded).map_err(|_| AppError::Panicked);
+                    let loaded = self.loaded.try_recv().map_err(|_| AppError::Panicked)?;
+                    return Ok(Waited::Loaded(Box::new(loaded)));
                 }
                 Some(Event::Working(now)) => step = now,
                 Some(Event::Key(key)) => match keys::action(key) {

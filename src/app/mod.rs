@@ -138,7 +138,7 @@ pub fn open<P: Painter + 'static, E: From<AppError> + Send + 'static>(
     } else {
         let mut session = Session::start(&opening.terminal, (sender, events))?;
         match loading.wait(opening, &mut session.terminal, &mut session.inbox) {
-            Ok(Waited::Loaded(loaded)) => (session, loaded),
+            Ok(Waited::Loaded(loaded)) => (session, *loaded),
             Ok(Waited::Ended(end)) => {
                 session.end(Ok(end))?;
                 return Ok(None);

@@ -126,6 +126,7 @@ pub struct PlanArguments {
 
 /// What decides the picture.
 #[derive(Clone, Debug, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "one for each switch")]
 pub struct PictureArguments {
     /// Options that belong together; any that is given besides has the last word
     #[arg(long, value_enum)]

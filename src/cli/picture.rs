@@ -264,11 +264,10 @@ impl PictureArguments {
             Some(PaletteName::Mono) => Palette::Mono(ground),
             Some(PaletteName::Color) => Palette::Color(depth()),
             Some(PaletteName::Dos16) => Palette::DOS,
-            Some(PaletteName::Dos) => four_grays(),
             None if forbidden() || terminal.is_some_and(|terminal| !terminal.has_grays()) => {
                 Palette::Mono(ground)
             }
-            None => four_grays(),
+            Some(PaletteName::Dos) | None => four_grays(),
         }
     }
 

@@ -26,11 +26,11 @@ fn the_mix_of_ink_and_paper_is_the_light_of_the_level() {
 
 #[test]
 fn a_pc_has_the_printed_table() {
+    use Paint::{Black, DarkGray, LightGray, White};
     let written = |papers| -> Vec<(char, Paint, Paint)> {
         let shades = Shades::new(VGA, papers);
         Level::all().map(|l| shades.cell(l, 0, 0)).map(|c| (c.glyph, c.ink, c.paper)).collect()
     };
-    use Paint::{Black, DarkGray, LightGray, White};
     let mut table = vec![
         (' ', DarkGray, Black),
         ('░', DarkGray, Black),

@@ -42,7 +42,7 @@ pub enum Glyphs {
 impl Glyphs {
     /// The mode that is named; what `terminal` draws where none is. A file or a pipe is no terminal, and its bytes
     /// depend on nothing around it.
-    fn mode(self, terminal: Option<&Capabilities>) -> GlyphMode {
+    fn mode(self, terminal: Option<Capabilities>) -> GlyphMode {
         match self {
             Self::Auto => terminal.map_or(GlyphMode::Blocks, |terminal| terminal.glyphs),
             Self::Blocks => GlyphMode::Blocks,
@@ -215,22 +215,21 @@ impl PictureArguments {
     }
 
     /// Characters and colours asked for; else those that `terminal` has, where a terminal is meant.
-    pub fn look(&self, terminal: Option<&Capabilities>) -> Look {
+    pub fn look(&self, terminal: Option<Capabilities>) -> Look {
         Look { glyphs: self.glyphs.mode(terminal), palette: self.palette(terminal) }
     }
 
     /// The palette asked for; else what the terminal and `NO_COLOR` (<https://no-color.org>) leave.
-    fn palette(&self, terminal: Option<&Capabilities>) -> Palette {
+    fn palette(&self, terminal: Option<Capabilities>) -> Palette {
         let forbidden = || std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
         // In a file they are meant for a terminal like the one here.
-        let depth = || terminal.copied().unwrap_or_else(capabilities).color_depth();
+        let depth = || terminal.unwrap_or_else(capabilities).color_depth();
         match self.palette {
             Some(PaletteName::Gray) => Palette::Gray(depth()),
             Some(PaletteName::Mono) => Palette::Mono,
             Some(PaletteName::Color) => Palette::Color(depth()),
-            Some(PaletteName::Dos) => Palette::Dos,
             None if forbidden() || terminal.is_some_and(|terminal| !terminal.has_grays()) => Palette::Mono,
-            None => Palette::Dos,
+            Some(PaletteName::Dos) | None => Palette::Dos,
         }
     }
 

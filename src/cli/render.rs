@@ -32,7 +32,7 @@ pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
     let wants = wants(format, arguments.channel);
     // What goes into a file is not for the terminal that the command runs in.
     let terminal = if arguments.output.is_some() { None } else { terminal::of_output() };
-    let look = look(&arguments.picture, format, terminal.as_ref());
+    let look = look(&arguments.picture, format, terminal);
     let mut request = arguments.picture.request(&studio, look, wants)?;
     // Raw values are for whoever computes with them.
     if format == Format::Pfm && request.options.precision == PrecisionChoice::Auto {
@@ -66,7 +66,7 @@ pub fn still(
     let scene = input::read(file, skip_unsupported, memory)?;
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
-    let look = look(picture, Format::Txt, terminal::of_output().as_ref());
+    let look = look(picture, Format::Txt, terminal::of_output());
     let request = picture.request(&studio, look, Wants::CELLS)?;
     let frame = studio.draw(&request);
     print(&encoded(&frame, &request, Format::Txt, None)?)
@@ -96,7 +96,7 @@ fn wants(format: Format, channel: Option<Channel>) -> Wants {
 }
 
 /// Text has no colours to lose: its shades are ink.
-fn look(picture: &PictureArguments, format: Format, terminal: Option<&Capabilities>) -> Look {
+fn look(picture: &PictureArguments, format: Format, terminal: Option<Capabilities>) -> Look {
     let look = picture.look(terminal);
     if format == Format::Txt { Look { palette: Palette::Mono, ..look } } else { look }
 }

@@ -27,7 +27,7 @@ pub struct Labels<'a> {
 }
 
 /// How far a piece of work is, in words.
-pub fn words(step: &Step) -> String {
+pub fn words(step: Step) -> String {
     let name = step.task.name();
     step.percent.map_or_else(|| name.to_owned(), |percent| format!("{name} {percent} %"))
 }
@@ -64,7 +64,7 @@ fn draw_panels(panels: &Panels, labels: &Labels, theme: &Theme, buffer: &mut Buf
     if let Some(note) = &labels.note {
         picture = picture.title_bottom(format!(" {note} "));
     }
-    if let Some(step) = &labels.working {
+    if let Some(step) = labels.working {
         picture = picture.title_bottom(Line::from(format!(" {} ", words(step))).right_aligned());
     }
     picture.render(panels.picture, buffer);
@@ -90,7 +90,7 @@ fn draw_rows(rows: &Rows, labels: &Labels, theme: &Theme, buffer: &mut Buffer) {
 
     let used = draw_bar(rows.bar, theme, buffer);
     let left = Rect { x: rows.bar.x + used, width: rows.bar.width - used, ..rows.bar };
-    if let Some(text) = labels.working.as_ref().map(words).or_else(|| labels.note.clone()) {
+    if let Some(text) = labels.working.map(words).or_else(|| labels.note.clone()) {
         let (whole, room) = (Line::from(text.as_str()).width() as u16, left.width.saturating_sub(1));
         let columns = whole.min(room);
         if columns == whole || columns >= LEAST_NOTE {

@@ -9,7 +9,7 @@ use crate::output::Capabilities;
 /// Puts the nearest character that the terminal has in the place of each that it lacks: in ASCII only, where its
 /// locale is not UTF-8, and in the DOS set, where it has little more. What is asked for by name, the picture, stays
 /// out of `area`.
-pub fn fit(buffer: &mut Buffer, area: Rect, terminal: &Capabilities) {
+pub fn fit(buffer: &mut Buffer, area: Rect, terminal: Capabilities) {
     let replace: fn(char) -> char = match terminal.glyphs {
         _ if !terminal.utf8 => ascii,
         GlyphMode::Cp437 => dos,
@@ -58,7 +58,7 @@ mod tests {
     use super::*;
     use ratatui::style::Style;
 
-    fn fitted(text: &str, terminal: &Capabilities) -> String {
+    fn fitted(text: &str, terminal: Capabilities) -> String {
         let mut buffer = Buffer::empty(Rect::new(0, 0, 20, 1));
         buffer.set_string(0, 0, text, Style::new());
         fit(&mut buffer, Rect::new(0, 0, 40, 40), terminal);
@@ -68,14 +68,14 @@ mod tests {
     #[test]
     fn without_utf_8_all_is_ascii() {
         let terminal = Capabilities { utf8: false, glyphs: GlyphMode::Ascii, ..Capabilities::default() };
-        assert_eq!(fitted("╔═║─│┐×█▌░", &terminal), "+=|-|+x##.");
-        assert_eq!(fitted("e\u{301}\u{e9}한글.scene", &terminal), "e?? ? .scene");
+        assert_eq!(fitted("╔═║─│┐×█▌░", terminal), "+=|-|+x##.");
+        assert_eq!(fitted("e\u{301}\u{e9}한글.scene", terminal), "e?? ? .scene");
     }
 
     #[test]
     fn a_dos_font_has_frames_and_no_times() {
         let terminal = Capabilities { glyphs: GlyphMode::Cp437, ..Capabilities::default() };
-        assert_eq!(fitted("╔═║ 40×25°", &terminal), "╔═║ 40x25°");
-        assert_eq!(fitted("╔═║ 40×25°", &Capabilities::default()), "╔═║ 40×25°");
+        assert_eq!(fitted("╔═║ 40×25°", terminal), "╔═║ 40x25°");
+        assert_eq!(fitted("╔═║ 40×25°", Capabilities::default()), "╔═║ 40×25°");
     }
 }

@@ -134,8 +134,8 @@ fn draw(opening: &Opening, layout: &Layout, step: Step, buffer: &mut Buffer) {
         let chart = FlowChart::idle().working(Some(step)).styles(theme.text, theme.dim);
         chart.render(around::inside(panels.chart), buffer);
     }
-    caption::draw(&around::words(&step), theme.text, layout.picture, buffer);
-    charset::fit(buffer, layout.screen, &opening.terminal);
+    caption::draw(&around::words(step), theme.text, layout.picture, buffer);
+    charset::fit(buffer, layout.screen, opening.terminal);
 }
 
 #[cfg(test)]

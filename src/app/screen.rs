@@ -34,7 +34,7 @@ pub fn draw(model: &Model, shown: Option<&Shown>, working: Option<Step>, buffer:
         let status = status::line(model, shown, panels.status.width);
         Line::from(status).style(theme.text).render(panels.status, buffer);
     }
-    let terminal = &model.settings.terminal;
+    let terminal = model.settings.terminal;
     charset::fit(buffer, model.layout.screen, terminal);
     // The picture is in characters that were chosen for it; what is written over it was not.
     let picture = model.layout.picture;
@@ -43,7 +43,7 @@ pub fn draw(model: &Model, shown: Option<&Shown>, working: Option<Step>, buffer:
             Picture(cells).render(picture, buffer);
             nothing.map(|nothing| nothing.to_string() + model.way_back())
         }
-        _ => Some(working.as_ref().map_or_else(|| Task::Tracing.name().to_owned(), around::words)),
+        _ => Some(working.map_or_else(|| Task::Tracing.name().to_owned(), around::words)),
     };
     if let Some(over) = over {
         let place = caption::draw(&over, theme.text, picture, buffer);

@@ -68,7 +68,7 @@ pub struct Replies {
 
 impl Terminal {
     /// Takes the terminal. From now on a panic on any thread gives it back before its message is printed.
-    pub fn take(capabilities: &Capabilities) -> io::Result<Self> {
+    pub fn take(capabilities: Capabilities) -> io::Result<Self> {
         let ours = Ours { only_screen: !capabilities.alternate_screen, ..Ours::default() };
         let hold = Hold { ours: Arc::new(Mutex::new(ours)), fence: Fence::default() };
         let hook: Arc<Hook> = Arc::from(panic::take_hook());

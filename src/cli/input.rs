@@ -32,7 +32,7 @@ pub fn read_watched(
     progress: Option<Progress>,
 ) -> Result<Scene, CliError> {
     let memory = memory.or_else(memory::half_of_all);
-    let options = &ReadOptions { skip_unsupported, memory, progress, ..ReadOptions::default() };
+    let options = &ReadOptions { skip_unsupported, progress, memory, ..ReadOptions::default() };
     if file == "-" {
         let mut bytes = Vec::new();
         let limited = std::io::stdin().lock().take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes);

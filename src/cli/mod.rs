@@ -69,7 +69,7 @@ fn view(arguments: &ViewerArguments) -> Result<(), CliError> {
         return still();
     }
     let no_effects = effects::check(picture, effects::Shown::Viewer)?;
-    let look = picture.look(Some(&terminal));
+    let look = picture.look(Some(terminal));
     let opening = Opening { title: input::title(file), palette: look.palette, terminal };
     let viewed = if file == "-" && io::stdin().is_terminal() {
         // The scene is typed where the keys come from: first the one, then the other.
@@ -106,7 +106,7 @@ fn load(
         view: view.unwrap_or(0),
         camera: picture.moves_camera().then(|| picture.camera(&studio, 1.6)).transpose()?,
         options: picture.options()?,
-        glyphs: picture.look(Some(&opening.terminal)).glyphs,
+        glyphs: picture.look(Some(opening.terminal)).glyphs,
         palette: opening.palette,
         ground: picture.ground(),
         questions: picture.questions(),

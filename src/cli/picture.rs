@@ -56,7 +56,7 @@ pub enum Glyphs {
 impl Glyphs {
     /// The mode that is named; what `terminal` draws where none is. A file or a pipe is no terminal, and its bytes
     /// depend on nothing around it.
-    fn mode(self, terminal: Option<&Capabilities>) -> GlyphMode {
+    fn mode(self, terminal: Option<Capabilities>) -> GlyphMode {
         match self {
             Self::Auto => terminal.map_or(GlyphMode::Blocks, |terminal| terminal.glyphs),
             Self::Blocks => GlyphMode::Blocks,
@@ -231,7 +231,7 @@ impl PictureArguments {
     }
 
     /// Characters and colours asked for; else those that `terminal` has, where a terminal is meant.
-    pub fn look(&self, terminal: Option<&Capabilities>) -> Look {
+    pub fn look(&self, terminal: Option<Capabilities>) -> Look {
         let glyphs = self.glyphs.unwrap_or(Glyphs::Auto).mode(terminal);
         Look { glyphs, palette: self.palette(terminal).for_glyphs(glyphs, self.ground()) }
     }
@@ -250,10 +250,10 @@ impl PictureArguments {
     }
 
     /// The palette asked for; else what the terminal and `NO_COLOR` (<https://no-color.org>) leave.
-    fn palette(&self, terminal: Option<&Capabilities>) -> Palette {
+    fn palette(&self, terminal: Option<Capabilities>) -> Palette {
         let forbidden = || std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
         // In a file they are meant for a terminal like the one here.
-        let here = || terminal.copied().unwrap_or_else(capabilities);
+        let here = || terminal.unwrap_or_else(capabilities);
         let depth = || here().color_depth();
         // Nothing answers a still, and people change the attributes' colours; those by number they leave.
         let four_grays =

@@ -35,7 +35,7 @@ pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
     let read = reading.elapsed();
     // What goes into a file is not for the terminal that the command runs in.
     let terminal = if arguments.output.is_some() { None } else { terminal::of_output() };
-    let look = look(&arguments.picture, format, terminal.as_ref());
+    let look = look(&arguments.picture, format, terminal);
     let size = if format.is_pixels() { Unsized::Pixels } else { Unsized::Screen };
     let mut request = arguments.picture.request(&studio, look, wants(still), size)?;
     // Raw values are for whoever computes with them.
@@ -72,7 +72,7 @@ pub fn still(
     let scene = input::read(file, skip_unsupported, memory)?;
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
-    let look = look(picture, Format::Txt, terminal::of_output().as_ref());
+    let look = look(picture, Format::Txt, terminal::of_output());
     let request = picture.request(&studio, look, Wants::CELLS, Unsized::Screen)?;
     let frame = studio.draw(&request);
     print(&encoded(&frame, &request, Format::Txt, Values::Toned)?)?;
@@ -122,7 +122,7 @@ fn wants(still: Still) -> Wants {
 }
 
 /// Text has no colours to lose: its shades are ink.
-fn look(picture: &PictureArguments, format: Format, terminal: Option<&Capabilities>) -> Look {
+fn look(picture: &PictureArguments, format: Format, terminal: Option<Capabilities>) -> Look {
     let look = picture.look(terminal);
     if format == Format::Txt { Look { palette: Palette::Mono(picture.ground()), ..look } } else { look }
 }

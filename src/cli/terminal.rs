@@ -51,8 +51,8 @@ fn environment() -> Environment {
     };
     if cfg!(windows) && environment.term.is_empty() {
         // Its console knows neither variable, and takes UTF-8 and what xterm takes.
-        environment.term = "xterm-256color".to_owned();
-        environment.locale = "C.UTF-8".to_owned();
+        "xterm-256color".clone_into(&mut environment.term);
+        "C.UTF-8".clone_into(&mut environment.locale);
     }
     if !is_known(&environment.term) {
         environment.description = look_up(&environment.term);
@@ -72,8 +72,9 @@ fn look_up(term: &str) -> Option<Description> {
         term.chars().next().filter(|_| !term.contains(['/', '\\', '\0']) && !term.starts_with('.'))?;
     let own = env::var_os("TERMINFO").map(PathBuf::from);
     let home = env::home_dir().map(|home| home.join(".terminfo"));
+    let listed = env::var_os("TERMINFO_DIRS").unwrap_or_default();
     let listed =
-        env::var_os("TERMINFO_DIRS").map(|dirs| env::split_paths(&dirs).collect()).unwrap_or_else(Vec::new);
+        env::split_paths(&listed).filter(|folder| !folder.as_os_str().is_empty()).collect::<Vec<_>>();
     let folders = own.into_iter().chain(home).chain(listed).chain(FOLDERS.map(PathBuf::from));
     // By the first letter, or by its number where letters of both cases are one (macOS).
     let below = |folder: PathBuf| {

@@ -79,12 +79,13 @@ mod tests {
     use crate::glyph::{GlyphMode, Palette};
     use crate::math::{DVec3, Size};
     use crate::plan::Options;
-    use crate::scene::{self, Camera};
+    use crate::scene::{self, Camera, ReadOptions};
     use crate::tone::Tone;
 
     /// What a picture of a scene says, from an eye towards a target.
     fn seen(text: &str, eye: [f64; 3], target: [f64; 3]) -> Option<NothingInView> {
-        let studio = Studio::new(scene::read("test", text.as_bytes(), &Default::default()).unwrap()).unwrap();
+        let studio =
+            Studio::new(scene::read("test", text.as_bytes(), &ReadOptions::default()).unwrap()).unwrap();
         let camera = Camera {
             eye: DVec3::from(eye),
             target: DVec3::from(target),

@@ -148,7 +148,7 @@ impl Capabilities {
         let family = if *tmux && term.starts_with("screen") { Some(MODERN) } else { known(term) };
         let mut found = match (family, description) {
             (Some(family), _) => family,
-            (None, Some(description)) => described(description),
+            (None, Some(description)) => described(*description),
             (None, None) => DUMB,
         };
         if let Some((_, colors)) = ENDINGS.iter().find(|(ending, _)| term.ends_with(ending)) {
@@ -173,7 +173,7 @@ impl Capabilities {
     }
 
     /// How exactly it is told a colour by number or bytes, where it is asked for one.
-    pub const fn color_depth(&self) -> ColorDepth {
+    pub const fn color_depth(self) -> ColorDepth {
         match self.colors {
             Colors::Direct => ColorDepth::Direct,
             _ => ColorDepth::Indexed,
@@ -181,18 +181,18 @@ impl Capabilities {
     }
 
     /// Whether it has the four grays of the attributes 0, 7, 8 and 15 as ink.
-    pub fn has_grays(&self) -> bool {
+    pub fn has_grays(self) -> bool {
         self.colors >= Colors::Sixteen
     }
 
     /// Whether it has the 256 colours by number.
-    pub fn has_256_colors(&self) -> bool {
+    pub fn has_256_colors(self) -> bool {
         self.colors >= Colors::Indexed
     }
 
     /// Whether it can draw the characters of a mode, and on their papers: the DOS set has papers 0 and 7 only, others
     /// have any of the four grays.
-    pub fn draws(&self, glyphs: GlyphMode) -> bool {
+    pub fn draws(self, glyphs: GlyphMode) -> bool {
         match glyphs {
             GlyphMode::Ascii => true,
             GlyphMode::Cp437 => self.utf8,
@@ -202,7 +202,7 @@ impl Capabilities {
 }
 
 /// As much as a description promises. Its characters are in doubt.
-fn described(description: &Description) -> Capabilities {
+fn described(description: Description) -> Capabilities {
     if !description.cursor {
         return DUMB;
     }

@@ -161,7 +161,7 @@ impl Line {
         Self { count: "-".to_owned(), busy: false }
     }
 
-    fn at_work(step: &Step) -> Self {
+    fn at_work(step: Step) -> Self {
         let count =
             step.percent.map_or_else(|| step.task.name().to_owned(), |percent| format!("{percent} %"));
         Self { count, busy: true }
@@ -190,7 +190,7 @@ impl Widget for &FlowChart {
         for (y, stage) in (area.top()..area.bottom()).zip(Stage::ALL) {
             let step = self.working.filter(|step| step.task.stage() == stage);
             let line = match step {
-                Some(step) => Line::at_work(&step),
+                Some(step) => Line::at_work(step),
                 None if self.counted => self.line(stage),
                 None => Line::idle(),
             };

@@ -74,7 +74,7 @@ fn each(
         }
         if let Event::Open(call) = event {
             if let Some(progress) = progress {
-                progress.reach(call.name.span.start as u64);
+                progress.reach(u64::from(call.name.span.start));
             }
             parser.recycle(call);
         }

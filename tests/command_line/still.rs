@@ -99,7 +99,7 @@ fn of_pixels_has_640_by_400_unless_a_size_is_given() {
     let header = |more: &[&str]| {
         let bytes = done(&run(&[&["render", &file][..], more].concat()));
         let lines = bytes.split(|&b| b == b'\n').take(2);
-        lines.map(|line| text(line)).collect::<Vec<_>>().join(" ")
+        lines.map(text).collect::<Vec<_>>().join(" ")
     };
     assert_eq!(header(&["--format", "pgm"]), "P5 640 400");
     assert_eq!(header(&["--format", "ppm"]), "P6 640 400");

@@ -1,7 +1,7 @@
 //! Options that have no effect. What contradicts another option is refused; what is merely useless is said, and the picture is
 //! drawn all the same: one table has both.
 
-use crate::glyph::GlyphMode;
+use crate::glyph::{GlyphMode, Palette};
 use crate::plan::{EngineChoice, Shading};
 
 use super::arguments::{Channel, Format, PictureArguments};
@@ -58,7 +58,7 @@ const fn row(option: &'static str, verdict: Verdict, holds: fn(&Given) -> bool, 
 }
 
 /// The viewer's lines come when it has ended, too late to change anything: what it does not follow is refused.
-const ROWS: [Row; 26] = [
+const ROWS: [Row; 28] = [
     row("cells", Refused, |g| g.is_viewer() && g.picture.cells.is_some(), FILLS),
     row("dots", Refused, |g| g.is_viewer() && g.picture.dots.is_some(), FILLS),
     row(
@@ -117,6 +117,18 @@ const ROWS: [Row; 26] = [
         Said,
         |g| g.shows_colours() && g.is_ink() && g.palette(&[PaletteName::Mono, PaletteName::Color]),
         "braille and ascii are ink alone; --palette color has its colours",
+    ),
+    row(
+        "invert",
+        Said,
+        |g| g.picture.invert && g.still().is_some() && !g.is_in_own_ink(),
+        "it is for pictures in the terminal's own ink: txt, --palette mono, braille and ascii",
+    ),
+    row(
+        "no-invert",
+        Said,
+        |g| g.picture.no_invert && g.still().is_some(),
+        "stills ask no terminal for its background",
     ),
     row(
         "glyphs",
@@ -217,6 +229,15 @@ impl Given<'_> {
     fn is_sized_by_cells(&self) -> bool {
         let sized = self.picture.dots.is_some() || self.picture.preset.is_some();
         self.picture.cells.is_some() || (!sized && !self.is_pixels())
+    }
+
+    /// Whether a still has no colours but the terminal's own.
+    fn is_in_own_ink(&self) -> bool {
+        match self.format() {
+            Some(Format::Txt) => true,
+            Some(Format::Ans) => matches!(self.picture.look(None).palette, Palette::Mono(_)),
+            _ => false,
+        }
     }
 
     fn is_ink(&self) -> bool {

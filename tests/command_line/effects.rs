@@ -25,7 +25,7 @@ const FORMATS: [&[&str]; 12] = [
 ];
 
 /// Options that can change a picture, each but `--threads`, `--structure` and `--engine`, by which all are the same.
-const OPTIONS: [&[&str]; 22] = [
+const OPTIONS: [&[&str]; 24] = [
     &["--view", "side"],
     &["--eye", "9,9,9"],
     &["--target", "1,0,0"],
@@ -40,10 +40,12 @@ const OPTIONS: [&[&str]; 22] = [
     &["--glyphs", "half"],
     &["--glyphs", "ascii"],
     &["--palette", "dos"],
+    &["--palette", "dos16"],
     &["--palette", "gray"],
     &["--palette", "mono"],
     &["--palette", "color"],
     &["--tone", "even"],
+    &["--invert"],
     &["--levels"],
     &["--channel", "light"],
     &["--channel", "depth"],
@@ -51,9 +53,11 @@ const OPTIONS: [&[&str]; 22] = [
 ];
 
 /// What is asked for is what there is already, and nothing to speak of.
-const AS_IT_IS: [(&str, &str); 9] = [
+const AS_IT_IS: [(&str, &str); 10] = [
     ("txt", "--palette mono"),
+    // One of them, as the terminal has it.
     ("ans", "--palette dos"),
+    ("ans", "--palette dos16"),
     ("ans --glyphs braille", "--palette mono"),
     ("png", "--channel light"),
     ("pgm", "--channel light"),
@@ -68,7 +72,7 @@ fn every_option_has_one_or_says_that_it_has_none() {
     let (_, file) = scene("effects", SHINING);
     let mut said = 0;
     for format in FORMATS {
-        let plain = ["render", &file, "--dots", "48x32"];
+        let plain = ["render", &file, "--dots", "96x64"];
         let plain = [&plain[..], format].concat();
         let picture = run(&plain);
         assert!(picture.status.success(), "{format:?}: {}", text(&picture.stderr));

@@ -41,6 +41,7 @@ pub fn draw(model: &Model, shown: Option<&Shown>, working: Option<Step>, buffer:
     let over = match shown {
         Some(Shown { frame: Frame { cells: Some(cells), nothing, .. }, .. }) => {
             Picture(cells).render(picture, buffer);
+            theme.fill(picture, buffer);
             nothing.map(|nothing| nothing.to_string() + model.way_back())
         }
         _ => Some(working.map_or_else(|| Task::Tracing.name().to_owned(), around::words)),
@@ -269,6 +270,19 @@ mod tests {
             seen.contains(" the scene is behind the eye. ") && seen.contains(" Home goes back "),
             "{seen}"
         );
+    }
+
+    /// Seen in xterm, black on white, with `LANG=C`: a white picture amid black panels.
+    #[test]
+    fn a_picture_in_the_terminals_own_ink_stands_on_the_paper_of_the_panels() {
+        let model = model(80, 24);
+        let mut shown = shown(&model);
+        let own = glyph::Cell { glyph: 'o', ink: Paint::Terminal, paper: Paint::Terminal };
+        shown.frame.cells = Some(Arc::new(shown.frame.cells.unwrap().map(|_| own)));
+        let buffer = drawn(&model, Some(&shown));
+        let cell = &buffer[model.layout.picture.as_position()];
+        let colors = [ratatui::style::Color::Gray, ratatui::style::Color::Black];
+        assert_eq!((cell.symbol(), [cell.fg, cell.bg]), ("o", colors));
     }
 
     #[test]

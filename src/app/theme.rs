@@ -1,5 +1,7 @@
 //! The styles of the panels: DOS attributes, or the terminal's own ink and paper.
 
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier, Style};
 
 use crate::glyph::Palette;
@@ -37,6 +39,18 @@ impl Theme {
                     bright: text.add_modifier(Modifier::BOLD),
                     dim: text.add_modifier(Modifier::DIM),
                     label: text.add_modifier(Modifier::REVERSED),
+                }
+            }
+        }
+    }
+    /// Puts the panels' ink and paper in the place of the terminal's own, which ASCII and Braille are drawn in: on a
+    /// light terminal the picture would be a negative amid dark panels.
+    pub fn fill(&self, area: Rect, buffer: &mut Buffer) {
+        for place in area.intersection(buffer.area).positions() {
+            let cell = &mut buffer[place];
+            for (color, own) in [(&mut cell.fg, self.text.fg), (&mut cell.bg, self.text.bg)] {
+                if *color == Color::Reset {
+                    *color = own.unwrap_or(Color::Reset);
                 }
             }
         }

@@ -26,7 +26,7 @@ pub fn table(out: &mut impl Write) -> io::Result<()> {
     writeln!(out, "| terminal | 0, 8, 7, 15 | | {} | away |", names.join(" | "))?;
     writeln!(out, "|---|---|---|{}---|", "---|".repeat(names.len()))?;
     for (name, colors, source) in TERMINALS {
-        let colors = colors.map(|color| color.to_be_bytes()).map(|[_, r, g, b]| [r, g, b]);
+        let colors = colors.map(u32::to_be_bytes).map(|[_, r, g, b]| [r, g, b]);
         let shown = FourGrays::Attributes(colors);
         let hex = colors.map(|[r, g, b]| format!("{r:02x}{g:02x}{b:02x}")).join(" ");
         let before = lightnesses(Palette::DOS, Palette::Dos(shown));

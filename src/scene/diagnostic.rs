@@ -271,7 +271,7 @@ impl Lines {
         let (mut line, mut from) = (1, 0);
         let counted = starts.into_iter().map(|start| {
             let between = source.as_bytes().get(from..start).unwrap_or_default();
-            line += between.iter().filter(|&&byte| byte == b'\n').count();
+            line += between.split(|&byte| byte == b'\n').count() - 1;
             from = start;
             (start, line)
         });

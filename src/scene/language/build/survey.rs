@@ -41,7 +41,7 @@ impl Survey {
     }
 
     /// Whether a survey must be made before this call can be built.
-    pub fn is_needed_for(&self, call: &Call<'_>, is_at_top: bool) -> bool {
+    pub fn is_needed_for(call: &Call<'_>, is_at_top: bool) -> bool {
         !call.modifiers.disable && (call.modifiers.root || (is_at_top && is_definition(call)))
     }
 

@@ -50,7 +50,7 @@ fn compare(name: &str, scene: Scene) -> Result<(), Box<dyn Error>> {
             options: Options { threads: 1, ..Options::default() },
             wants,
             glyphs: GlyphMode::Blocks,
-            palette: Palette::Dos,
+            palette: Palette::DOS,
             tone: Tone::Lightness,
         };
         // What is built is built before any picture, and not part of its time.

@@ -52,7 +52,7 @@ pub fn run(arguments: &BenchArguments) -> Result<(), CliError> {
 
     let mut figures = stats::figures(&frame, &studio.built());
     let counts = &frame.counts;
-    let rays = counts.primary_rays + counts.shadow_rays + counts.secondary_rays;
+    let rays = counts.rays();
     let mut put = |key: &str, value: Value| figures.insert(key.to_owned(), value);
     put("frames", json!(times.len()));
     put("frame_ms_min", json!(stats::ms(least)));

@@ -64,9 +64,7 @@ impl Ran {
             Stage::Ray => Some((counts.primary_rays, "ray")),
             Stage::Clip => Some((counts.clipped_rays, "ray")),
             // Rays side by side take their steps together.
-            Stage::Cell if self.frame.engine == EngineChoice::Fast => {
-                Some((counts.primary_rays + counts.shadow_rays + counts.secondary_rays, "ray"))
-            }
+            Stage::Cell if self.frame.engine == EngineChoice::Fast => Some((counts.rays(), "ray")),
             Stage::Cell => Some((counts.cells_visited, "step")),
             Stage::Solid => Some((counts.primitive_tests, "test")),
             Stage::Csg => Some((counts.csg_evaluations, "expression")),

@@ -98,7 +98,7 @@ fn standard_output() -> Option<fs::Metadata> {
 
 /// Writes beside the place and moves there at the end, so that the file is whole or as it was. A link is written
 /// through, and a file that was there keeps its permissions. What is no plain file, a pipe or a device, is written
-/// straight.
+/// straight, and so is a link to what is not there yet, since a move would put the file in its place.
 fn write_file(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
     let failed = |e: io::Error| CliError::Output(format!("{} could not be written: {e}", path.display()));
     let open = || fs::File::options().write(true).open(path);
@@ -113,6 +113,7 @@ fn write_file(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
             open().map_err(failed)?;
             (fs::canonicalize(path).map_err(failed)?, Some(found.permissions()))
         }
+        Err(_) if fs::symlink_metadata(path).is_ok() => return fs::write(path, bytes).map_err(failed),
         Err(_) => (path.to_owned(), None),
     };
     // Not made from the file's own name, which may be as long as names can be.

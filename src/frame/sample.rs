@@ -18,7 +18,7 @@ use super::gather::TileDots;
 use super::points::Tracer;
 use super::{Request, Studio, Wants};
 
-/// Dots along each side of a block: those of one bundle of rays, so that as many different places as can be are seen.
+/// Dots along each side of a block: those of one packet of rays, so that as many different places as can be are seen.
 const SIDE: u32 = 8;
 
 /// One block in this many is traced, as long as there are more than `FEW` of them, and at most `MOST`.
@@ -77,7 +77,7 @@ impl<C: Channel> Work<C> for Sampling<'_> {
         let mut sample = Sample::default();
         for (number, block) in blocks(request.dots).into_iter().enumerate() {
             let counts = &sample.counts;
-            let rays = counts.primary_rays + counts.shadow_rays + counts.secondary_rays;
+            let rays = counts.rays();
             if number >= LEAST && (rays >= RAYS || sample.times.total() > ENOUGH) {
                 break;
             }

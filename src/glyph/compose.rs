@@ -26,7 +26,7 @@ use crate::tone::Tone;
 ///
 /// // One cell of 2 × 4 dots, white on the left.
 /// let light = Grid::from_fn(Size::new(2, 4), |column, _| if column == 0 { 1.0 } else { 0.0 });
-/// let cells = compose(&light, GlyphMode::Blocks, Palette::Mono, Tone::default());
+/// let cells = compose(&light, GlyphMode::Blocks, Palette::MONO, Tone::default());
 /// assert_eq!(cells[(0, 0)].glyph, '▌');
 /// ```
 pub fn compose(light: &Grid<f64>, mode: GlyphMode, palette: Palette, tone: Tone) -> Grid<Cell> {

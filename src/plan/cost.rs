@@ -61,7 +61,7 @@ impl Plan {
                 (count > 0).then(|| Cost { count: foreseen, of, each: more * time / foreseen, shared: true })
             };
             let time = |stage: Stage| times[stage].as_secs_f64() * 1e9;
-            // What no count stands for goes with the walk: of bundles that is all up to SHADE.
+            // What no count stands for goes with the walk: of packets that is all up to SHADE.
             let with = |stage: Stage, count: u64| if count == 0 { time(stage) } else { 0.0 };
             let apart = with(Stage::Solid, counts.primitive_tests) + with(Stage::Csg, counts.csg_evaluations);
             match stage {
@@ -70,10 +70,7 @@ impl Plan {
                     let each = more * (time(Stage::Ray) + time(Stage::Clip)) / count;
                     (count > 0.0).then_some(Cost { count, of: "ray", each, shared: true })
                 }
-                Stage::Cell if fast => {
-                    let rays = counts.primary_rays + counts.shadow_rays + counts.secondary_rays;
-                    of(rays, "ray", time(Stage::Cell) + apart)
-                }
+                Stage::Cell if fast => of(counts.rays(), "ray", time(Stage::Cell) + apart),
                 Stage::Cell => of(counts.cells_visited, "step", time(Stage::Cell)),
                 Stage::Solid => of(counts.primitive_tests, "test", time(Stage::Solid)),
                 Stage::Csg => of(counts.csg_evaluations, "expression", time(Stage::Csg)),

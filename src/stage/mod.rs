@@ -103,6 +103,13 @@ pub struct Counts {
     pub truncated_rays: u64,
 }
 
+impl Counts {
+    /// Rays of all kinds.
+    pub fn rays(&self) -> u64 {
+        self.primary_rays + self.shadow_rays + self.secondary_rays
+    }
+}
+
 impl AddAssign for Counts {
     fn add_assign(&mut self, other: Self) {
         self.primary_rays += other.primary_rays;

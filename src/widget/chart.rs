@@ -100,7 +100,7 @@ impl FlowChart {
 
     fn line(&self, stage: Stage) -> Line {
         let counts = &self.counts;
-        let rays = counts.primary_rays + counts.shadow_rays + counts.secondary_rays;
+        let rays = counts.rays();
         let counted = |n: u64| Line { count: figures::count(n), busy: n > 0 };
         let mean = |n: u64| match figures::per_ray(n, rays) {
             Some(count) if n > 0 => Line { count, busy: true },

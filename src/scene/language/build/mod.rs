@@ -120,7 +120,7 @@ impl Builder {
                 survey::Found::Above => return Flow::On,
                 // As in OpenSCAD: what stands above the root has no effect on it, but for `$fn`.
                 survey::Found::Root(fragments) => {
-                    self.frames = vec![Frame::scene(Rc::new(Context { fragments, ..Context::default() }))];
+                    self.begin(fragments);
                 }
             }
         } else if !self.survey.is_done() && Survey::is_needed_for(call, self.frames.len() == 1) {
@@ -152,22 +152,19 @@ impl Builder {
 
     /// The word of a call; what is none is reported, or noted where it may be left out.
     fn word(&mut self, call: &Call<'_>) -> Option<&'static Word> {
-        let known = look_up(call.name.text);
-        if let Known::Word(word) = known {
-            return Some(word);
-        }
-        let (name, span) = (quoted(call.name.text), call.name.span);
-        match known {
+        // Made only where something is said: most words are known, and files have millions.
+        let (name, span) = (|| quoted(call.name.text), call.name.span);
+        match look_up(call.name.text) {
             Known::Word(word) => return Some(word),
             Known::Unsupported(why) if self.skip_unsupported => {
-                self.sink.note(Diagnostic::note(span, format!("`{name}` is left out: {why}")));
+                self.sink.note(Diagnostic::note(span, format!("`{}` is left out: {why}", name())));
             }
             Known::Unsupported(why) => {
-                let error = Diagnostic::error(span, format!("`{name}` can not be shown: {why}"));
+                let error = Diagnostic::error(span, format!("`{}` can not be shown: {why}", name()));
                 self.sink.report(error.help("--skip-unsupported shows the rest of the scene"));
             }
             Known::Unknown => {
-                let error = Diagnostic::error(span, format!("there is no word `{name}`"));
+                let error = Diagnostic::error(span, format!("there is no word `{}`", name()));
                 self.sink.report(match nearest_word(call.name.text) {
                     Some(right) => error.help(format!("did you mean `{right}`?")),
                     None => error.help("docs/scene-language.md has all words; modules are OpenSCAD's work"),

@@ -152,7 +152,7 @@ fn sphere(
     Ok((shape, placed(DVec3::ZERO, DVec3::splat(radius))))
 }
 
-/// A diameter goes before a radius, as in OpenSCAD.
+/// The radius, given as that or as a diameter; both together contradict each other.
 fn radius(
     arguments: &Arguments<'_, '_>,
     diameter: &str,

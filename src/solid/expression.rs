@@ -92,7 +92,7 @@ impl Tree {
             match tree {
                 Self::Leaf(leaf) => found.push(*leaf),
                 Self::Any(children) | Self::All(children) => {
-                    open.extend(children.iter().rev().map(|c| &c.tree))
+                    open.extend(children.iter().rev().map(|c| &c.tree));
                 }
             }
         }

@@ -279,9 +279,9 @@ impl<'c, 'a> Arguments<'c, 'a> {
     }
 }
 
-/// The nearest share of light.
+/// The nearest share of light; of what is no number, none.
 fn clamped(number: f64) -> f64 {
-    number.max(0.0).min(1.0)
+    if number > 0.0 { number.min(1.0) } else { 0.0 }
 }
 
 fn no_color(name: &str, place: Span) -> Diagnostic {

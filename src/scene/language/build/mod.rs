@@ -123,7 +123,7 @@ impl Builder {
                     self.frames = vec![Frame::scene(Rc::new(Context { fragments, ..Context::default() }))];
                 }
             }
-        } else if !self.survey.is_done() && self.survey.is_needed_for(call, self.frames.len() == 1) {
+        } else if self.survey.is_needed_for(call, self.frames.len() == 1) {
             return Flow::Again;
         }
         if self.frames.len() == 1 && is_definition(call) {

@@ -270,7 +270,7 @@ impl Corners {
         // Farther out than 2^43 the grid is finer than the numbers, and a cell holds one point.
         let own = own.to_array().map(|x| x as i64);
         let around = |i: i64| [i % 3, i / 3 % 3, i / 9].map(|step| step - 1);
-        let cells = (0..27).map(|i| around(i)).map(|step| {
+        let cells = (0..27).map(around).map(|step| {
             let cell = [0, 1, 2].map(|axis| own[axis].saturating_add(step[axis]));
             (step.map(i64::abs).iter().sum::<i64>(), cell)
         });

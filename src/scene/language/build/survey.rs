@@ -42,7 +42,9 @@ impl Survey {
 
     /// Whether a survey must be made before this call can be built.
     pub fn is_needed_for(&self, call: &Call<'_>, is_at_top: bool) -> bool {
-        !call.modifiers.disable && (call.modifiers.root || (is_at_top && is_definition(call)))
+        !self.is_done
+            && !call.modifiers.disable
+            && (call.modifiers.root || (is_at_top && is_definition(call)))
     }
 
     /// Whether all that counts is read once so many frames are left: the root, where there is one.

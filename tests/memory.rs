@@ -40,7 +40,7 @@ fn called_for(message: &str) -> (String, f64) {
 }
 
 /// Texts that take the most memory for their length, each of its kind.
-fn texts() -> [(&'static str, String); 7] {
+fn texts() -> [(&'static str, String); 8] {
     let many = |count: usize, part: &str| part.repeat(count);
     let mesh = {
         // A strip of boxes that share nothing: 8 points and 12 triangles each.
@@ -69,6 +69,7 @@ fn texts() -> [(&'static str, String); 7] {
             many(5_000, "polyhedron([[0,0,0],[1,0,0],[0,1,0],[0,0,1]],[[0,2,1],[0,1,3],[1,2,3],[2,0,3]]);"),
         ),
         ("mesh.scene", mesh),
+        ("balls.nff", (0..20_000).map(|i| format!("s {i} 0 0 .4\n")).collect()),
     ]
 }
 

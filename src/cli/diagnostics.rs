@@ -6,13 +6,17 @@ use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet}
 
 use crate::scene::{Diagnostic, Diagnostics, Severity};
 
+use super::error::visible;
+
 /// So many bytes of a line are shown before and after the start of a place: files without line ends exist.
 const REACH: usize = 60;
 
 /// The diagnostics as text of several lines, in colour where that is wanted; ends without a line end.
 pub fn render(diagnostics: &Diagnostics, colour: bool) -> String {
+    let name = &visible(&diagnostics.source_name);
     let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
-    let groups: Vec<_> = diagnostics.list.iter().map(|diagnostic| group(diagnostics, diagnostic)).collect();
+    let groups: Vec<_> =
+        diagnostics.list.iter().map(|diagnostic| group(diagnostics, name, diagnostic)).collect();
     // Each is a report of its own: a report with several groups would call the later ones its continuation.
     let mut reports: Vec<String> =
         groups.into_iter().map(|group| renderer.render(std::slice::from_ref(&group))).collect();
@@ -22,18 +26,17 @@ pub fn render(diagnostics: &Diagnostics, colour: bool) -> String {
     reports.join("\n\n")
 }
 
-fn group<'a>(diagnostics: &'a Diagnostics, diagnostic: &'a Diagnostic) -> Group<'a> {
+fn group<'a>(diagnostics: &'a Diagnostics, name: &'a str, diagnostic: &'a Diagnostic) -> Group<'a> {
     let level = match diagnostic.severity {
         Severity::Error => Level::ERROR,
         Severity::Note => Level::NOTE,
     };
     let mut group = Group::with_title(level.primary_title(diagnostic.message.as_str()));
     if diagnostic.span.is_empty() {
-        group = group.element(Origin::path(diagnostics.source_name.as_str()));
+        group = group.element(Origin::path(name));
     } else {
         let (line, column) = diagnostics.place(diagnostic.span.start);
         let (shown, span) = window(&diagnostics.source, &diagnostic.span);
-        let name = diagnostics.source_name.as_str();
         let is_cut = shown[..span.start].chars().count() + 1 != column;
         let label = Some(diagnostic.label.as_str()).filter(|label| !label.is_empty());
         let snippet = Snippet::source(shown)

@@ -36,11 +36,41 @@ impl CliError {
 
     /// Says it on standard error.
     pub fn report(&self) {
-        tell(&self.to_string());
+        match self {
+            // Its own colours are escape sequences, and what is others' in it was made visible with them.
+            Self::Scene(rendered) => say(rendered),
+            _ => tell(&self.to_string()),
+        }
     }
 }
 
 /// Says a line on standard error. Where even that fails, as after a hang-up, there is nobody to tell.
 pub fn tell(line: &str) {
+    say(&visible(line));
+}
+
+fn say(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
+}
+
+/// A text whose control characters are seen and not obeyed: names of files and views are other people's, and a
+/// terminal does what an escape sequence says.
+pub fn visible(text: &str) -> String {
+    let is_harmless = |c: char| !c.is_control() || matches!(c, '\n' | '\t');
+    let mut shown = String::with_capacity(text.len());
+    for c in text.chars() {
+        if is_harmless(c) { shown.push(c) } else { shown.extend(c.escape_default()) }
+    }
+    shown
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// From a view named `ESC ]0;EVIL BEL`, which set the title of the terminal.
+    #[test]
+    fn escape_sequences_are_seen() {
+        assert_eq!(visible("a\u{1b}]0;x\u{7}b\n\u{9b}c é"), "a\\u{1b}]0;x\\u{7}b\n\\u{9b}c é");
+    }
 }

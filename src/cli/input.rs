@@ -13,7 +13,7 @@ use crate::scene::{
 use crate::stage::Progress;
 
 use super::diagnostics;
-use super::error::{CliError, tell};
+use super::error::{CliError, tell, visible};
 use super::memory;
 use super::terminal::capabilities;
 
@@ -51,7 +51,7 @@ pub fn read_watched(
             Some(inside) => {
                 scene::read(inside.name, inside.text.as_bytes(), options).map_err(|e| rendered(&e))
             }
-            None => Err(CliError::Scene(format!("{error}{}", embedded_names(file)))),
+            None => Err(CliError::Scene(visible(&format!("{error}{}", embedded_names(file))))),
         },
     }
 }

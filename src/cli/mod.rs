@@ -27,7 +27,7 @@ use crate::scene::embedded;
 use crate::stage::Progress;
 
 use arguments::{Arguments, Command, SceneArguments, ViewerArguments};
-use error::{CliError, tell};
+use error::{CliError, tell, visible};
 use write::print;
 
 /// The scene that the program shows when it is given none.
@@ -65,8 +65,10 @@ fn view(arguments: &ViewerArguments) -> Result<(), CliError> {
     let still = || render::still(file, arguments.skip_unsupported, arguments.memory, picture);
     let Some(terminal) = terminal::of_output() else { return still() };
     if !terminal.cursor {
+        // Behind the still, which fills the screen: what stands before it scrolls away.
+        still()?;
         tell(&terminal::why_a_still());
-        return still();
+        return Ok(());
     }
     let no_effects = effects::check(picture, effects::Shown::Viewer)?;
     let look = picture.look(Some(terminal));
@@ -129,7 +131,7 @@ fn check(arguments: &SceneArguments) -> Result<(), CliError> {
     }
     let line = format!(
         "{}: {}, {}, {}, {}, {}\n",
-        arguments.file,
+        visible(&arguments.file),
         count(scene.objects.len(), "object"),
         count(primitives, "primitive"),
         count(scene.materials.len(), "material"),

@@ -67,7 +67,7 @@ impl fmt::Display for NothingInView {
             Self::Behind => f.write_str(": the scene is behind the eye"),
             Self::Beside => f.write_str(": the scene is beside the field"),
             Self::TooSmall => f.write_str(": the scene is smaller than a dot"),
-            Self::Unknown => Ok(()),
+            Self::Unknown => f.write_str(": no ray meets a solid"),
         }
     }
 }

@@ -270,8 +270,8 @@ impl Lines {
         starts.sort_unstable();
         let (mut line, mut from) = (1, 0);
         let counted = starts.into_iter().map(|start| {
-            let between = source.as_bytes().get(from..start).unwrap_or_default();
-            line += between.split(|&byte| byte == b'\n').count() - 1;
+            let between = source.get(from..start).unwrap_or_default();
+            line += between.matches('\n').count();
             from = start;
             (start, line)
         });

@@ -8,6 +8,7 @@ mod entity;
 mod ignored;
 mod light;
 mod polygon;
+mod room;
 mod solids;
 #[cfg(test)]
 mod tests;
@@ -32,6 +33,9 @@ use tokens::{Token, Tokens};
 
 /// Reads a scene.
 pub(super) fn read(name: &str, text: &str, options: &ReadOptions) -> Result<Scene, Diagnostics> {
+    if let Some(limit) = options.memory {
+        room::check(text, limit).map_err(|error| Diagnostics::whole(name, error))?;
+    }
     let whole = || match sense8_keyword(text) {
         Some(keyword) => Reader::of_another_format(keyword),
         None => Reader::of(text, 0..text.len(), options),

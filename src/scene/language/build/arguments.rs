@@ -279,7 +279,7 @@ impl<'c, 'a> Arguments<'c, 'a> {
     }
 }
 
-/// The nearest share of light; none for what is no number.
+/// The nearest share of light; of what is no number, none.
 fn clamped(number: f64) -> f64 {
     if number > 0.0 { number.min(1.0) } else { 0.0 }
 }

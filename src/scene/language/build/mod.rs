@@ -112,6 +112,10 @@ impl Builder {
 
     fn open(&mut self, call: &Call<'_>) -> Flow {
         if self.passed_over > 0 {
+            // A root may stand in what is left out for another reason than a `*`: a survey finds out.
+            if self.survey.is_needed_for(call, false) {
+                return Flow::Again;
+            }
             self.pass_over(call);
             return Flow::On;
         }
@@ -123,7 +127,7 @@ impl Builder {
                     self.begin(fragments);
                 }
             }
-        } else if !self.survey.is_done() && Survey::is_needed_for(call, self.frames.len() == 1) {
+        } else if self.survey.is_needed_for(call, self.frames.len() == 1) {
             return Flow::Again;
         }
         if self.frames.len() == 1 && is_definition(call) {

@@ -84,12 +84,13 @@ pub fn polyhedron(
     let call = Call { arguments, points, faces };
     let exact = call.surface(Merging::Equal, clipper, sink)?;
     let Some(open) = &exact.open else { return Ok(exact.shape()) };
-    // Points that a program computed twice differ in their last digits; to OpenSCAD they are one.
-    if let Ok(welded) = call.surface(Merging::Near, clipper, &mut Sink::new(true))
+    // Points that a program computed twice differ in their last digits; to OpenSCAD they are one. Only those on open
+    // edges are merged here: what is closed may be thinner than the grid, and stays.
+    if let Ok(welded) = call.surface(Merging::Near(&exact.open_corners()), clipper, &mut Sink::new(true))
         && welded.open.is_none()
     {
-        let message =
-            "points of `polyhedron` closer than 2^-20 count as one, as in OpenSCAD: else it were not closed";
+        let message = "points on open edges of `polyhedron`, in neighbouring cells of OpenSCAD's grid of 2^-20, count as one: \
+             else it were not closed";
         sink.note(Diagnostic::note(points.span, message));
         return Ok(welded.shape());
     }
@@ -107,12 +108,19 @@ struct Call<'c, 'a> {
 }
 
 /// Which points count as one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Merging {
+#[derive(Clone, Copy, Debug)]
+enum Merging<'c> {
     /// Equal ones.
     Equal,
-    /// Those in one cell, or in neighbouring cells, of OpenSCAD's grid.
-    Near,
+    /// Of these those in one cell, or in neighbouring cells, of OpenSCAD's grid; of all others equal ones.
+    Near(&'c HashSet<Bits>),
+}
+
+/// The bits of a point's coordinates, by which equal points are known.
+type Bits = [u64; 3];
+
+fn bits(point: DVec3) -> Bits {
+    point.to_array().map(f64::to_bits)
 }
 
 /// The triangles of a polyhedron, and an edge that is open, if there is one.
@@ -130,6 +138,15 @@ struct OpenEdge {
 }
 
 impl Surface {
+    /// The corners of edges that are open.
+    fn open_corners(&self) -> HashSet<Bits> {
+        let mut odd = EdgeSet::default();
+        for &(triangle, _) in &self.triangles {
+            odd.toggle_triangle(triangle);
+        }
+        odd.0.into_iter().flatten().map(|corner| bits(self.points[corner as usize])).collect()
+    }
+
     fn shape(self) -> Shape {
         let mut triangles: Vec<_> = self.triangles.into_iter().map(|(triangle, _)| triangle).collect();
         triangles.shrink_to_fit();
@@ -140,11 +157,20 @@ impl Surface {
 }
 
 impl Call<'_, '_> {
-    fn surface(&self, merging: Merging, clipper: &mut EarClipper, sink: &mut Sink) -> Result<Surface, Lost> {
+    fn surface(
+        &self,
+        merging: Merging<'_>,
+        clipper: &mut EarClipper,
+        sink: &mut Sink,
+    ) -> Result<Surface, Lost> {
         let corners = self.corners(merging, sink)?;
         let mut triangles = Vec::new();
+        let mut lost = Lost::Empty;
         for face in self.items(self.faces, "faces", "a list of faces, each a list of indices", sink)? {
-            let Some(polygon) = self.polygon(&corners, face, sink)? else { continue };
+            let Some(polygon) = self.polygon(&corners, face, sink)? else {
+                lost = Lost::Missing;
+                continue;
+            };
             triangulate(&corners.points, &polygon, clipper, |triangle| {
                 triangles.push((triangle, face.span));
             });
@@ -152,7 +178,7 @@ impl Call<'_, '_> {
         cancel_pairs(&mut triangles);
         if triangles.is_empty() {
             let error = Diagnostic::error(self.faces.span, "the faces of the polyhedron enclose nothing");
-            return Err(self.arguments.refuse(error, Lost::Empty, sink));
+            return Err(self.arguments.refuse(error, lost, sink));
         }
         let open = open_edge(&triangles).map(|(edge, face)| {
             let [from, to] = edge.map(|index| {
@@ -164,7 +190,7 @@ impl Call<'_, '_> {
         Ok(Surface { points: corners.points, triangles, open })
     }
 
-    fn corners(&self, merging: Merging, sink: &mut Sink) -> Result<Corners, Lost> {
+    fn corners(&self, merging: Merging<'_>, sink: &mut Sink) -> Result<Corners, Lost> {
         let mut corners = Corners::default();
         for item in self.items(self.points, "points", "a list of points [x, y, z]", sink)? {
             let Some(&[x, y, z]) = numbers(&item.value).as_deref() else {
@@ -245,36 +271,44 @@ struct Corners {
     points: Vec<DVec3>,
     /// For each point of the text its place in `points`.
     merged: Vec<u32>,
-    /// The place in `points` by coordinates, or by the cell of the grid.
-    places: HashMap<[i64; 3], u32>,
+    /// The place in `points` by coordinates.
+    places: HashMap<Bits, u32>,
+    /// The place in `points` by the cell of the grid.
+    cells: HashMap<[i64; 3], u32>,
 }
 
+/// So many cells from 0 a cell's number is no longer exact in 64 bits: 8.8e12. The grid is far finer there than the numbers are.
+const FARTHEST: f64 = 9e18;
+
 impl Corners {
-    fn add(&mut self, point: DVec3, merging: Merging) {
-        let known = match merging {
-            Merging::Equal => point.to_array().map(|x| x.to_bits().cast_signed()),
-            Merging::Near => self.cell(point),
-        };
+    fn add(&mut self, point: DVec3, merging: Merging<'_>) {
         let next = self.points.len() as u32;
-        let place = *self.places.entry(known).or_insert_with(|| {
+        let is_welded = |open: &HashSet<Bits>| {
+            open.contains(&bits(point)) && (point / GRID).abs().max_element() < FARTHEST
+        };
+        let place = match merging {
+            Merging::Near(open) if is_welded(open) => {
+                let cell = self.cell(point);
+                *self.cells.entry(cell).or_insert(next)
+            }
+            _ => *self.places.entry(bits(point)).or_insert(next),
+        };
+        if place == next {
             self.points.push(point);
-            next
-        });
+        }
         self.merged.push(place);
     }
 
     /// The cell of OpenSCAD's grid in which a point is: the nearest in which one is already, of its own and the
     /// neighbouring ones, as in `Grid3d::align`.
     fn cell(&self, point: DVec3) -> [i64; 3] {
-        let own = (point / GRID).round();
-        // Farther out than 2^43 the grid is finer than the numbers, and a cell holds one point.
-        let own = own.to_array().map(|x| x as i64);
+        let own = (point / GRID).round().to_array().map(|x| x as i64);
         let around = |i: i64| [i % 3, i / 3 % 3, i / 9].map(|step| step - 1);
         let cells = (0..27).map(around).map(|step| {
             let cell = [0, 1, 2].map(|axis| own[axis].saturating_add(step[axis]));
             (step.map(i64::abs).iter().sum::<i64>(), cell)
         });
-        let known = cells.filter(|(_, cell)| self.places.contains_key(cell));
+        let known = cells.filter(|(_, cell)| self.cells.contains_key(cell));
         known.min_by_key(|&(distance, _)| distance).map_or(own, |(_, cell)| cell)
     }
 

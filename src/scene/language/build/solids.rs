@@ -75,8 +75,8 @@ impl Builder {
         Ok(Solid::Primitive(Primitive::new(shape, map, material).displaced(displacement)))
     }
 
-    /// The error of a primitive for which there is no memory: it is the last that is read.
-    fn no_room(&mut self, bytes: u64, call: &Call<'_>) -> Lost {
+    /// The error of what there is no memory for: it is the last that is read.
+    pub(super) fn no_room(&mut self, bytes: u64, call: &Call<'_>) -> Lost {
         self.is_out_of_memory = true;
         self.memory.refuse(bytes, call.parentheses.end, &mut self.sink).into()
     }

@@ -41,8 +41,10 @@ impl Survey {
     }
 
     /// Whether a survey must be made before this call can be built.
-    pub fn is_needed_for(call: &Call<'_>, is_at_top: bool) -> bool {
-        !call.modifiers.disable && (call.modifiers.root || (is_at_top && is_definition(call)))
+    pub fn is_needed_for(&self, call: &Call<'_>, is_at_top: bool) -> bool {
+        !self.is_done
+            && !call.modifiers.disable
+            && (call.modifiers.root || (is_at_top && is_definition(call)))
     }
 
     /// Whether all that counts is read once so many frames are left: the root, where there is one.
@@ -101,7 +103,7 @@ impl Builder {
                 self.survey.depth += usize::from(!call.is_ended);
             }
         }
-        if self.sink.is_full() { Flow::Done } else { Flow::On }
+        if self.sink.is_full() || self.is_out_of_memory { Flow::Done } else { Flow::On }
     }
 
     fn survey_call(&mut self, call: &Call<'_>) {
@@ -117,6 +119,9 @@ impl Builder {
             {
                 // What is wrong has gone to the sink; the other definitions are looked at, too.
                 let _ = self.define(call, word);
+                if !self.memory.has_room_for(0) {
+                    let _ = self.no_room(0, call);
+                }
                 self.survey.definition = (!call.is_ended).then_some(word.name);
             }
             self.pass_over(call);

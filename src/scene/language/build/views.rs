@@ -37,6 +37,9 @@ impl Builder {
             let error = Diagnostic::error(arguments.place_of("name"), message).label("the second one");
             return Err(sink.report(error.help("give it another name")));
         }
+        // Its name is kept twice: to be found, and to be told from the others.
+        let bytes = size_of::<Camera>() + 2 * (size_of::<String>() + name.map_or(0, str::len));
+        self.memory.take(bytes as u64);
         self.scene.views.push(camera);
         Ok(())
     }
@@ -46,6 +49,7 @@ impl Builder {
         let at = arguments.triple("at", 0.0, sink)?.ok_or_else(|| arguments.missing("at", sink))?;
         let intensity = arguments.number("intensity", sink)?.unwrap_or(1.0);
         let color = arguments.color("color", sink)?.map_or(DVec3::ONE, |(color, _)| color);
+        self.memory.take(size_of::<Light>() as u64);
         self.scene.lights.push(Light { anchor: Anchor::World(at), intensity, color });
         Ok(())
     }

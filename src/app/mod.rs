@@ -220,10 +220,10 @@ fn look_ahead(terminal: &mut Terminal, inbox: &mut Inbox, settings: &mut Setting
     let name = env::var("TERM").unwrap_or_default();
     let mut pacing = Pacing::default();
     let mut answers = Vec::new();
-    if identity::may_be_asked(&name) {
+    if cfg!(unix) && identity::may_be_asked(&name) {
         let questions = [settings.questions.text(settings.palette), identity::QUESTION].concat();
         let replies = terminal.ask(&questions, inbox)?;
-        pacing.asked(replies.took);
+        pacing.asked(replies.took, replies.unanswered);
         answers = replies.answers;
     }
     settings.take_in(&answers);

@@ -29,7 +29,7 @@ pub enum Event {
     Loaded,
     /// A picture is finished.
     Drawn(Box<Frame>),
-    /// The tracing thread panicked; its message is out.
+    /// The thread that traces, or the one that reads the scene, panicked; its message is out.
     Panicked,
     /// The terminal is gone.
     HungUp,

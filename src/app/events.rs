@@ -19,6 +19,8 @@ pub enum Event {
     Key(KeyEvent),
     /// The terminal answered.
     Answer(Answer),
+    /// The terminal has come as far as the status request of this number.
+    Reached(u64),
     /// The terminal has another size.
     Resized,
     /// Something takes long, and is so far.
@@ -27,7 +29,7 @@ pub enum Event {
     Loaded,
     /// A picture is finished.
     Drawn(Box<Frame>),
-    /// The tracing thread panicked; its message is out.
+    /// The thread that traces, or the one that reads the scene, panicked; its message is out.
     Panicked,
     /// The terminal is gone.
     HungUp,
@@ -65,13 +67,16 @@ impl From<Input> for Event {
 /// listens, for an answer that is on its way is waited for.
 pub fn listen_to_terminal(events: Sender<Event>, fence: Fence) -> io::Result<()> {
     input::start(move |input| {
-        match input {
-            Input::Answer(Answer::Status) => fence.answered(),
-            Input::HungUp | Input::Failed(_) => fence.forget(),
-            _ => {}
-        }
+        let event = match input {
+            Input::Answer(Answer::Status) => Event::Reached(fence.answered()),
+            Input::HungUp | Input::Failed(_) => {
+                fence.forget();
+                input.into()
+            }
+            input => input.into(),
+        };
         // Without a receiver the viewer has ended.
-        let _ = events.send(input.into());
+        let _ = events.send(event);
     })
 }
 

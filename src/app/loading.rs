@@ -103,7 +103,7 @@ impl<P: Send + 'static, E: Send + 'static> Loading<P, E> {
             terminal.send()?;
             match inbox.next(None).map_err(|Gone| AppError::HungUp)? {
                 Some(Event::Loaded) => {
-                    let loaded = self.loaded.try_recv().map_err(|_| AppError::Panicked)?;
+                    let loaded = self.loaded.try_recv().map_err(|_| AppError::LoadingPanicked)?;
                     return Ok(Waited::Loaded(Box::new(loaded)));
                 }
                 Some(Event::Working(now)) => step = now,
@@ -117,8 +117,8 @@ impl<P: Send + 'static, E: Send + 'static> Loading<P, E> {
                 Some(Event::Terminated(signal)) => return Ok(Waited::Ended(End::Signal(signal))),
                 Some(Event::HungUp) => return Err(AppError::HungUp),
                 Some(Event::Failed(error)) => return Err(error.into()),
-                Some(Event::Panicked) => return Err(AppError::Panicked),
-                Some(Event::Resized | Event::Answer(_) | Event::Drawn(_)) | None => {}
+                Some(Event::Panicked) => return Err(AppError::LoadingPanicked),
+                Some(Event::Resized | Event::Answer(_) | Event::Reached(_) | Event::Drawn(_)) | None => {}
             }
         }
     }

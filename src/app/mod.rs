@@ -1,9 +1,10 @@
 //! The full-screen viewer: keys in, pictures out, the terminal as it was afterwards.
 //!
-//! Three kinds of threads share the work. The one that calls [`run`] owns the model and the screen, and waits
-//! for things that happen; others wait for the terminal and for signals, and say what came; one
-//! traces the picture that was asked for last. They wake by the clock only while something is waited for, the
-//! rest of a key or the terminal's answer: at rest the program does nothing and sends nothing.
+//! The thread that calls [`run`] or [`open`] owns the model and the screen, and waits for things that happen. Others
+//! wait for the terminal and for signals, and say what came; one reads the scene ([`open`]), and then one traces the
+//! picture that was asked for last; and beside each of these two one says how far it is, every 250 ms while it works.
+//! Else they wake by the clock only while something is waited for, the rest of a key or the terminal's answer: at rest
+//! the program does nothing and sends nothing.
 
 mod around;
 mod caption;
@@ -98,6 +99,9 @@ pub enum AppError {
     /// Tracing panicked; the message is already on standard error.
     #[error("the picture could not be traced")]
     Panicked,
+    /// Reading the scene panicked; the message is already on standard error.
+    #[error("the scene could not be read")]
+    LoadingPanicked,
 }
 
 /// Shows the scene until the person quits. Standard output has to be a terminal; keys come from standard
@@ -105,9 +109,14 @@ pub enum AppError {
 ///
 /// The terminal is given back on every way out: before this returns, before the message of a panic, and
 /// before the process ends by SIGHUP, SIGINT, SIGQUIT or SIGTERM, which is how it ends when it gets one of
-/// these. A thread keeps reading the terminal afterwards, so a program runs one viewer in its life.
+/// these.
 ///
-/// # Errors See [`AppError`].
+/// A program runs one viewer in its life: a thread keeps reading the terminal afterwards, and another keeps these
+/// signals and SIGTSTP. They then end and stop the program as they do by default, even where it has handlers of its
+/// own from before; those that it sets afterwards by `sigaction` count.
+///
+/// # Errors
+/// See [`AppError`].
 pub fn run(painter: impl Painter + 'static, settings: Settings) -> Result<(), AppError> {
     run_shared(&Arc::new(painter), settings)
 }
@@ -220,10 +229,10 @@ fn look_ahead(terminal: &mut Terminal, inbox: &mut Inbox, settings: &mut Setting
     let name = env::var("TERM").unwrap_or_default();
     let mut pacing = Pacing::default();
     let mut answers = Vec::new();
-    if identity::may_be_asked(&name) {
+    if cfg!(unix) && identity::may_be_asked(&name) {
         let questions = [settings.questions.text(settings.palette), identity::QUESTION].concat();
         let replies = terminal.ask(&questions, inbox)?;
-        pacing.asked(replies.took);
+        pacing.asked(replies.took, replies.unanswered);
         answers = replies.answers;
     }
     settings.take_in(&answers);

@@ -5,6 +5,7 @@ use ratatui::layout::Size;
 use super::keys::Action;
 use super::layout::Layout;
 use super::motion::{self, FLY_STEP, ORBIT_STEP, ZOOM_STEP};
+use super::theme::Theme;
 use super::{Painter, Settings};
 use crate::frame::{Request, Wants};
 use crate::glyph::{CELL_ASPECT, GlyphMode};
@@ -140,6 +141,8 @@ impl Model {
     /// The picture that belongs to the state; absent where the screen has no room for a single dot.
     pub fn request(&self) -> Option<Request> {
         let cells = self.layout.picture;
+        let palette = self.settings.palette;
+        let ground = Theme::of(palette).ground(self.settings.ground);
         let per_cell = self.settings.glyphs.dots_per_cell();
         let dots = math::Size::new(
             u32::from(cells.width) * per_cell.width,
@@ -152,7 +155,7 @@ impl Model {
             options: self.settings.options,
             wants: Wants::CELLS,
             glyphs: self.settings.glyphs,
-            palette: self.settings.palette.for_glyphs(self.settings.glyphs, self.settings.ground),
+            palette: palette.for_glyphs(self.settings.glyphs, ground),
             tone: self.settings.tone,
         })
     }

@@ -20,7 +20,7 @@ const FIRST_PATIENCE: Duration = Duration::from_secs(1);
 
 /// After this time an answer is taken for lost where others have come: longer than the largest first picture
 /// (40 KB on 200 × 60 cells) takes at 80 kbit/s, and much longer than TCP needs to send a packet once more.
-const PATIENCE: Duration = Duration::from_secs(5);
+pub const PATIENCE: Duration = Duration::from_secs(5);
 
 /// What is on its way to the terminal, and how fast it may follow.
 #[derive(Debug, Default)]
@@ -70,14 +70,13 @@ impl Pacing {
         self.begun = Some(now);
     }
 
-    /// Notes how long the answer to a question of a few bytes took; absent where it has not come yet.
-    pub fn asked(&mut self, took: Option<Duration>) {
-        match took {
-            Some(took) => {
-                self.answers = Some(true);
-                self.shortest = Some(took);
-            }
-            None => self.late += 1,
+    /// Notes how long the answer to a question of a few bytes took, absent where it has not come yet; and how many
+    /// answers to what was sent so far are still to come.
+    pub fn asked(&mut self, took: Option<Duration>, late: usize) {
+        self.late += late;
+        if let Some(took) = took {
+            self.answers = Some(true);
+            self.shortest = Some(took);
         }
     }
 
@@ -166,7 +165,7 @@ mod tests {
     /// A pacing that knows what the way takes without a load, as after the first question.
     fn asked(way: u64) -> Pacing {
         let mut pacing = Pacing::default();
-        pacing.asked(Some(Duration::from_millis(way)));
+        pacing.asked(Some(Duration::from_millis(way)), 0);
         pacing
     }
 

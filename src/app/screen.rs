@@ -123,8 +123,8 @@ mod tests {
     use super::*;
     use crate::app::model::Window;
     use crate::app::{Painter, Settings, keys::Action};
-    use crate::frame::{NothingInView, Request, Space};
-    use crate::glyph::{self, GlyphMode, Paint, Palette};
+    use crate::frame::{NothingInView, Request, Space, Studio};
+    use crate::glyph::{self, GlyphMode, Ground, Paint, Palette};
     use crate::math::{self, DVec3, Grid};
     use crate::output::Capabilities;
     use crate::scene::{Camera, Scene};
@@ -283,6 +283,24 @@ mod tests {
         let cell = &buffer[model.layout.picture.as_position()];
         let colors = [ratatui::style::Color::Gray, ratatui::style::Color::Black];
         assert_eq!((cell.symbol(), [cell.fg, cell.bg]), ("o", colors));
+    }
+
+    /// Seen in xterm, black on white, after `g`: the picture was composed for the light paper that the terminal has,
+    /// and drawn on the dark one of the panels.
+    #[test]
+    fn dark_is_blank_on_the_panels_paper_and_ink_on_a_light_terminals_own() {
+        let studio = Studio::new(Scene::default()).unwrap();
+        for (glyphs, ink) in [(GlyphMode::Braille, "⣿"), (GlyphMode::Ascii, "@")] {
+            for (palette, dark) in [(Palette::DOS, " "), (Palette::MONO, ink)] {
+                let mut model = model(80, 24);
+                (model.settings.glyphs, model.settings.palette) = (glyphs, palette);
+                model.settings.ground = Ground::Light;
+                let frame = studio.draw(&model.request().unwrap());
+                let buffer = drawn(&model, Some(&Shown { frame, bytes: 0, display: Duration::ZERO }));
+                let symbol = buffer[model.layout.picture.as_position()].symbol();
+                assert_eq!(symbol.replace('\u{2800}', " "), dark, "{glyphs:?} {palette:?}");
+            }
+        }
     }
 
     #[test]

@@ -30,12 +30,23 @@ pub fn listen(events: Sender<Event>, hold: Hold) -> io::Result<()> {
                 signal => Event::Terminated(signal),
             };
             let last = matches!(event, Event::Terminated(_));
-            let heard = events.send(event).is_ok();
-            if last && heard {
-                // An orderly end ends the process, and this thread with it, before the grace is over.
-                thread::sleep(GRACE);
-                hold.release_now();
-                end_by(signal);
+            match (events.send(event), last) {
+                (Ok(()), false) => {}
+                (Ok(()), true) => {
+                    // An orderly end ends the process, and this thread with it, before the grace is over.
+                    thread::sleep(GRACE);
+                    hold.release_now();
+                    end_by(signal);
+                }
+                // The viewer has ended and the program goes on. A handler that is taken away leaves the signal
+                // without any effect, not with that of before, so this thread stays and brings it about.
+                (Err(_), true) => end_by(signal),
+                (Err(_), false) => {
+                    if signal == SIGTSTP && can_stop() {
+                        // It cannot fail for a signal that there is; and there is nobody to tell.
+                        let _ = stop();
+                    }
+                }
             }
         }
     };

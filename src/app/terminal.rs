@@ -21,12 +21,15 @@ use ratatui::layout::{Rect, Size};
 use super::encoder::Encoder;
 use super::events::{Event, Inbox};
 use super::fence::{self, Fence};
+#[cfg(unix)]
+use super::input;
 use super::input::Answer;
 use super::model::Window;
 use crate::output::Capabilities;
 
-/// Asks a terminal to say that it has come this far (DSR 5, ECMA-48): every terminal since the VT100 answers.
-const STATUS_REQUEST: &[u8] = b"\x1b[5n";
+/// Asks a terminal to say that it has come this far (DSR 5, ECMA-48): every terminal since the VT100 answers. Where
+/// there is no Unix terminal to read, nothing is asked: what we read there has keys only, and takes an answer for some.
+const STATUS_REQUEST: &[u8] = if cfg!(unix) { b"\x1b[5n" } else { b"" };
 
 type Hook = dyn Fn(&PanicHookInfo<'_>) + Send + Sync;
 
@@ -64,6 +67,35 @@ pub struct Replies {
     /// How long it took until the terminal had come to the end of the questions, so that what has not been
     /// answered never will be; absent where it has not come so far.
     pub took: Option<Duration>,
+    /// How many status requests it has still to come to, those sent before the questions included.
+    pub unanswered: usize,
+}
+
+impl Replies {
+    /// Takes what arrives until the terminal comes to the status request of a number; those before it are other
+    /// people's. What else happens meanwhile is put aside.
+    fn up_to(number: u64, begun: Instant, inbox: &mut Inbox, mut unanswered: usize) -> Self {
+        let mut replies = Self::default();
+        while let Ok(Some(event)) = inbox.next_arrival(Some(begun + fence::UNKNOWN_PATIENCE)) {
+            match event {
+                Event::Reached(reached) if reached < number => {
+                    unanswered = usize::try_from(number - reached).unwrap_or(usize::MAX);
+                }
+                Event::Reached(_) => {
+                    return Self { took: Some(begun.elapsed()), unanswered: 0, ..replies };
+                }
+                Event::Answer(answer) => replies.answers.push(answer),
+                event => {
+                    let urgent = event.is_urgent();
+                    inbox.put_aside(event);
+                    if urgent {
+                        break;
+                    }
+                }
+            }
+        }
+        Self { unanswered, ..replies }
+    }
 }
 
 impl Terminal {
@@ -107,25 +139,11 @@ impl Terminal {
     /// only one that answers nothing at all is waited for.
     pub fn ask(&mut self, questions: &[u8], inbox: &mut Inbox) -> io::Result<Replies> {
         let begun = Instant::now();
-        self.hold.ask(questions)?;
-        let mut replies = Replies::default();
-        while let Ok(Some(event)) = inbox.next_arrival(Some(begun + fence::UNKNOWN_PATIENCE)) {
-            match event {
-                Event::Answer(Answer::Status) => {
-                    replies.took = Some(begun.elapsed());
-                    break;
-                }
-                Event::Answer(answer) => replies.answers.push(answer),
-                event => {
-                    let urgent = event.is_urgent();
-                    inbox.put_aside(event);
-                    if urgent {
-                        break;
-                    }
-                }
-            }
-        }
-        Ok(replies)
+        let before = self.hold.fence.unanswered();
+        Ok(match self.hold.ask(questions)? {
+            Some(number) => Replies::up_to(number, begun, inbox, before + 1),
+            None => Replies::default(),
+        })
     }
 
     /// Trusts nothing that stands on the screen: the next picture is sent whole.
@@ -159,7 +177,7 @@ impl Terminal {
         let mut bytes = commands(&[&BeginSynchronizedUpdate]);
         bytes.extend(update.as_bytes());
         bytes.extend(commands(&[&EndSynchronizedUpdate]));
-        self.hold.ask(&bytes)
+        Ok(self.hold.ask(&bytes)?.is_some())
     }
 }
 
@@ -219,16 +237,18 @@ impl Hold {
         };
     }
 
-    /// Writes, and a status request behind it, where the screen is ours; gives whether it is.
-    fn ask(&self, bytes: &[u8]) -> io::Result<bool> {
+    /// Writes, and a status request behind it, where the screen is ours; gives the number of the request.
+    fn ask(&self, bytes: &[u8]) -> io::Result<Option<u64>> {
         let ours = self.lock();
-        if ours.screen {
-            // Before it is written: a terminal nearby answers sooner than this thread goes on, and the answer to what
-            // nobody has sent yet would not count.
-            self.fence.sent();
-            send(&[bytes, STATUS_REQUEST].concat())?;
+        if !ours.screen {
+            return Ok(None);
         }
-        Ok(ours.screen)
+        // Before it is written: a terminal nearby answers sooner than this thread goes on, and the answer to what
+        // nobody has sent yet would not count.
+        let number = if STATUS_REQUEST.is_empty() { 0 } else { self.fence.sent() };
+        // What cannot be written is not answered.
+        send(&[bytes, STATUS_REQUEST].concat()).inspect_err(|_| self.fence.forget())?;
+        Ok(Some(number))
     }
 
     fn lock(&self) -> MutexGuard<'_, Ours> {
@@ -241,7 +261,15 @@ impl Ours {
     fn release(&mut self) -> io::Result<()> {
         // The modes go back even if the screen cannot.
         let sent = self.release_screen();
-        if std::mem::take(&mut self.modes) { disable_raw_mode().and(sent) } else { sent }
+        if !std::mem::take(&mut self.modes) {
+            return sent;
+        }
+        let cooked = disable_raw_mode();
+        // What the reading thread has not taken yet came while the terminal was ours. Where it cannot be thrown away
+        // there is nobody to read it either.
+        #[cfg(unix)]
+        let _ = input::discard();
+        cooked.and(sent)
     }
 
     fn release_screen(&mut self) -> io::Result<()> {
@@ -309,4 +337,41 @@ pub fn window() -> Window {
             pixels: Size::new(size.width, size.height),
         },
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::mpsc;
+
+    use super::*;
+
+    /// The answer to the status request of the loading screen ended the wait for the colours.
+    #[test]
+    fn what_was_asked_before_does_not_end_the_answers() {
+        let identity = Answer::Identity { kind: 41, version: 388 };
+        let (sender, events) = mpsc::channel();
+        for event in [Event::Reached(6), Event::Resized, Event::Answer(identity), Event::Reached(7)] {
+            sender.send(event).unwrap();
+        }
+        let mut inbox = Inbox::new(events);
+        let replies = Replies::up_to(7, Instant::now(), &mut inbox, 2);
+        assert_eq!((replies.answers, replies.unanswered), (vec![identity], 0));
+        assert!(replies.took.is_some());
+        assert!(matches!(inbox.try_next(), Some(Event::Resized)));
+        assert!(inbox.try_next().is_none());
+    }
+
+    #[test]
+    fn what_does_not_come_in_time_is_counted() {
+        for (reached, unanswered) in [(None, 3), (Some(5), 2), (Some(6), 1)] {
+            let (sender, events) = mpsc::channel();
+            if let Some(reached) = reached {
+                sender.send(Event::Reached(reached)).unwrap();
+            }
+            // Nobody is left to send: nothing is waited for.
+            drop(sender);
+            let replies = Replies::up_to(7, Instant::now(), &mut Inbox::new(events), 3);
+            assert_eq!((replies.took, replies.unanswered), (None, unanswered));
+        }
+    }
 }

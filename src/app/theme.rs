@@ -4,7 +4,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier, Style};
 
-use crate::glyph::Palette;
+use crate::glyph::{Ground, Palette};
 
 /// How each part of the screen is drawn.
 #[derive(Clone, Copy, Debug)]
@@ -43,6 +43,13 @@ impl Theme {
             }
         }
     }
+
+    /// What stands behind the picture's own ink: the paper of the panels, which is dark, or the terminal's where they
+    /// have none.
+    pub fn ground(&self, terminal: Ground) -> Ground {
+        if self.text.bg.is_some() { Ground::Dark } else { terminal }
+    }
+
     /// Puts the panels' ink and paper in the place of the terminal's own, which ASCII and Braille are drawn in: on a
     /// light terminal the picture would be a negative amid dark panels.
     pub fn fill(&self, area: Rect, buffer: &mut Buffer) {

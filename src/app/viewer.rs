@@ -6,7 +6,6 @@ use ratatui::buffer::Buffer;
 
 use super::events::{Event, Gone, Inbox};
 use super::identity::Identity;
-use super::input::Answer;
 use super::model::{Effect, Model, Subject};
 use super::pacing::Pacing;
 use super::screen;
@@ -108,7 +107,7 @@ impl<'a> Viewer<'a> {
                 Effect::Suspend => suspend(self.terminal)?,
                 Effect::Quit => return Ok(Some(End::Quit)),
             },
-            Event::Answer(Answer::Status) => self.pacing.answered(Instant::now()),
+            Event::Reached(_) => self.pacing.answered(Instant::now()),
             // An answer that came too late for its question.
             Event::Answer(answer) => {
                 if let Some(identity) = Identity::told(answer) {

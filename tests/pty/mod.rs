@@ -131,6 +131,11 @@ impl Pty {
         self.answers.delay = delay;
     }
 
+    /// Whether an answer is on its way.
+    pub fn is_answering(&self) -> bool {
+        !self.answers.sent.is_empty()
+    }
+
     /// The size of the screen.
     pub fn size(&self) -> Size {
         let (rows, columns) = self.parser.screen().size();

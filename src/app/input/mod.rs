@@ -7,7 +7,9 @@
 //! OSC of any length.
 
 mod answers;
+#[cfg(unix)]
 mod decoder;
+#[cfg(unix)]
 mod key_codes;
 #[cfg(unix)]
 mod reader;
@@ -49,6 +51,8 @@ use ratatui::crossterm::event::KeyEvent;
 #[cfg(test)]
 pub use answers::in_command;
 pub use answers::{Answer, Colored};
+#[cfg(unix)]
+pub use reader::discard;
 pub use reader::start;
 
 /// What the terminal sent.

@@ -8,6 +8,7 @@ use std::time::Instant;
 
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::io::{Errno, read};
+use rustix::termios::{QueueSelector, tcflush};
 
 use super::Input;
 use super::decoder::Decoder;
@@ -23,6 +24,11 @@ pub fn start(tell: impl FnMut(Input) + Send + 'static) -> io::Result<()> {
 fn line() -> io::Result<OwnedFd> {
     let input = io::stdin();
     if input.is_terminal() { input.as_fd().try_clone_to_owned() } else { Ok(File::open("/dev/tty")?.into()) }
+}
+
+/// Throws away what has come and nobody has read.
+pub fn discard() -> io::Result<()> {
+    Ok(tcflush(line()?, QueueSelector::IFlush)?)
 }
 
 fn read_to_end(line: &OwnedFd, mut tell: impl FnMut(Input)) {

@@ -71,8 +71,8 @@ fn view(arguments: &ViewerArguments) -> Result<(), CliError> {
         return Ok(());
     }
     let no_effects = effects::check(picture, effects::Shown::Viewer)?;
-    let look = picture.look(Some(terminal));
-    let opening = Opening { title: input::title(file), palette: look.palette, terminal };
+    let palette = picture.palette(Some(terminal));
+    let opening = Opening { title: input::title(file), palette, terminal };
     let viewed = if file == "-" && io::stdin().is_terminal() {
         // The scene is typed where the keys come from: first the one, then the other.
         let (studio, settings) = load(arguments, file, &opening, &Progress::default())?;

@@ -250,7 +250,7 @@ impl PictureArguments {
     }
 
     /// The palette asked for; else what the terminal and `NO_COLOR` (<https://no-color.org>) leave.
-    fn palette(&self, terminal: Option<Capabilities>) -> Palette {
+    pub fn palette(&self, terminal: Option<Capabilities>) -> Palette {
         let forbidden = || std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
         // In a file they are meant for a terminal like the one here.
         let here = || terminal.unwrap_or_else(capabilities);

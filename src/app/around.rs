@@ -41,11 +41,6 @@ pub fn draw(around: &Around, labels: &Labels, theme: &Theme, buffer: &mut Buffer
     }
 }
 
-/// What the panel of the flow chart has inside its border.
-pub fn inside(panel: Rect) -> Rect {
-    Block::bordered().inner(panel)
-}
-
 fn draw_panels(panels: &Panels, labels: &Labels, theme: &Theme, buffer: &mut Buffer) {
     let title = format!(" {} ═", labels.title.to_uppercase());
     Block::bordered()

@@ -24,15 +24,15 @@ pub struct Questions {
 
 impl Questions {
     /// What to send.
-    pub fn text(self, palette: Palette) -> &'static [u8] {
-        match (self.grays && matches!(palette, Palette::Dos(_)), self.ground) {
-            (true, true) => {
-                b"\x1b]4;0;?\x1b\\\x1b]4;8;?\x1b\\\x1b]4;7;?\x1b\\\x1b]4;15;?\x1b\\\x1b]11;?\x1b\\"
-            }
-            (true, false) => b"\x1b]4;0;?\x1b\\\x1b]4;8;?\x1b\\\x1b]4;7;?\x1b\\\x1b]4;15;?\x1b\\",
-            (false, true) => b"\x1b]11;?\x1b\\",
-            (false, false) => b"",
+    pub fn text(self, palette: Palette) -> Vec<u8> {
+        let mut text = String::new();
+        if self.grays && matches!(palette, Palette::Dos(_)) {
+            text.extend(ATTRIBUTES.map(|attribute| format!("\x1b]4;{attribute};?\x1b\\")));
         }
+        if self.ground {
+            text.push_str("\x1b]11;?\x1b\\");
+        }
+        text.into_bytes()
     }
 }
 

@@ -104,7 +104,7 @@ impl Panels {
 }
 
 /// A rectangle without its border of one cell.
-const fn inside(area: Rect) -> Rect {
+pub const fn inside(area: Rect) -> Rect {
     Rect { x: area.x + 1, y: area.y + 1, width: area.width - 2, height: area.height - 2 }
 }
 

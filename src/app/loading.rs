@@ -12,7 +12,7 @@ use ratatui::widgets::Widget;
 use super::around::{self, Labels};
 use super::events::{Event, Gone, Inbox};
 use super::keys::{self, Action};
-use super::layout::{Around, Layout};
+use super::layout::{self, Around, Layout};
 use super::suspend::suspend;
 use super::terminal::{self, Terminal};
 use super::theme::Theme;
@@ -132,7 +132,7 @@ fn draw(opening: &Opening, layout: &Layout, step: Step, buffer: &mut Buffer) {
     around::draw(&layout.around, &labels, &theme, buffer);
     if let Around::Panels(panels) = &layout.around {
         let chart = FlowChart::idle().working(Some(step)).styles(theme.text, theme.dim);
-        chart.render(around::inside(panels.chart), buffer);
+        chart.render(layout::inside(panels.chart), buffer);
     }
     caption::draw(&around::words(step), theme.text, layout.picture, buffer);
     charset::fit(buffer, layout.screen, opening.terminal);

@@ -230,7 +230,7 @@ fn look_ahead(terminal: &mut Terminal, inbox: &mut Inbox, settings: &mut Setting
     let mut pacing = Pacing::default();
     let mut answers = Vec::new();
     if cfg!(unix) && identity::may_be_asked(&name) {
-        let questions = [settings.questions.text(settings.palette), identity::QUESTION].concat();
+        let questions = [&settings.questions.text(settings.palette), identity::QUESTION].concat();
         let replies = terminal.ask(&questions, inbox)?;
         pacing.asked(replies.took, replies.unanswered);
         answers = replies.answers;

@@ -6,7 +6,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
 use super::around::{self, Labels};
-use super::layout::Around;
+use super::layout::{self, Around};
 use super::model::Model;
 use super::shown::Shown;
 use super::theme::Theme;
@@ -28,7 +28,7 @@ pub fn draw(model: &Model, shown: Option<&Shown>, working: Option<Step>, buffer:
     };
     around::draw(&model.layout.around, &labels, &theme, buffer);
     if let Around::Panels(panels) = &model.layout.around {
-        let inside = around::inside(panels.chart);
+        let inside = layout::inside(panels.chart);
         draw_chart(model, shown, working, inside, &theme, buffer);
         draw_choices(model, inside, &theme, buffer);
         let status = status::line(model, shown, panels.status.width);

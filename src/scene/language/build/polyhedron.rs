@@ -140,11 +140,12 @@ struct OpenEdge {
 impl Surface {
     /// The corners of edges that are open.
     fn open_corners(&self) -> HashSet<Bits> {
-        let mut odd = EdgeSet::default();
-        for &(triangle, _) in &self.triangles {
-            odd.toggle_triangle(triangle);
-        }
-        odd.0.into_iter().flatten().map(|corner| bits(self.points[corner as usize])).collect()
+        EdgeSet::of(&self.triangles)
+            .0
+            .into_iter()
+            .flatten()
+            .map(|corner| bits(self.points[corner as usize]))
+            .collect()
     }
 
     fn shape(self) -> Shape {
@@ -385,6 +386,15 @@ fn is_convex(polygon: &[DVec2]) -> bool {
 struct EdgeSet(HashSet<[u32; 2]>);
 
 impl EdgeSet {
+    /// Those of triangles: the edges that are open.
+    fn of(triangles: &[([u32; 3], Span)]) -> Self {
+        let mut odd = Self::default();
+        for &(triangle, _) in triangles {
+            odd.toggle_triangle(triangle);
+        }
+        odd
+    }
+
     fn toggle(&mut self, a: u32, b: u32) {
         let edge = [a.min(b), a.max(b)];
         if !self.0.remove(&edge) {
@@ -453,10 +463,7 @@ fn cancel_pairs(triangles: &mut Vec<([u32; 3], Span)>) {
 /// The first edge, in file order, that an odd number of triangles share; and the face that has it.
 fn open_edge(triangles: &[([u32; 3], Span)]) -> Option<([u32; 2], Span)> {
     let edges = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [c, a]];
-    let mut odd = EdgeSet::default();
-    for &(triangle, _) in triangles {
-        odd.toggle_triangle(triangle);
-    }
+    let odd = EdgeSet::of(triangles);
     if odd.0.is_empty() {
         return None;
     }

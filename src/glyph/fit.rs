@@ -107,8 +107,11 @@ impl BestFit {
     pub fn compose(&self, light: &Grid<f64>, tone: Tone) -> Grid<Cell> {
         let cells = Size::new(light.size().width / DOTS.width, light.size().height / DOTS.height);
         Grid::from_fn_in_parallel(cells, |column, row| {
-            // NaN counts as no light.
-            let dots = dots_of(light, column, row).map(|light| tone.shown(light).max(0.0));
+            let mut dots = dots_of(light, column, row);
+            for dot in &mut dots {
+                // NaN counts as no light.
+                *dot = tone.shown(*dot).max(0.0);
+            }
             match self.nearest(&dots, || levels_around(light, column, row, tone)) {
                 Show::Level(level) => self.shades.cell(level, column, row),
                 Show::Edge(cell) => cell,
@@ -116,6 +119,7 @@ impl BestFit {
         })
     }
 
+    #[inline]
     fn nearest(&self, dots: &Dots, around: impl FnOnce() -> LevelRange) -> Show {
         // Even light is its level by definition, not by the least of rounded costs.
         if dots.iter().all(|dot| *dot == dots[0]) {
@@ -125,10 +129,11 @@ impl BestFit {
         let dots = lightness_in_single(*dots);
         let mut least = [f32::INFINITY; LANES];
         let mut costs = [[f32::INFINITY; LANES]; BLOCKS_OF_LANES];
-        for (costs, lanes) in costs.iter_mut().zip(&self.lanes) {
-            *costs = lanes.costs(&dots, around);
-            for (least, &cost) in least.iter_mut().zip(&*costs) {
-                *least = if cost < *least { cost } else { *least };
+        for (block, lanes) in self.lanes.iter().enumerate() {
+            costs[block] = lanes.costs(&dots, around);
+            for lane in 0..LANES {
+                let cost = costs[block][lane];
+                least[lane] = if cost < least[lane] { cost } else { least[lane] };
             }
         }
         let least = least.into_iter().fold(f32::INFINITY, f32::min);
@@ -172,18 +177,18 @@ impl Lanes {
     }
 
     /// Infinite for candidates that reach beyond the dots by more than a level.
+    #[inline]
     fn costs(&self, lightness: &[f32; DOT_COUNT], around: LevelRange) -> [f32; LANES] {
         let mut costs = self.own;
-        for (pull, lightness) in self.pull.iter().zip(lightness) {
-            for (cost, pull) in costs.iter_mut().zip(pull) {
-                *cost -= pull * lightness;
+        for dot in 0..DOT_COUNT {
+            for lane in 0..LANES {
+                costs[lane] -= self.pull[dot][lane] * lightness[dot];
             }
         }
         let (darkest, lightest) = (f32::from(around.darkest.get()), f32::from(around.lightest.get()));
-        let needs = self.lightest.iter().zip(&self.darkest);
-        for (cost, (needs_light, needs_dark)) in costs.iter_mut().zip(needs) {
-            let within = *needs_light <= lightest + 1.0 && *needs_dark >= darkest - 1.0;
-            *cost = if within { *cost } else { f32::INFINITY };
+        for lane in 0..LANES {
+            let within = self.lightest[lane] <= lightest + 1.0 && self.darkest[lane] >= darkest - 1.0;
+            costs[lane] = if within { costs[lane] } else { f32::INFINITY };
         }
         costs
     }

@@ -25,14 +25,19 @@ impl LevelRange {
 }
 
 /// The dots of a cell, [`DOTS`] of them, in scan order.
+#[inline]
 pub fn dots_of<T: Copy>(dots: &Grid<T>, column: u32, row: u32) -> [T; DOT_COUNT] {
-    std::array::from_fn(|dot| {
+    let corner = (column * DOTS.width, row * DOTS.height);
+    let mut found = [dots[corner]; DOT_COUNT];
+    for dot in 1..DOT_COUNT {
         let (x, y) = (dot as u32 % DOTS.width, dot as u32 / DOTS.width);
-        dots[(column * DOTS.width + x, row * DOTS.height + y)]
-    })
+        found[dot] = dots[(corner.0 + x, corner.1 + y)];
+    }
+    found
 }
 
 /// Of the dots of a cell and of the ring of dots around it, as far as the picture goes.
+#[inline]
 pub fn levels_around(light: &Grid<f64>, column: u32, row: u32, tone: Tone) -> LevelRange {
     let reach = |first: u32, count: u32, end: u32| first.saturating_sub(1)..(first + count + 1).min(end);
     let size = light.size();

@@ -357,9 +357,11 @@ impl Beam {
     /// All its planes, each a normal and an offset below which nothing is met: the four sides, the first and the last
     /// along its axis. And what is to be taken from the place of a point along the axis to know how near it is at
     /// least to the start of any ray.
+    #[inline]
     pub fn planes(&self) -> ([(DVec3, f64); 6], f64) {
-        let [a, b, c, d] = self.sides.map(|side| (side.normal, side.offset));
-        ([a, b, c, d, (self.axis, self.first), (-self.axis, -self.last)], self.start)
+        let [a, b, c, d] = &self.sides;
+        let side = |side: &Plane| (side.normal, side.offset);
+        ([side(a), side(b), side(c), side(d), (self.axis, self.first), (-self.axis, -self.last)], self.start)
     }
 
     /// Which of eight boxes, by axis, the beam may meet. An empty one, whose sides are the wrong way round, is never met.

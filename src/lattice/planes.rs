@@ -80,8 +80,10 @@ impl Planes {
     }
 
     /// Cells along x, y and z.
+    #[inline]
     pub fn dimensions(&self) -> [usize; 3] {
-        [0, 1, 2].map(|axis| self.lists[axis].len() - 1)
+        let [x, y, z] = &self.lists;
+        [x.len() - 1, y.len() - 1, z.len() - 1]
     }
 
     /// The number of cells; a float, for it may pass any integer.
@@ -106,12 +108,14 @@ impl Planes {
     }
 
     /// The number of a cell in scan order, x fastest.
+    #[inline]
     pub fn number(&self, [i, j, k]: [usize; 3]) -> usize {
         let [nx, ny, _] = self.dimensions();
         (k * ny + j) * nx + i
     }
 
     /// Calls `visit` with each cell that the ray passes between `from` and `to`, in order, until it breaks.
+    #[inline]
     pub fn walk<B>(
         &self,
         ray: &Ray,
@@ -122,7 +126,7 @@ impl Planes {
         let start = ray.at(from);
         let size = self.dimensions();
         let stride = [1, size[0], size[0] * size[1]];
-        let mut at = [0, 1, 2].map(|axis| self.locate(axis, start[axis]));
+        let mut at = [self.locate(0, start.x), self.locate(1, start.y), self.locate(2, start.z)];
         let mut next = DVec3::INFINITY;
         for axis in 0..3 {
             next[axis] = self.leaves_at(ray, axis, at[axis]);
@@ -164,6 +168,7 @@ impl Planes {
     }
 
     /// The cell of a coordinate, half open; the nearest one outside.
+    #[inline]
     fn locate(&self, axis: usize, x: f64) -> usize {
         let list = &self.lists[axis];
         list.partition_point(|&plane| plane <= x).saturating_sub(1).min(list.len() - 2)

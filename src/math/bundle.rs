@@ -34,6 +34,7 @@ pub struct Bundle<T = f64> {
 
 impl<T: Copy> Column<T> {
     /// The same for all.
+    #[inline]
     pub const fn filled(x: T) -> Self {
         Self([x; BUNDLE])
     }
@@ -93,7 +94,9 @@ impl Column {
     /// Eight of them: those of row `row`, below [`ROWS`].
     #[inline(always)]
     pub fn row(&self, row: usize) -> [f64; LANES] {
-        std::array::from_fn(|lane| self.0[row * LANES + lane])
+        let mut numbers = [0.0; LANES];
+        numbers.copy_from_slice(&self.0[row * LANES..][..LANES]);
+        numbers
     }
 
     /// The largest; none of them may be not-a-number.
@@ -191,6 +194,7 @@ impl<T: Digits> Bundle<T> {
     }
 
     /// One of the rays.
+    #[inline]
     pub fn ray(&self, lane: usize) -> Ray {
         Ray::new(self.o.get(lane), self.d.get(lane))
     }

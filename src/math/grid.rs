@@ -19,11 +19,13 @@ pub struct Size {
 
 impl Size {
     /// A size of `width` columns and `height` rows.
+    #[inline]
     pub const fn new(width: u32, height: u32) -> Self {
         Self { width, height }
     }
 
     /// The number of places: `width · height`.
+    #[inline]
     pub const fn area(self) -> usize {
         self.width as usize * self.height as usize
     }
@@ -41,12 +43,14 @@ impl<T> Grid<T> {
     ///
     /// # Panics
     /// When the number of values is not the area of `size`: an error of the caller.
+    #[inline]
     pub fn from_values(size: Size, values: Vec<T>) -> Self {
         assert_eq!(values.len(), size.area(), "a grid holds one value per place");
         Self { size, values }
     }
 
     /// A grid whose value at each `(column, row)` is computed.
+    #[inline]
     pub fn from_fn(size: Size, mut value: impl FnMut(u32, u32) -> T) -> Self {
         let mut values = Vec::with_capacity(size.area());
         for row in 0..size.height {
@@ -58,31 +62,37 @@ impl<T> Grid<T> {
     }
 
     /// Columns and rows.
+    #[inline]
     pub const fn size(&self) -> Size {
         self.size
     }
 
     /// All values in scan order.
+    #[inline]
     pub fn values(&self) -> &[T] {
         &self.values
     }
 
     /// All values in scan order, to change.
+    #[inline]
     pub fn values_mut(&mut self) -> &mut [T] {
         &mut self.values
     }
 
     /// The rows from the top.
+    #[inline]
     pub fn rows(&self) -> impl Iterator<Item = &[T]> {
         // `chunks` refuses a width of 0, whose grid has no values at all.
         self.values.chunks(self.size.width.max(1) as usize)
     }
 
     /// The same rectangle with each value mapped.
+    #[inline]
     pub fn map<U>(&self, f: impl FnMut(&T) -> U) -> Grid<U> {
         Grid { size: self.size, values: self.values.iter().map(f).collect() }
     }
 
+    #[inline]
     fn place(&self, (column, row): (u32, u32)) -> usize {
         debug_assert!(column < self.size.width && row < self.size.height);
         row as usize * self.size.width as usize + column as usize
@@ -109,6 +119,7 @@ impl<T: Copy + Send> Grid<T> {
 
 impl<T: Clone> Grid<T> {
     /// A grid that holds `value` everywhere.
+    #[inline]
     pub fn filled(size: Size, value: T) -> Self {
         Self { size, values: vec![value; size.area()] }
     }
@@ -116,12 +127,14 @@ impl<T: Clone> Grid<T> {
 
 impl<T> Index<(u32, u32)> for Grid<T> {
     type Output = T;
+    #[inline]
     fn index(&self, place: (u32, u32)) -> &T {
         &self.values[self.place(place)]
     }
 }
 
 impl<T> IndexMut<(u32, u32)> for Grid<T> {
+    #[inline]
     fn index_mut(&mut self, place: (u32, u32)) -> &mut T {
         let place = self.place(place);
         &mut self.values[place]

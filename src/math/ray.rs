@@ -13,11 +13,13 @@ pub struct Ray {
 
 impl Ray {
     /// A ray from `o` along `d`, which must have length 1 within rounding.
+    #[inline]
     pub const fn new(o: DVec3, d: DVec3) -> Self {
         Self { o, d }
     }
 
     /// The point at distance `t`.
+    #[inline]
     pub fn at(&self, t: f64) -> DVec3 {
         self.o + t * self.d
     }

@@ -14,6 +14,7 @@ const LUMINANCE: DVec3 = DVec3::new(0.2126, 0.7152, 0.0722);
 const BRIGHTEST: f64 = f64::MAX / 8192.0;
 
 /// The luminance of linear light.
+#[inline]
 pub fn luminance(rgb: DVec3) -> f64 {
     rgb.dot(LUMINANCE)
 }
@@ -57,6 +58,7 @@ pub trait Channel:
     fn limited(self) -> Self;
 
     /// The light of a source, by its three primaries.
+    #[inline]
     fn source(rgb: DVec3) -> Self {
         // Limited first: the weights of three that are nearly the largest number may pass it.
         Self::from_rgb(rgb.limited())
@@ -88,6 +90,7 @@ impl Channel for f64 {
         columns[0].row(row)
     }
 
+    #[inline]
     fn from_rgb(rgb: DVec3) -> Self {
         // Three equal channels are that gray; the weights' sum is 1 only within rounding.
         if rgb.x == rgb.y && rgb.y == rgb.z { rgb.x } else { luminance(rgb) }
@@ -98,10 +101,12 @@ impl Channel for f64 {
         self.min(BRIGHTEST)
     }
 
+    #[inline]
     fn gray(self) -> f64 {
         self
     }
 
+    #[inline]
     fn rgb(self) -> DVec3 {
         DVec3::splat(self)
     }
@@ -124,9 +129,14 @@ impl Channel for DVec3 {
     #[inline(always)]
     fn row(columns: &[Column], row: usize) -> [Self; LANES] {
         let [red, green, blue] = [columns[0].row(row), columns[1].row(row), columns[2].row(row)];
-        std::array::from_fn(|lane| Self::new(red[lane], green[lane], blue[lane]))
+        let mut lights = [Self::ZERO; LANES];
+        for (lane, light) in lights.iter_mut().enumerate() {
+            *light = Self::new(red[lane], green[lane], blue[lane]);
+        }
+        lights
     }
 
+    #[inline]
     fn from_rgb(rgb: DVec3) -> Self {
         rgb
     }
@@ -136,10 +146,12 @@ impl Channel for DVec3 {
         self.min(Self::splat(BRIGHTEST))
     }
 
+    #[inline]
     fn gray(self) -> f64 {
         f64::from_rgb(self)
     }
 
+    #[inline]
     fn rgb(self) -> DVec3 {
         self
     }

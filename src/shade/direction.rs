@@ -10,6 +10,7 @@ use crate::view::settled;
 pub const WITHIN: f64 = 1.0;
 
 /// The mirror direction.
+#[inline]
 pub fn mirrored(d: DVec3, n: DVec3) -> DVec3 {
     let across = d.dot(n).min(0.0);
     settled((d - 2.0 * across * n).normalize_or(n), WITHIN)
@@ -21,6 +22,7 @@ pub fn mirrored(d: DVec3, n: DVec3) -> DVec3 {
 /// The part of `d` along the surface is multiplied by `before / behind`, and the part along the normal makes the
 /// length 1 again. The part along the surface is computed as a vector, not as `√(1 − cos²)`, which would lose half
 /// of the digits near the normal.
+#[inline]
 pub fn refracted(d: DVec3, n: DVec3, before: f64, behind: f64) -> Option<DVec3> {
     if before == behind {
         return Some(d);

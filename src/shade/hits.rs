@@ -38,6 +38,7 @@ pub(super) struct BlockHits {
 
 impl TileHits {
     /// Keeps what a block sees, the next one that sees anything.
+    #[inline]
     pub(super) fn keep(&mut self, block: usize, hits: BlockHits) {
         self.seeing |= 1 << block;
         self.blocks.push(hits);

@@ -52,6 +52,7 @@ pub struct Media {
 
 impl Media {
     /// Forgets all lists and starts a path inside these objects, sorted.
+    #[inline]
     pub fn start(&mut self, inside: &[Filling]) -> List {
         self.lists.clear();
         self.lists.extend_from_slice(inside);
@@ -59,6 +60,7 @@ impl Media {
     }
 
     /// The index of refraction that a list means.
+    #[inline]
     pub fn index(&self, list: &List) -> f64 {
         self.lists[list.clone()].last().map_or(OUTSIDE, |filling| filling.index)
     }
@@ -76,17 +78,21 @@ impl Media {
             }
         }
         let rest = self.lists.get(start..).and_then(<[_]>::last).copied();
-        let last = |entering: bool| {
-            let crossed = passages.clone().filter(|p| p.entering == entering).map(|p| p.filling);
-            crossed.chain(rest).max_by_key(|filling| filling.object).map_or(OUTSIDE, |filling| filling.index)
-        };
-        let (before, behind) = (last(false), last(true));
+        let (mut before, mut behind) = (rest, rest);
+        for Passage { filling, entering, .. } in passages.clone() {
+            let last = if entering { &mut behind } else { &mut before };
+            if last.is_none_or(|last: Filling| last.object <= filling.object) {
+                *last = Some(filling);
+            }
+        }
+        let [before, behind] = [before, behind].map(|last| last.map_or(OUTSIDE, |filling| filling.index));
         self.lists.extend(passages.filter(|p| p.entering && p.solid).map(|p| p.filling));
         self.lists[start..].sort_unstable_by_key(|filling| filling.object);
         Change { before, behind, list: start..self.lists.len() }
     }
 
     /// Forgets a list and all that came after it.
+    #[inline]
     pub fn forget(&mut self, list: &List) {
         self.lists.truncate(list.start);
     }

@@ -52,6 +52,7 @@ pub(super) struct Sent {
 
 impl Sent {
     /// The ray that a surface sends on along `d`, with a share of its light.
+    #[inline]
     fn on(&self, met: &Met, d: DVec3, share: f64, inside: List) -> Self {
         Self {
             ray: Ray::new(met.p, d),
@@ -72,6 +73,7 @@ pub(super) struct Onward {
 
 impl Onward {
     /// `before` and `behind` are the indices of refraction on the two sides.
+    #[inline]
     pub fn new<C>(d: DVec3, normal: DVec3, finish: &Finish<C>, before: f64, behind: f64) -> Self {
         let some = |direction, share| (share > 0.0).then_some((direction, share));
         let (kr, kt) = (finish.kr, finish.kt);
@@ -106,12 +108,14 @@ impl<E: Engine, C: Channel> Shader<'_, E, C> {
     }
 
     /// The glass that a ray which goes on through the last hit goes through, and what is behind it.
+    #[inline]
     pub(super) fn change(&self, inside: &List, memory: &mut Memory<E>) -> Change {
         let Memory { engine, media, .. } = memory;
         self.change_at(inside, self.engine.together(engine), media)
     }
 
     /// The glass that a ray which goes on through surfaces that lie in one place goes through, and what is behind it.
+    #[inline]
     pub(super) fn change_at(&self, inside: &List, together: &[(u32, Crossing)], media: &mut Media) -> Change {
         let passages = together.iter().filter_map(|&(object, crossing)| {
             let finish = self.finish_of(crossing.primitive);

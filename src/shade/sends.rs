@@ -1,13 +1,13 @@
 //! The rays that the surfaces of one generation send on, and the light that arrives along them.
 
-use crate::math::{Columns, Place, Ray, places};
+use crate::math::{Columns, DVec3, Place, Ray, places};
 use crate::solid::{Departure, Form};
 use crate::stage::{Meter, Probe};
 use crate::trace::Fast;
 
 use super::channel::Channel;
 use super::lit::add_everywhere;
-use super::media::{Media, OUTSIDE};
+use super::media::{List, Media, OUTSIDE};
 use super::path::{Onward, Sent};
 use super::surface::{Finish, Memory, Met, Shader};
 use super::tile::TileShading;
@@ -123,14 +123,11 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
             Form::Patch(_) => self.departure(&hit, p, -normal),
             _ => Departure { inward: !back.inward, ..back },
         };
-        let beyond = change.map_or_else(|| inside.clone(), |change| change.list);
-        let mirror = onward.mirror.map(|onward| (onward, back, inside.clone()));
-        let snell = onward.snell.map(|onward| (onward, through(), beyond));
-        for (kind, sent) in [mirror, snell].into_iter().enumerate() {
-            let Some(((d, share), departure, inside)) = sent else { continue };
-            let generation = wave.generation + 1;
+        let [mirrors, snells] = &mut next.kinds;
+        let generation = wave.generation + 1;
+        let mut send = |kind: &mut Legs, d: DVec3, share: f64, departure: Departure, inside: List| {
+            let Legs { rays, arrivals, .. } = kind;
             let weight = weight * share;
-            let Legs { rays, arrivals, .. } = &mut next.kinds[kind];
             if generation > self.generations || weight < self.least_weight {
                 meter.counts.truncated_rays += 1;
                 arrivals.push(Arrival { at, share, leg: None });
@@ -139,6 +136,13 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
                 let sent = Sent { ray: Ray::new(p, d), travelled: hit.t, weight, generation, inside };
                 rays.push(Leg { sent, departure });
             }
+        };
+        if let Some((d, share)) = onward.mirror {
+            send(mirrors, d, share, back, inside.clone());
+        }
+        if let Some((d, share)) = onward.snell {
+            let beyond = change.map_or_else(|| inside.clone(), |change| change.list);
+            send(snells, d, share, through(), beyond);
         }
     }
 

@@ -70,11 +70,13 @@ pub(super) struct Wave<C> {
 
 impl Legs {
     /// Their bundles.
+    #[inline]
     pub fn bundles(&self) -> Range<usize> {
         self.first..self.first + self.rays.len().div_ceil(BUNDLE)
     }
 
     /// The place of a leg.
+    #[inline]
     pub fn place(&self, leg: usize) -> Place {
         Place { bundle: self.first + leg / BUNDLE, lane: leg % BUNDLE }
     }
@@ -117,6 +119,7 @@ impl<C: Channel> Wave<C> {
     }
 
     /// Forgets the rays that were sent on to it.
+    #[inline]
     pub fn clear_legs(&mut self) {
         for kind in &mut self.kinds {
             kind.rays.clear();
@@ -125,6 +128,7 @@ impl<C: Channel> Wave<C> {
     }
 
     /// How many rays were sent on to it.
+    #[inline]
     pub fn legs(&self) -> usize {
         self.kinds.iter().map(|kind| kind.rays.len()).sum()
     }
@@ -156,6 +160,7 @@ impl<C: Channel> Wave<C> {
     }
 
     /// The light of a bundle, a column for each part.
+    #[inline]
     pub fn light_mut(&mut self, bundle: usize) -> &mut [Column] {
         &mut self.light[bundle * C::PARTS..][..C::PARTS]
     }
@@ -185,17 +190,20 @@ impl<C: Channel> Wave<C> {
     }
 
     /// Adds the light that arrives along a ray which was sent on.
+    #[inline]
     pub fn add(&mut self, arrival: &Arrival, light: C) {
         let sum = (self.light(arrival.at) + light * arrival.share).limited();
         self.set_light(arrival.at, sum);
     }
 
     /// The share of one ray's light that reaches the eye, and the glass that it starts in.
+    #[inline]
     pub fn standing(&self, at: Place) -> (f64, &List) {
         self.leg(at).map_or((1.0, &self.inside), |Leg { sent, .. }| (sent.weight, &sent.inside))
     }
 
     /// The ray as it was sent on; none from the eye.
+    #[inline]
     fn leg(&self, at: Place) -> Option<&Leg> {
         let [mirror, snell] = &self.kinds;
         let kind = if at.bundle < snell.first { mirror } else { snell };
@@ -203,17 +211,20 @@ impl<C: Channel> Wave<C> {
     }
 
     /// The surface that one ray met, for a ray that leaves it to the side that the other came from.
+    #[inline]
     pub fn departure(&self, at: Place) -> Departure {
         let surface = self.nearest[at.bundle].surface.0[at.lane] as u32;
         Departure { surface, ..self.departures[at.bundle].get(at.lane) }
     }
 
     /// Which rays of a bundle met something, a bit for each.
+    #[inline]
     pub fn found(&self, bundle: usize) -> u64 {
         self.surfaces[bundle].hits | self.known[bundle]
     }
 
     /// What one ray met; the distance is that from the eye.
+    #[inline]
     pub fn met(&self, at: Place) -> Met {
         let Place { bundle, lane } = at;
         let (nearest, surfaces) = (&self.nearest[bundle], &self.surfaces[bundle]);

@@ -30,6 +30,7 @@ pub struct Eight {
 }
 
 impl Default for Eight {
+    #[inline]
     fn default() -> Self {
         Self {
             rays: [[0.0; LANES]; OF_RAY],
@@ -65,6 +66,7 @@ impl Eight {
     }
 
     /// Computes where the rays meet balls.
+    #[inline]
     pub fn meet_balls(&mut self, level: Level) {
         dispatch!(level, simd => self.balls(simd));
     }
@@ -77,6 +79,7 @@ impl Eight {
     }
 
     /// Computes where the rays meet tubes.
+    #[inline]
     pub fn meet_tubes(&mut self, level: Level) {
         dispatch!(level, simd => self.tubes(simd));
     }
@@ -125,6 +128,7 @@ impl Eight {
     }
 
     /// The lanes that may have met something, a bit for each.
+    #[inline]
     pub fn met(&self, tubes: bool) -> u8 {
         if tubes { self.any[0] | self.any[1] } else { self.any[0] }
     }

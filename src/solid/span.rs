@@ -23,6 +23,7 @@ pub const LIMIT: f64 = 3.5;
 /// `from_origin` away from the assembly's. A ray that passes no deeper than that below a surface misses it: rounding
 /// alone could have made the chord. How far the solid's map is off comes on top
 /// ([`scene::Primitive::displacement`](crate::scene::Primitive::displacement)).
+#[inline]
 pub fn rounding_at(from_origin: f64) -> f64 {
     ROUNDING * (WORLD + from_origin)
 }

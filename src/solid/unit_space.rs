@@ -87,6 +87,7 @@ impl UnitSpace {
     }
 
     /// The box there around a box of the world.
+    #[inline]
     pub fn bounds(&self, b: &Bounds) -> Bounds {
         let inverse = &self.inverse;
         let center = *inverse * (b.center() - self.center);

@@ -30,6 +30,7 @@ const RGB: DMat3 = DMat3::from_cols_array(&[
 ]);
 
 /// L*, a* and b* of three linear primaries, 0 to 1.
+#[inline]
 pub fn lab_of_color(color: DVec3) -> [f64; 3] {
     labs_of_colors([color]).map(|axis| axis[0])
 }
@@ -50,6 +51,7 @@ pub fn labs_of_colors<const N: usize>(colors: [DVec3; N]) -> [[f64; N]; 3] {
 }
 
 /// The three linear primaries of L*, a* and b*, clamped to 0 to 1.
+#[inline]
 pub fn color_of_lab([l, a, b]: [f64; 3]) -> DVec3 {
     let [x, z] = [l + 116.0 / 500.0 * a, l - 116.0 / 200.0 * b].map(light_of_lightness);
     (RGB * DVec3::new(x, light_of_lightness(l), z)).clamp(DVec3::ZERO, DVec3::ONE)

@@ -74,16 +74,19 @@ impl Level {
     pub const MAX: Self = Self(12);
 
     /// The level of a number, if it is 0 to 12.
+    #[inline]
     pub const fn new(number: u8) -> Option<Self> {
         if number <= Self::MAX.0 { Some(Self(number)) } else { None }
     }
 
     /// All 13, from black.
+    #[inline]
     pub fn all() -> impl Iterator<Item = Self> {
         (0..=Self::MAX.0).map(Self)
     }
 
     /// The level nearest to `light` in CIE L*; the lighter one midway; level 0 for NaN.
+    #[inline]
     pub fn nearest(light: f64) -> Self {
         // Negative light and NaN become part 0.
         let darkest = DARKEST[((light * PARTS as f64) as usize).min(PARTS - 1)];
@@ -93,21 +96,25 @@ impl Level {
     }
 
     /// The number, 0 to 12.
+    #[inline]
     pub const fn get(self) -> u8 {
         self.0
     }
 
     /// Its linear light, 0 to 1.
+    #[inline]
     pub const fn light(self) -> f64 {
         LIGHTS[self.0 as usize]
     }
 
     /// Its gray in a picture file, an sRGB byte.
+    #[inline]
     pub const fn srgb(self) -> u8 {
         BYTES[self.0 as usize]
     }
 
     /// One character: `0` to `9`, `A`, `B`, `C`.
+    #[inline]
     pub const fn digit(self) -> char {
         b"0123456789ABC"[self.0 as usize] as char
     }

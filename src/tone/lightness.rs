@@ -11,6 +11,7 @@ const FOOT_SLOPE: f64 = 24389.0 / 27.0;
 const SRGB_FOOT: f64 = 0.003_130_8;
 
 /// CIE L*, 0 to 100, of linear `light`, 0 to 1, against white at 1.
+#[inline]
 pub fn lightness(light: f64) -> f64 {
     lightnesses([light])[0]
 }
@@ -29,6 +30,7 @@ pub fn lightnesses<const N: usize>(mut light: [f64; N]) -> [f64; N] {
 }
 
 /// [`lightness`] in single precision, of several at once: each the number nearest to its own.
+#[inline]
 pub fn lightness_in_single<const N: usize>(light: [f64; N]) -> [f32; N] {
     /// Twice what [`near_cube_root`] may be away, up to L* 100: the rest is for rounding.
     const AWAY: f64 = 2.0 * 116.0 * NEAR;
@@ -36,22 +38,26 @@ pub fn lightness_in_single<const N: usize>(light: [f64; N]) -> [f32; N] {
     for near in &mut near {
         *near = 116.0 * near_cube_root(*near) - 16.0;
     }
-    let bound = |away: f64| -> [f32; N] {
-        std::array::from_fn(|k| {
-            if light[k] > FOOT_LIGHT { (near[k] + away) as f32 } else { (FOOT_SLOPE * light[k]) as f32 }
-        })
-    };
-    let (low, high) = (bound(-AWAY), bound(AWAY));
-    if low == high { low } else { lightnesses(light).map(|lightness| lightness as f32) }
+    let mut found = [0.0; N];
+    let mut is_doubtful = false;
+    for k in 0..N {
+        let (low, high) = ((near[k] - AWAY) as f32, (near[k] + AWAY) as f32);
+        let is_root = light[k] > FOOT_LIGHT;
+        found[k] = if is_root { low } else { (FOOT_SLOPE * light[k]) as f32 };
+        is_doubtful |= is_root & (low != high);
+    }
+    if is_doubtful { lightnesses(light).map(|lightness| lightness as f32) } else { found }
 }
 
 /// The light, 0 to 1, of a CIE `lightness` L*, 0 to 100.
+#[inline]
 pub fn light_of_lightness(lightness: f64) -> f64 {
     let root = (lightness + 16.0) / 116.0;
     if lightness > FOOT_SLOPE * FOOT_LIGHT { root * root * root } else { lightness / FOOT_SLOPE }
 }
 
 /// The linear light, 0 to 1, of an sRGB byte.
+#[inline]
 pub fn light_of_srgb(byte: u8) -> f64 {
     let value = f64::from(byte) / 255.0;
     if value <= 0.04045 { value / 12.92 } else { libm::pow((value + 0.055) / 1.055, 2.4) }

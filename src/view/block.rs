@@ -31,6 +31,7 @@ impl Block {
 
     /// Calls `each` with every row of the block and the places of its dots in the scan order of a tile, in which its corner
     /// is counted.
+    #[inline]
     pub fn rows(&self, tile: &Tile, mut each: impl FnMut(usize, Range<usize>)) {
         let [left, top] = self.corner;
         for row in 0..self.size.height {

@@ -138,11 +138,13 @@ impl Waiting {
 
 impl Ways {
     /// How many rays there are.
+    #[inline]
     pub fn len(&self) -> usize {
         self.ends.len()
     }
 
     /// Whether there is none.
+    #[inline]
     pub fn is_empty(&self) -> bool {
         self.ends.is_empty()
     }
@@ -162,18 +164,21 @@ impl Ways {
 
 impl Stream {
     /// Forgets all rays.
+    #[inline]
     pub fn clear(&mut self) {
         self.ways.ways.clear();
         self.ways.ends.clear();
     }
 
     /// One more ray, that looks as far as `to`.
+    #[inline(always)]
     pub fn push(&mut self, ray: &Ray, to: f64) {
         self.ways.ways.push(Way::new(ray, 0.0));
         self.ways.ends.push(upper(to));
     }
 
     /// The rays.
+    #[inline]
     pub fn ways(&self) -> &Ways {
         &self.ways
     }
@@ -182,6 +187,7 @@ impl Stream {
 impl Boxes {
     /// Calls `visit` again and again with some rays and the objects whose boxes they meet, each pair once, of one ray the
     /// nearer nodes first; at last with none. `visit` says by [`Ways::look`] how far a ray still matters.
+    #[inline]
     pub fn walk_stream(
         &self,
         stream: &mut Stream,

@@ -35,6 +35,7 @@ pub struct Nearest<T = f64> {
 }
 
 impl<T: Digits> Default for Nearest<T> {
+    #[inline]
     fn default() -> Self {
         Self::NOTHING
     }
@@ -63,6 +64,7 @@ impl<T: Digits> Nearest<T> {
     }
 
     /// Forgets which rays met anything in which way; where is left over.
+    #[inline]
     pub(super) fn forget_rays(&mut self) {
         (self.entering, self.unsure, self.apart) = (0, 0, 0);
     }

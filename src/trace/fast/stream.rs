@@ -49,6 +49,7 @@ struct Question {
 }
 
 impl Apart {
+    #[inline]
     fn clear(&mut self) {
         self.stream.clear();
         self.rays.clear();
@@ -56,6 +57,7 @@ impl Apart {
     }
 
     /// One more ray, that looks as far as `to`.
+    #[inline(always)]
     fn push(&mut self, at: Place, ray: Ray, departure: Option<Departure>, to: f64) {
         self.stream.push(&ray, to);
         self.leaves.push(departure.filter(|d| !d.inward).map_or(NONE, |d| d.primitive));
@@ -155,6 +157,7 @@ impl Fast<'_> {
     }
 
     /// The same as [`Fast::blocked_of`] finds, for rays of which none has company.
+    #[inline]
     pub fn blocked_alone(
         &self,
         shafts: &mut [Shaft],
@@ -194,6 +197,7 @@ impl Fast<'_> {
     }
 
     /// Whether a ray leaves a mesh, which has many faces: of those nothing is noted for a bundle.
+    #[inline]
     fn leaves_mesh(&self, departures: &Departures, lane: usize) -> bool {
         let primitive = departures.primitive.0[lane];
         primitive >= 0.0 && matches!(self.assembly.primitives[primitive as usize].form, Form::Mesh(_))

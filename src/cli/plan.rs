@@ -95,6 +95,11 @@ impl Printed {
         stage.cost.map(|cost| (cost.ms(self.threads) * 1e3).round() / 1e3)
     }
 
+    /// Of the stages that every picture goes through; LATTICE is done once, before the first.
+    fn expected_frame(&self) -> f64 {
+        self.stages.iter().filter(|s| s.stage != Stage::Lattice).filter_map(|s| self.expected(s)).sum()
+    }
+
     fn expected_total(&self) -> f64 {
         self.stages.iter().filter_map(|stage| self.expected(stage)).sum()
     }
@@ -123,9 +128,11 @@ impl Printed {
         let mut all = json!({
             "stages": self.stages.iter().map(stage).collect::<Vec<_>>(),
             "threads": self.threads, "expected_ms": self.expected_total(),
+            "expected_frame_ms": self.expected_frame(),
         });
         if let Some(ran) = &self.ran {
             all["ms"] = json!(ms(ran.before.iter().sum::<Duration>() + ran.frame.total));
+            all["frame_ms"] = json!(ms(ran.frame.total));
             all["engine"] = json!(ran.frame.engine.name());
             all["precision"] = json!(ran.frame.precision.name());
         }
@@ -171,18 +178,19 @@ impl Printed {
                 why: &t.why,
             }));
         }
-        rows.push(Row {
-            name: "total".into(),
+        let sum = |name: &str, expected: f64, measured: fn(&Ran) -> Duration| Row {
+            name: name.into(),
             plan: "",
-            expected: time(self.expected_total()),
+            expected: time(expected),
             foreseen: String::new(),
-            measured: self
-                .ran
-                .as_ref()
-                .map(|ran| time(ms(ran.before.iter().sum::<Duration>() + ran.frame.total))),
+            measured: self.ran.as_ref().map(|ran| time(ms(measured(ran)))),
             counted: ran(|_| String::new()),
             why: "",
-        });
+        };
+        rows.push(sum("each picture", self.expected_frame(), |ran| ran.frame.total));
+        rows.push(sum("with what is done once", self.expected_total(), |ran| {
+            ran.before.iter().sum::<Duration>() + ran.frame.total
+        }));
         let wide = |of: fn(&Row) -> usize| rows.iter().map(of).max().unwrap_or(0);
         let name = wide(|row| row.name.chars().count());
         let expected = wide(|row| row.expected.chars().count());

@@ -9,8 +9,7 @@ use super::{Request, Space, Studio};
 
 impl Studio {
     /// All eleven stages of the picture that [`Studio::draw`] draws of the same request: which it needs, which it
-    /// leaves out, why, and what each is expected to cost on this machine: some blocks of dots, at most some thousand rays, are
-    /// traced to see that. Builds the structure, where it was not built before; what that took is what LATTICE costs.
+    /// leaves out, why, and what each is expected to cost on this machine: some tiles are traced to see that. Builds the structure, where it was not built before; what that took is what LATTICE costs.
     pub fn explain(&self, request: &Request) -> Vec<StagePlan> {
         let (lens, plan) = self.plan(request);
         let mut stages = plan.explain(self.scene(), &self.assembly, &lens, request.dots);

@@ -117,13 +117,15 @@ fn is_a_table() {
     for options in [&[][..], &["--run"]] {
         let table = text(&done(&run(&[&["plan", "hanyang"], options].concat())));
         let lines: Vec<&str> = table.lines().collect();
-        let (total, rows) = lines.split_last().unwrap();
+        let (rows, sums) = lines.split_at(lines.len() - 2);
         let starts: Vec<usize> = rows
             .iter()
             .map(|line| line.find("needed").or(line.find("left out")).or(line.find("plan ")).unwrap())
             .collect();
         assert!(starts.len() > 11 && starts.iter().all(|&s| s == starts[0]), "{table}");
-        assert!(total.starts_with("total") && total.contains(" ms"), "{table}");
+        for (sum, of) in sums.iter().zip(["each picture", "with what is done once"]) {
+            assert!(sum.starts_with(of) && sum.contains(" ms"), "{table}");
+        }
         assert_eq!(rows[0].contains("measured"), !options.is_empty(), "{table}");
     }
     fails(&run(&["plan", "hanjang"]), 2);

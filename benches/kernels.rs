@@ -13,10 +13,10 @@ use std::hint::black_box;
 use std::ops::ControlFlow;
 
 use criterion::{BenchmarkId, Criterion, Throughput};
-use ray13::lattice::{Boxes, Lattice, Structure, SubLattices, Tree};
+use ray13::lattice::{Bvh8, Lattice, Structure, SubLattices, Tree};
 use ray13::math::Ray;
 use ray13::scene::Format;
-use ray13::solid::{Assembly, Body, Reach, Scratch, first_of_expression, first_of_span, first_of_surface};
+use ray13::solid::{Assembly, Body, Scratch, TRange, first_of_expression, first_of_span, first_of_surface};
 use ray13::stage::{Meter, Silent};
 
 use forms::{CONVEX, rays};
@@ -57,7 +57,7 @@ fn meet(criterion: &mut Criterion, group: &str, name: &str, assembly: &Assembly)
         Body::Single(index) => first_of_span(ray, &primitives[*index as usize], *index, None, &mut meter),
         Body::Surface(index) => first_of_surface(ray, &primitives[*index as usize], *index, None, &mut meter),
         Body::Composite { whole, .. } => {
-            first_of_expression(ray, whole, primitives, None, Reach::ALL, &mut scratch, &mut meter)
+            first_of_expression(ray, whole, primitives, None, TRange::ALL, &mut scratch, &mut meter)
         }
     };
     let mut group = criterion.benchmark_group(group);
@@ -101,7 +101,7 @@ fn walks(criterion: &mut Criterion) {
         group.throughput(Throughput::Elements(rays.len() as u64));
         let (tree, subs) = (Tree::new(&assembly), SubLattices::new(&assembly));
         let lattice = Lattice::new(&assembly).ok();
-        let boxes = Boxes::new(&assembly);
+        let boxes = Bvh8::new(&assembly);
         let structures = [
             lattice.as_ref().map(|lattice| Structure::Lattice(lattice, &subs)),
             Some(Structure::Tree(&tree, &subs)),

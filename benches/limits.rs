@@ -18,9 +18,9 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
-use ray13::math::{BUNDLE, Bundle, Mask, Number, ROWS, Ray, Rays};
+use ray13::math::{Mask, Number, PACKET, ROWS, Ray, RayPacket, Rays};
 use ray13::scene::Format;
-use ray13::solid::{Assembly, Form};
+use ray13::solid::{Assembly, WorldShape};
 
 use counted::{Counted, Operations};
 use forms::{CONVEX, rays};
@@ -57,10 +57,10 @@ fn main() {
     for (name, text) in CONVEX {
         let assembly = setting::assembled(&setting::scene(name, text, Format::Language));
         let form = &assembly.primitives[0].form;
-        let (bundle, rays) = bundled(&assembly, form);
+        let (packet, rays) = bundled(&assembly, form);
         let Operations { simple, quotients, roots } = counted(form, &rays);
         let least = (simple * pace.simple).max(quotients * pace.quotient + roots * pace.root);
-        let measured = dispatch!(level, simd => measured(simd, form, &bundle));
+        let measured = dispatch!(level, simd => measured(simd, form, &packet));
         println!(
             "| {name} | {simple:.0} | {quotients:.0} | {roots:.0} | {least:.1} ns | {measured:.1} ns | {:.1} |",
             measured / least
@@ -68,19 +68,19 @@ fn main() {
     }
 }
 
-/// A bundle of rays that all meet a form.
-fn bundled(assembly: &Assembly, form: &Form) -> (Bundle, Vec<Ray>) {
+/// A packet of rays that all meet a form.
+fn bundled(assembly: &Assembly, form: &WorldShape) -> (RayPacket, Vec<Ray>) {
     let meeting: Vec<Ray> = rays(assembly).into_iter().filter(|ray| form.span(ray).is_some()).collect();
-    let rays: Vec<Ray> = meeting.into_iter().cycle().take(BUNDLE).collect();
-    let mut bundle = Bundle::EMPTY;
+    let rays: Vec<Ray> = meeting.into_iter().cycle().take(PACKET).collect();
+    let mut packet = RayPacket::EMPTY;
     for (lane, ray) in rays.iter().enumerate() {
-        bundle.set(lane, ray);
+        packet.set(lane, ray);
     }
-    (bundle, rays)
+    (packet, rays)
 }
 
 /// What a ray takes on average.
-fn counted(form: &Form, rays: &[Ray]) -> Operations {
+fn counted(form: &WorldShape, rays: &[Ray]) -> Operations {
     let all = counted::during(|| {
         for ray in rays {
             black_box(form.spans(&Counted::of(&Rays::from(ray))));
@@ -111,11 +111,11 @@ fn chained<S: Simd>(simd: S, step: impl Fn(f64x8<S>, f64x8<S>, usize) -> f64x8<S
 
 /// What the spans of a row of rays take in nanoseconds.
 #[inline(always)]
-fn measured<S: Simd>(simd: S, form: &Form, bundle: &Bundle) -> f64 {
+fn measured<S: Simd>(simd: S, form: &WorldShape, packet: &RayPacket) -> f64 {
     macro_rules! of {
         ($($kind:ident),*) => {
             match form {
-                $(Form::$kind(solid) => rows(simd, bundle, #[inline(always)] |rays| {
+                $(WorldShape::$kind(solid) => rows(simd, packet, #[inline(always)] |rays| {
                     let spans = solid.spans(rays);
                     let sum = spans.enter.t + spans.leave.t + spans.enter.error + spans.leave.error;
                     spans.any.choose(sum + spans.enter.surface + spans.leave.surface, sum)
@@ -128,7 +128,7 @@ fn measured<S: Simd>(simd: S, form: &Form, bundle: &Bundle) -> f64 {
 }
 
 #[inline(always)]
-fn rows<S: Simd>(simd: S, bundle: &Bundle, spans: impl Fn(&Rays<f64x8<S>>) -> f64x8<S>) -> f64 {
+fn rows<S: Simd>(simd: S, packet: &RayPacket, spans: impl Fn(&Rays<f64x8<S>>) -> f64x8<S>) -> f64 {
     let time = least(|| {
         // By itself: a closure is not compiled for the processor that its surroundings are for.
         simd.vectorize(
@@ -136,9 +136,9 @@ fn rows<S: Simd>(simd: S, bundle: &Bundle, spans: impl Fn(&Rays<f64x8<S>>) -> f6
             || {
                 let mut sum = f64x8::splat(simd, 0.0);
                 for _ in 0..ROUNDS / ROWS {
-                    let bundle = black_box(bundle);
+                    let packet = black_box(packet);
                     for row in 0..ROWS {
-                        sum += spans(&bundle.load(simd, row));
+                        sum += spans(&packet.load(simd, row));
                     }
                 }
                 black_box(sum.as_slice());

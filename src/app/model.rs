@@ -12,7 +12,7 @@ use crate::glyph::{CELL_ASPECT, GlyphMode};
 use crate::math;
 use crate::plan::Shading;
 use crate::scene::Camera;
-use crate::view::{Lens, Picture};
+use crate::view::{Picture, PinholeCamera};
 
 /// The widths of a cell divided by its height that are believed: fonts for text are taller than wide, up to the
 /// square cells of some consoles; terminals that report nonsense report it far outside.
@@ -164,7 +164,7 @@ impl Model {
     pub fn field(&self) -> [f64; 2] {
         self.request().map_or(self.camera.field, |request| {
             let picture = Picture { dots: request.dots, dot_aspect: request.dot_aspect };
-            Lens::new(&self.camera, &picture).field()
+            PinholeCamera::new(&self.camera, &picture).field()
         })
     }
 

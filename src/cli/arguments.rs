@@ -165,7 +165,7 @@ pub struct PictureArguments {
     /// What traces; with --precision double the picture is the same
     #[arg(long, value_enum, default_value = "auto")]
     pub engine: EngineName,
-    /// Digits of what rays from the eye meet; the exact engine always has all
+    /// Precision of what rays from the eye meet; the exact engine always has double
     #[arg(long, value_enum, default_value = "auto")]
     pub precision: PrecisionName,
     /// Characters of the picture [default: auto]

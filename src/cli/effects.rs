@@ -86,7 +86,7 @@ const ROWS: [Row; 28] = [
         "precision single",
         Refused,
         |g| g.single() && g.is_exact(),
-        "the exact engine, which other structures than boxes ask for too, has all digits",
+        "the exact engine, which other structures than boxes ask for too, has double precision",
     ),
     row(
         "palette",

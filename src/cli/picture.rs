@@ -163,9 +163,9 @@ impl From<EngineName> for EngineChoice {
 /// The precisions by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum PrecisionName {
-    /// Half the digits where that saves time and nobody sees it: not in pfm
+    /// Single precision where that saves time and nobody sees it: not in pfm
     Auto,
-    /// Half the digits
+    /// Single precision
     Single,
     /// All
     Double,

@@ -7,23 +7,23 @@ use crate::shade::{Channel, Memory, Shader, TileHits, TileShading};
 use crate::solid::Assembly;
 use crate::stage::{Meter, Probe};
 use crate::trace::Fast;
-use crate::view::{Lens, Sight, Tile};
+use crate::view::{PinholeCamera, Tile, TileCamera};
 
 use super::gather::TileDots;
 use super::points::Tracer;
-use super::spare::Spare;
+use super::scratch_pool::ScratchPool;
 
 /// Traces tile by tile, with the fast engine.
 pub(super) struct Blocks<'a, 'b, C> {
     pub assembly: &'a Assembly,
     pub shader: &'a Shader<'b, Fast<'b>, C>,
-    pub lens: &'a Lens,
+    pub pinhole: &'a PinholeCamera,
     /// To the farthest point of the world, in the assembly's unit.
     pub way: f64,
     pub samples: u32,
     /// By tile: what the rays through the middles of its dots meet, where that is kept.
     pub hits: Option<&'a [OnceLock<TileHits>]>,
-    pub spare: &'a Spare,
+    pub spare: &'a ScratchPool,
 }
 
 /// What a worker of [`Blocks`] needs.
@@ -50,9 +50,9 @@ impl<'b, C: Channel + 'static> Tracer<C> for Blocks<'_, 'b, C> {
         dots: &mut TileDots<C>,
         meter: &mut Meter<impl Probe>,
     ) {
-        let eye = self.assembly.datum.inward_near(self.lens.eye);
+        let eye = self.assembly.scene_frame.inward_near(self.pinhole.eye);
         let BlocksMemory { alone, shading } = memory;
-        let sight = Sight { lens: self.lens, tile: *tile, off: [0.0; 2], eye, way: self.way };
+        let sight = TileCamera { pinhole: self.pinhole, tile: *tile, off: [0.0; 2], eye, way: self.way };
         let kept = self.hits.map(|tiles| &tiles[tile.number as usize]);
         self.shader.tile(&sight, kept, shading, alone, meter);
         for block in 0..sight.blocks() {
@@ -72,7 +72,7 @@ impl<'b, C: Channel + 'static> Tracer<C> for Blocks<'_, 'b, C> {
         let step = 1.0 / f64::from(self.samples);
         let inside = |k: u32| (f64::from(k) + 0.5) * step - 0.5;
         for (a, b) in (0..self.samples).flat_map(|b| (0..self.samples).map(move |a| (a, b))) {
-            let sight = Sight { off: [inside(a), inside(b)], ..sight };
+            let sight = TileCamera { off: [inside(a), inside(b)], ..sight };
             self.shader.tile(&sight, None, shading, alone, meter);
             for block in 0..sight.blocks() {
                 sight.block(block).rows(tile, |row, dots_of_row| {

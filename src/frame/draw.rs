@@ -12,11 +12,11 @@ use crate::plan::{Channels, EngineChoice, Plan, Precision};
 use crate::shade::{Channel, Shader, TileHits};
 use crate::stage::{Counts, Meter, Progress, Silent, Stage, StageTimes, Stopwatch, Task};
 use crate::trace::{Exact, Fast};
-use crate::view::{Lens, Picture, TILE, Tile, tiles};
+use crate::view::{Picture, PinholeCamera, TILE, Tile, tiles};
 
 use super::blocks::Blocks;
+use super::frame_cache::{Hits, Reused};
 use super::gather::{PictureDots, TileDots};
-use super::kept::{Hits, Reused};
 use super::points::{Points, Tracer};
 use super::{Frame, NothingInView, Request, Space, Studio, Wants};
 
@@ -84,14 +84,14 @@ impl Studio {
     /// The dots of a picture, without characters.
     fn traced(&self, request: &Request, hits: Option<&Hits>) -> Frame {
         let start = Instant::now();
-        let (lens, plan) = self.plan(request);
+        let (pinhole, plan) = self.plan(request);
         let hits = hits.map(|hits| hits.of(plan.precision, tiles(request.dots).len()));
         let viewed = Instant::now();
         let cut_before = self.built().cutting;
         let (structure, over_budget) = self.structure(plan.structure);
         let tracing = Instant::now();
         let mut dots = PictureDots::new(request, self.given_up());
-        let view = Viewed { studio: self, plan: &plan, lens: &lens, hits };
+        let view = Viewed { studio: self, plan: &plan, pinhole: &pinhole, hits };
         let whole = Whole { dots: &mut dots, wants: request.wants, progress: &self.progress };
         let (counts, sampled) = match plan.channels {
             Channels::Gray => view.work::<f64, _>(structure, whole),
@@ -108,7 +108,7 @@ impl Studio {
             normal: dots.normal.map(Arc::new),
             object: dots.object.map(Arc::new),
             cells: None,
-            nothing: (counts.primary_hits == 0).then(|| NothingInView::cause(&self.assembly, &lens)),
+            nothing: (counts.primary_hits == 0).then(|| NothingInView::cause(&self.assembly, &pinhole)),
             counts,
             times,
             objects: self.assembly.objects.len(),
@@ -117,7 +117,7 @@ impl Studio {
             engine: plan.engine,
             precision: plan.precision,
             over_budget,
-            field: lens.field(),
+            field: pinhole.field(),
             threads: rayon::current_num_threads(),
             trace,
             total: Duration::ZERO,
@@ -125,11 +125,11 @@ impl Studio {
     }
 
     /// From where a picture is seen, and what it requires.
-    pub(super) fn plan(&self, request: &Request) -> (Lens, Plan) {
+    pub(super) fn plan(&self, request: &Request) -> (PinholeCamera, Plan) {
         let picture = Picture { dots: request.dots, dot_aspect: request.dot_aspect };
-        let lens = Lens::new(&request.camera, &picture);
-        let plan = Plan::new(self.scene(), &self.assembly, &lens, &request.planned());
-        (lens, plan)
+        let pinhole = PinholeCamera::new(&request.camera, &picture);
+        let plan = Plan::new(self.scene(), &self.assembly, &pinhole, &request.planned());
+        (pinhole, plan)
     }
 }
 
@@ -137,7 +137,7 @@ impl Studio {
 pub(super) struct Viewed<'a> {
     pub studio: &'a Studio,
     pub plan: &'a Plan,
-    pub lens: &'a Lens,
+    pub pinhole: &'a PinholeCamera,
     /// By tile, where they are kept.
     pub hits: Option<&'a [OnceLock<TileHits>]>,
 }
@@ -154,20 +154,20 @@ pub(super) trait Work<C: Channel> {
 impl Viewed<'_> {
     /// Has work done by the plan's engine.
     pub fn work<C: Channel + 'static, W: Work<C>>(&self, structure: Structure, work: W) -> W::Done {
-        let Self { studio, plan, lens, .. } = *self;
+        let Self { studio, plan, pinhole, .. } = *self;
         let (scene, assembly) = (studio.scene(), &studio.assembly);
-        let way = farthest(assembly.datum.inward_near(lens.eye), &assembly.limit);
+        let way = farthest(assembly.scene_frame.inward_near(pinhole.eye), &assembly.limit);
         if let (EngineChoice::Fast, Structure::Boxes(boxes, subs)) = (plan.engine, structure) {
             let engine = Fast::new(assembly, boxes, subs)
                 .at_level(studio.level())
                 .in_singles(plan.precision == Precision::Single);
             let shader = &Shader::<_, C>::new(scene, assembly, plan, &engine);
             let (samples, spare) = (plan.samples, &studio.spare);
-            work.by(&Blocks { assembly, shader, lens, way, samples, hits: self.hits, spare })
+            work.by(&Blocks { assembly, shader, pinhole, way, samples, hits: self.hits, spare })
         } else {
             let engine = Exact::new(assembly, structure);
             let shader = &Shader::<_, C>::new(scene, assembly, plan, &engine);
-            work.by(&Points { assembly, shader, lens, way, samples: plan.samples })
+            work.by(&Points { assembly, shader, pinhole, way, samples: plan.samples })
         }
     }
 }

@@ -11,10 +11,10 @@ impl Studio {
     /// All eleven stages of the picture that [`Studio::draw`] draws of the same request: which it needs, which it
     /// leaves out, why, and what each is expected to cost on this machine: some tiles are traced to see that. Builds the structure, where it was not built before; what that took is what LATTICE costs.
     pub fn explain(&self, request: &Request) -> Vec<StagePlan> {
-        let (lens, plan) = self.plan(request);
-        let mut stages = plan.explain(self.scene(), &self.assembly, &lens, request.dots);
+        let (pinhole, plan) = self.plan(request);
+        let mut stages = plan.explain(self.scene(), &self.assembly, &pinhole, request.dots);
         let (structure, over_budget) = self.structure(plan.structure);
-        let sample = self.sample(request, (&lens, &plan), structure);
+        let sample = self.sample(request, (&pinhole, &plan), structure);
         let costs = plan.costs(&sample, request.dots);
         for stage in &mut stages {
             stage.cost = costs(stage.stage).filter(|_| stage.needed);

@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::math::{DVec3, Grid, Size};
-use crate::shade::{Channel, Seen};
+use crate::shade::{Channel, PrimaryHit};
 use crate::solid::Assembly;
 use crate::view::{TILE, Tile};
 
@@ -39,10 +39,10 @@ impl<C: Channel> TileDots<C> {
 
     /// Sets what a dot sees, as far as anyone wants it.
     #[inline]
-    pub fn see(&mut self, place: usize, seen: Option<Seen>, assembly: &Assembly) {
+    pub fn see(&mut self, place: usize, seen: Option<PrimaryHit>, assembly: &Assembly) {
         if let Some(depth) = &mut self.depth {
             // A distance, however large: only nothing is infinitely far away.
-            let distance = |seen: Seen| (seen.t * assembly.datum.unit).min(f64::MAX);
+            let distance = |seen: PrimaryHit| (seen.t * assembly.scene_frame.unit).min(f64::MAX);
             depth[place] = seen.map_or(f64::INFINITY, distance);
         }
         if let Some(normal) = &mut self.normal {

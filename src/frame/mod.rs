@@ -3,14 +3,14 @@
 mod blocks;
 mod draw;
 mod explain;
+mod frame_cache;
 mod gather;
-mod kept;
 mod nothing;
 pub mod pcat;
 mod points;
 mod request;
 mod sample;
-mod spare;
+mod scratch_pool;
 mod studio;
 
 pub use nothing::NothingInView;

@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::math::DVec3;
 use crate::solid::Assembly;
-use crate::view::Lens;
+use crate::view::PinholeCamera;
 
 /// So many times the scene's size an eye is too far away: its coordinates have 53 bits, so from there on all of the
 /// scene is in one place as seen by them.
@@ -29,12 +29,12 @@ pub enum NothingInView {
 
 impl NothingInView {
     /// Finds the cause for a picture in which nothing is seen.
-    pub(super) fn cause(assembly: &Assembly, lens: &Lens) -> Self {
+    pub(super) fn cause(assembly: &Assembly, pinhole: &PinholeCamera) -> Self {
         let limit = &assembly.limit;
         if assembly.objects.is_empty() || limit.is_empty() {
             return Self::NoObjects;
         }
-        let eye = assembly.datum.inward_near(lens.eye);
+        let eye = assembly.scene_frame.inward_near(pinhole.eye);
         let size = (limit.hi - limit.lo).max_element();
         let away = (limit.center() - eye).length();
         if away > TOO_FAR * size {
@@ -43,9 +43,9 @@ impl NothingInView {
         // Of each corner as the picture has it: how deep, and how far across and down, in parts of the half field.
         let seen = limit.corners().map(|corner| {
             let from_eye = corner - eye;
-            let depth = from_eye.dot(lens.forward);
-            let [across, down] = lens.tangents;
-            DVec3::new(from_eye.dot(lens.right) / across, from_eye.dot(lens.up) / down, depth)
+            let depth = from_eye.dot(pinhole.forward);
+            let [across, down] = pinhole.tangents;
+            DVec3::new(from_eye.dot(pinhole.right) / across, from_eye.dot(pinhole.up) / down, depth)
         });
         if seen.iter().all(|corner| corner.z <= 0.0) {
             return Self::Behind;
@@ -54,7 +54,7 @@ impl NothingInView {
         if beyond(|c| c.x) || beyond(|c| -c.x) || beyond(|c| c.y) || beyond(|c| -c.y) {
             return Self::Beside;
         }
-        if size < lens.least_dot() * away { Self::TooSmall } else { Self::Unknown }
+        if size < pinhole.least_dot() * away { Self::TooSmall } else { Self::Unknown }
     }
 }
 
@@ -134,7 +134,7 @@ mod tests {
         assert_eq!(
             NothingInView::cause(
                 &studio.assembly,
-                &crate::view::Lens::new(
+                &crate::view::PinholeCamera::new(
                     &studio.camera(0, 1.0),
                     &crate::view::Picture { dots: Size::new(4, 4), dot_aspect: 1.0 }
                 )

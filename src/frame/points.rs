@@ -5,7 +5,7 @@ use crate::shade::{Channel, Memory, Shader, View};
 use crate::solid::Assembly;
 use crate::stage::{Meter, Probe, Stage};
 use crate::trace::Engine;
-use crate::view::{Lens, Tile, settled};
+use crate::view::{PinholeCamera, Tile, settled};
 
 use super::gather::TileDots;
 
@@ -34,7 +34,7 @@ pub(super) trait Tracer<C>: Sync {
 pub(super) struct Points<'a, 'b, E, C> {
     pub assembly: &'a Assembly,
     pub shader: &'a Shader<'b, E, C>,
-    pub lens: &'a Lens,
+    pub pinhole: &'a PinholeCamera,
     /// To the farthest point of the world, in the assembly's unit.
     pub way: f64,
     pub samples: u32,
@@ -79,7 +79,7 @@ where
 impl<E: Engine, C: Channel> Points<'_, '_, E, C> {
     fn sample(&self, x: f64, y: f64, memory: &mut Memory<E>, meter: &mut Meter<impl Probe>) -> View<C> {
         meter.at(Stage::Ray);
-        let ray = self.assembly.ray(&self.lens.ray(x, y));
+        let ray = self.assembly.ray(&self.pinhole.ray(x, y));
         let ray = Ray::new(ray.o, settled(ray.d, self.way));
         let view = self.shader.view(&ray, memory, meter);
         meter.at(Stage::Ray);

@@ -12,7 +12,7 @@ use crate::math::{DVec3, Grid, Size};
 use crate::plan::{Channels, Plan, Sample};
 use crate::shade::Channel;
 use crate::stage::{Meter, Silent, Stage, Stopwatch};
-use crate::view::{Lens, TILE, Tile, tiles};
+use crate::view::{PinholeCamera, TILE, Tile, tiles};
 
 use super::draw::{Viewed, Work, composed, shared_out};
 use super::gather::TileDots;
@@ -51,10 +51,10 @@ impl Studio {
     pub(super) fn sample(
         &self,
         request: &Request,
-        (lens, plan): (&Lens, &Plan),
+        (pinhole, plan): (&PinholeCamera, &Plan),
         structure: Structure,
     ) -> Sample {
-        let view = Viewed { studio: self, plan, lens, hits: None };
+        let view = Viewed { studio: self, plan, pinhole, hits: None };
         match plan.channels {
             Channels::Gray => view.work::<f64, _>(structure, Sampling(request)),
             Channels::Three => view.work::<DVec3, _>(structure, Sampling(request)),

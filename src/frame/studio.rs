@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use fearless_simd::Level;
 
-use crate::lattice::{Boxes, Lattice, OverBudget, Structure, SubLattices, Tree};
+use crate::lattice::{Bvh8, Lattice, OverBudget, Structure, SubLattices, Tree};
 use crate::math::DVec3;
 use crate::plan::StructureChoice;
 use crate::scene::{Camera, Scene};
@@ -13,8 +13,8 @@ use crate::solid::{Assembly, AssemblyError};
 use crate::stage::Progress;
 use crate::view::framed;
 
-use super::kept::Kept;
-use super::spare::Spare;
+use super::frame_cache::FrameCache;
+use super::scratch_pool::ScratchPool;
 
 /// A scene made ready: its solids are put together once, its lattice is built when a picture first wants it, and
 /// all pictures share both.
@@ -27,12 +27,12 @@ pub struct Studio {
     level: Level,
     lattice: OnceLock<(Result<Lattice, OverBudget>, Duration)>,
     tree: OnceLock<(Tree, Duration)>,
-    boxes: OnceLock<(Boxes, Duration)>,
+    boxes: OnceLock<(Bvh8, Duration)>,
     subs: OnceLock<(SubLattices, Duration)>,
     /// The workers of the last picture, kept while the number of threads stays the same.
     workers: Mutex<Option<Workers>>,
-    pub(super) kept: Mutex<Option<Kept>>,
-    pub(super) spare: Spare,
+    pub(super) kept: Mutex<Option<FrameCache>>,
+    pub(super) spare: ScratchPool,
 }
 
 type Workers = (usize, Arc<rayon::ThreadPool>);
@@ -69,7 +69,7 @@ impl Studio {
             subs: OnceLock::new(),
             workers: Mutex::new(None),
             kept: Mutex::new(None),
-            spare: Spare::default(),
+            spare: ScratchPool::default(),
         })
     }
 
@@ -161,8 +161,8 @@ impl Studio {
     }
 
     /// The boxes around boxes, built now if they were not before.
-    pub fn boxes(&self) -> &Boxes {
-        &self.boxes.get_or_init(|| timed(|| Boxes::new(&self.assembly))).0
+    pub fn boxes(&self) -> &Bvh8 {
+        &self.boxes.get_or_init(|| timed(|| Bvh8::new(&self.assembly))).0
     }
 
     /// How space is cut for a plan, and why that is not the lattice that the plan wants.

@@ -5,21 +5,21 @@
 //! → object pointers) is [`Lattice::objects_in`]; the object list is [`crate::solid::Assembly::objects`], each
 //! composite one with its [`SubLattice`]; the sub-object list is [`crate::solid::Assembly::primitives`].
 
-mod beam;
-mod boxes;
+mod bvh;
 mod clip;
-mod fan;
-mod loose;
+mod frusta;
+mod frustum;
+mod loose_octree;
 mod planes;
 mod structure;
 mod sub;
 mod tree;
 
-pub use beam::{Basis, Beam, Met, Spread, WAY};
-pub use boxes::{Boxes, Child, Meeting, Node, ROOM, Round, Stream, WIDE, Ways};
+pub use bvh::{BoundingSphere, Bvh8, Candidate, Child, Node, ROOM, Stream, StreamRays, WIDE};
 pub use clip::{Outcode, entry};
-pub use fan::{FAN, Fan, FanMet};
-pub use loose::{Loose, MANY};
+pub use frusta::{FRUSTA, FrustaHits, FrustumSoa};
+pub use frustum::{Basis, Frustum, FrustumHits, Spread, WAY};
+pub use loose_octree::{LooseOctree, MANY};
 pub use planes::{Planes, SLACK, Step, slack};
 pub use structure::Structure;
 pub use sub::{SubLattice, SubLattices};

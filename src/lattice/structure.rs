@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use crate::math::Ray;
 
-use super::{Boxes, Lattice, Step, SubLattice, SubLattices, Tree};
+use super::{Bvh8, Lattice, Step, SubLattice, SubLattices, Tree};
 
 /// How the space of a picture is cut. Every structure leads to the same hits.
 #[derive(Clone, Copy, Debug)]
@@ -16,7 +16,7 @@ pub enum Structure<'a> {
     /// Lattices within lattices, with sub-lattices in composite objects.
     Tree(&'a Tree, &'a SubLattices),
     /// Boxes around boxes, with sub-lattices in composite objects.
-    Boxes(&'a Boxes, &'a SubLattices),
+    Boxes(&'a Bvh8, &'a SubLattices),
 }
 
 impl<'a> Structure<'a> {

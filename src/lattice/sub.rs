@@ -7,7 +7,7 @@ use crate::math::{Bounds, DVec3, Ray};
 use crate::solid::{Assembly, Body, Expression, Object, Primitive, Pruned, Tree};
 use crate::stage::{Progress, Task};
 
-use super::loose::{Loose, MANY};
+use super::loose_octree::{LooseOctree, MANY};
 use super::planes::{Planes, SLACK, Step, slack};
 
 /// The most cells of one sub-lattice. Past it planes are left out, which costs tests but changes no hit: 64
@@ -28,8 +28,8 @@ const ALL_LEAVES: f64 = 4.0 * MOST_LEAVES;
 pub struct SubLattices {
     /// By object, up to the last that has one.
     cells: Vec<Option<SubLattice>>,
-    /// By object, up to the last that has one: for beams, of those with many primitives.
-    loose: Vec<Option<Loose>>,
+    /// By object, up to the last that has one: for frustums, of those with many primitives.
+    loose: Vec<Option<LooseOctree>>,
 }
 
 impl SubLattices {
@@ -51,7 +51,9 @@ impl SubLattices {
             }
         };
         let loose = |object: &Object| match &object.body {
-            Body::Composite { whole, .. } if whole.leaves.len() >= MANY => Some(Loose::new(object.bounds)),
+            Body::Composite { whole, .. } if whole.leaves.len() >= MANY => {
+                Some(LooseOctree::new(object.bounds))
+            }
             _ => None,
         };
         Self {
@@ -68,7 +70,7 @@ impl SubLattices {
 
     /// The loose cells of an object, where it has some.
     #[inline]
-    pub fn loose(&self, object: u32) -> Option<&Loose> {
+    pub fn loose(&self, object: u32) -> Option<&LooseOctree> {
         self.loose.get(object as usize)?.as_ref()
     }
 }

@@ -2,23 +2,23 @@
 //! trigonometry come from `libm`, so that every platform computes the same bits.
 
 mod bounds;
-mod bundle;
-mod digits;
 mod exact;
+mod f32x16;
 mod grid;
 mod number;
+mod packet;
 mod placement;
 mod ray;
-mod single;
+mod real;
 mod vector;
 
 pub use bounds::Bounds;
-pub use bundle::{BUNDLE, Bundle, Column, Columns, Place, ROWS, lanes, places, row_of};
-pub use digits::{Answers, Digits, Row, Wide};
 pub use exact::{product_rest, two_sum};
 pub use glam::{DAffine3, DMat3, DVec2, DVec3};
 pub use grid::{Grid, Size};
 pub use number::{LANES, Mask, Number, Powers};
+pub use packet::{LaneVector, Lanes, PACKET, ROWS, RayIndex, RayPacket, lanes, places, row_of};
 pub use placement::{Placement, is_singular};
 pub use ray::Ray;
+pub use real::{Real, RealMask, SimdReal, SimdRegister};
 pub use vector::{Rays, Vector};

@@ -41,7 +41,7 @@ pub trait Number:
 
     /// How many times as much is lost by a rounding as of an `f64`.
     const COARSER: f64 = 1.0;
-    /// Whether these are all digits that there are: else more are asked for where they leave a doubt.
+    /// Whether these are double precision: else more are asked for where they leave a doubt.
     const DECIDES: bool = true;
     /// Below this numbers lose digits.
     const LEAST: f64 = f64::MIN_POSITIVE;

@@ -2,9 +2,9 @@
 
 use crate::math::Size;
 use crate::scene::Scene;
-use crate::solid::{Assembly, Body, Form, Tree};
+use crate::solid::{Assembly, Body, Tree, WorldShape};
 use crate::stage::Stage;
-use crate::view::Lens;
+use crate::view::PinholeCamera;
 
 use super::precision::{Digital, Precision};
 use super::{Channels, Cost, EngineChoice, Plan, Shading, StructureChoice};
@@ -98,16 +98,22 @@ impl Absent {
 
 impl Plan {
     /// Stages 1 to 9, in order, of a picture of `dots`. What comes after them is not for the plan to
-    /// decide. `scene`, `assembly` and `lens` are those that the plan was made from.
-    pub fn explain(&self, scene: &Scene, assembly: &Assembly, lens: &Lens, dots: Size) -> Vec<StagePlan> {
+    /// decide. `scene`, `assembly` and `pinhole` are those that the plan was made from.
+    pub fn explain(
+        &self,
+        scene: &Scene,
+        assembly: &Assembly,
+        pinhole: &PinholeCamera,
+        dots: Size,
+    ) -> Vec<StagePlan> {
         let kinds = Kinds::of(assembly);
         let stage =
             |stage, needed, why: String| StagePlan { stage, needed, why, cost: None, terms: Vec::new() };
         let nothing = || "no object holds anything → no ray meets one".to_owned();
         let is_empty = assembly.objects.is_empty();
-        let inside = assembly.limit.contains(assembly.datum.inward(lens.eye));
+        let inside = assembly.limit.contains(assembly.scene_frame.inward(pinhole.eye));
         let is_cut = self.structure != StructureChoice::None;
-        let [across, down] = lens.field();
+        let [across, down] = pinhole.field();
         let walk = match (is_empty, is_cut) {
             (true, _) => nothing(),
             (false, true) if self.engine == EngineChoice::Fast => {
@@ -153,7 +159,7 @@ impl Plan {
     fn digits(&self) -> Term {
         let why = match self.reasons.digital {
             Digital::Asked(precision) => format!("{} precision is wanted", precision.name()),
-            Digital::Exact => "the exact engine has all digits → f64".into(),
+            Digital::Exact => "the exact engine has double precision → f64".into(),
             Digital::SentOn => "rays start on what is hit → f64".into(),
             Digital::NoGain => "of balls and surfaces it saves nothing → f64".into(),
             Digital::Thin => "a primitive is so thin that most rays would be asked twice → f64".into(),
@@ -264,7 +270,7 @@ struct Kinds {
 
 impl Kinds {
     fn of(assembly: &Assembly) -> Self {
-        let forms = |is: fn(&Form) -> bool| assembly.primitives.iter().filter(|p| is(&p.form)).count();
+        let forms = |is: fn(&WorldShape) -> bool| assembly.primitives.iter().filter(|p| is(&p.form)).count();
         let bodies = |is: fn(&Body) -> bool| assembly.objects.iter().filter(|o| is(&o.body)).count();
         let composites = bodies(|b| matches!(b, Body::Composite { .. }));
         let lone_meshes =
@@ -272,8 +278,8 @@ impl Kinds {
         Self {
             objects: assembly.objects.len(),
             primitives: assembly.primitives.len(),
-            meshes: forms(|f| matches!(f, Form::Mesh(_))),
-            surfaces: forms(Form::is_surface),
+            meshes: forms(|f| matches!(f, WorldShape::Mesh(_))),
+            surfaces: forms(WorldShape::is_surface),
             expressions: composites - lone_meshes,
             lone_meshes,
         }

@@ -16,7 +16,7 @@ pub use precision::Precision;
 use crate::math::DVec3;
 use crate::scene::{Anchor, Light, Material, Scene};
 use crate::solid::Assembly;
-use crate::view::Lens;
+use crate::view::PinholeCamera;
 
 use explain::{Absent, Cut};
 use precision::Digital;
@@ -30,7 +30,7 @@ pub struct Plan {
     /// What traces; never [`EngineChoice::Auto`]. Where it is [`EngineChoice::Fast`], the structure is
     /// [`StructureChoice::Boxes`].
     pub engine: EngineChoice,
-    /// In how many digits it asks what rays from the eye meet.
+    /// In which precision it asks what rays from the eye meet.
     pub precision: Precision,
     /// The constant of the depth term, in the scene's unit; absent where the division is left out.
     pub depth: Option<f64>,
@@ -67,12 +67,18 @@ pub struct Secondary {
 }
 
 impl Secondary {
-    fn new(scene: &Scene, assembly: &Assembly, lens: &Lens, options: &Options, lamps: &[Lamp]) -> Self {
+    fn new(
+        scene: &Scene,
+        assembly: &Assembly,
+        pinhole: &PinholeCamera,
+        options: &Options,
+        lamps: &[Lamp],
+    ) -> Self {
         // A ray of weight w changes its dot by w at most, unless something in the scene is brighter than white.
         let sources =
             [scene.world.ambient, scene.world.background].into_iter().chain(lamps.iter().map(|l| l.light));
         let brightest = sources.map(DVec3::max_element).fold(1.0, f64::max);
-        let eye = assembly.datum.inward_near(lens.eye);
+        let eye = assembly.scene_frame.inward_near(pinhole.eye);
         let kt = |primitive: &u32| scene.materials[assembly.material(*primitive).0 as usize].kt > 0.0;
         let glass = scene.materials.iter().any(|m| m.kt > 0.0);
         let objects = if glass { assembly.objects.len() as u32 } else { 0 };
@@ -108,15 +114,15 @@ pub struct Lamp {
 
 impl Plan {
     /// Compiles one picture.
-    pub fn new(scene: &Scene, assembly: &Assembly, lens: &Lens, options: &Options) -> Self {
+    pub fn new(scene: &Scene, assembly: &Assembly, pinhole: &PinholeCamera, options: &Options) -> Self {
         let from_model = |least: Shading| {
             if options.shading >= least { Ok(()) } else { Err(Absent::InModel(options.shading)) }
         };
         let first = |has: fn(&Material) -> bool| scene.materials.iter().position(has);
         let lamps: Vec<Lamp> = if scene.lights.is_empty() {
-            Light::defaults().iter().map(|light| lamp(light, lens)).collect()
+            Light::defaults().iter().map(|light| lamp(light, pinhole)).collect()
         } else {
-            scene.lights.iter().filter(|l| l.intensity > 0.0).map(|light| lamp(light, lens)).collect()
+            scene.lights.iter().filter(|l| l.intensity > 0.0).map(|light| lamp(light, pinhole)).collect()
         };
         let lit = if lamps.is_empty() { Err(Absent::Light) } else { Ok(()) };
         let engine = options.traced_by();
@@ -127,7 +133,7 @@ impl Plan {
         let sends_on = secondary.is_ok() || shadows.is_ok();
         let reasons = Reasons {
             cut,
-            digital: Digital::of(assembly, lens, options, (engine, sends_on)),
+            digital: Digital::of(assembly, pinhole, options, (engine, sends_on)),
             shading: options.shading,
             depth: from_model(Shading::Depth).and_then(|()| scene.world.k.ok_or(Absent::DepthConstant)),
             highlight: from_model(Shading::Phong)
@@ -145,7 +151,7 @@ impl Plan {
             depth: reasons.depth.ok(),
             highlight: reasons.highlight.is_ok(),
             secondary: (reasons.secondary.ok())
-                .map(|_| Secondary::new(scene, assembly, lens, options, &lamps)),
+                .map(|_| Secondary::new(scene, assembly, pinhole, options, &lamps)),
             glass: first(|m| m.kt > 0.0).is_some(),
             shadows: reasons.shadows.is_ok(),
             channels: if reasons.colored.is_some() { Channels::Three } else { Channels::Gray },
@@ -186,10 +192,10 @@ fn suitable(assembly: &Assembly, choice: StructureChoice, engine: EngineChoice) 
     }
 }
 
-fn lamp(light: &Light, lens: &Lens) -> Lamp {
+fn lamp(light: &Light, pinhole: &PinholeCamera) -> Lamp {
     let at = match light.anchor {
         Anchor::World(p) => p,
-        Anchor::Eye(p) => lens.place(p),
+        Anchor::Eye(p) => pinhole.place(p),
     };
     Lamp { at, light: light.intensity * light.color }
 }

@@ -24,7 +24,7 @@ pub struct Options {
     pub structure: StructureChoice,
     /// What traces.
     pub engine: EngineChoice,
-    /// In how many digits the fast engine asks what rays from the eye meet.
+    /// In which precision the fast engine asks what rays from the eye meet.
     pub precision: PrecisionChoice,
     /// Rays per dot along each axis; 1 or more. The light of a dot is their mean.
     pub samples: u32,
@@ -166,14 +166,14 @@ impl EngineChoice {
     }
 }
 
-/// In how many digits rays from the eye are asked what they meet, as asked for.
+/// In which precision rays from the eye are asked what they meet, as asked for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum PrecisionChoice {
-    /// Half the digits, where that takes less time and nobody sees it: depths and normals are still off by 10⁻⁵ of the scene's
+    /// Single precision, where that takes less time and nobody sees it: depths and normals are still off by 10⁻⁵ of the scene's
     /// size.
     #[default]
     Auto,
-    /// Half the digits, whether it is seen or not.
+    /// Single precision, whether it is seen or not.
     Single,
     /// All.
     Double,

@@ -1,21 +1,21 @@
-//! In how many digits rays from the eye are asked what they meet.
+//! In which precision rays from the eye are asked what they meet.
 //!
 //! Of solids that are cut, and of convex ones but balls, numbers of 24 bits say it in less time than those of 53. Which surface
-//! is met stays certain: where half the digits leave a doubt, at silhouettes and edges and where two surfaces are near each
-//! other, all are asked. But where it is met is off by up to [`Digits::COARSER`] times as much, some 2·10⁻⁵ in the unit in which
+//! is met stays certain: where single precision leave a doubt, at silhouettes and edges and where two surfaces are near each
+//! other, all are asked. But where it is met is off by up to [`Real::COARSER`] times as much, some 2·10⁻⁵ in the unit in which
 //! the world reaches to ±2. That is allowed where it is so small a part of a dot, of what is nearest to the eye, that light is off
 //! by less than a quarter of a level.
 //!
-//! Rays that start on surfaces need all digits: between two curved mirrors what is off grows with each generation, and the edge
+//! Rays that start on surfaces need double precision: between two curved mirrors what is off grows with each generation, and the edge
 //! of a shadow shows where a point is.
 
-use crate::math::{DVec3, Digits};
+use crate::math::{DVec3, Real};
 use crate::solid::Assembly;
-use crate::view::Lens;
+use crate::view::PinholeCamera;
 
 use super::{EngineChoice, Options, PrecisionChoice};
 
-/// In how many digits rays from the eye are asked.
+/// In which precision rays from the eye are asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Precision {
     /// Those of `f32`; of `f64` where these leave a doubt.
@@ -94,7 +94,7 @@ impl Digital {
 
     pub fn of(
         assembly: &Assembly,
-        lens: &Lens,
+        pinhole: &PinholeCamera,
         options: &Options,
         (engine, sends_on): (EngineChoice, bool),
     ) -> Self {
@@ -102,20 +102,20 @@ impl Digital {
             _ if engine == EngineChoice::Exact => return Self::Exact,
             PrecisionChoice::Double => return Self::Asked(Precision::Double),
             _ if assembly.primitives.len() > NUMBERED => return Self::Many,
-            PrecisionChoice::Single if assembly.makeup.thinnest < PLAIN => return Self::Thin,
+            PrecisionChoice::Single if assembly.stats.thinnest < PLAIN => return Self::Thin,
             PrecisionChoice::Single => return Self::Asked(Precision::Single),
             _ if sends_on => return Self::SentOn,
             PrecisionChoice::Auto => {}
         }
-        let makeup = &assembly.makeup;
-        if makeup.surfaces > 0 || makeup.balls == assembly.objects.len() {
+        let stats = &assembly.stats;
+        if stats.surfaces > 0 || stats.balls == assembly.objects.len() {
             return Self::NoGain;
         }
         let off = assembly.off * f32::COARSER;
-        if makeup.thinnest < THICK * off {
+        if stats.thinnest < THICK * off {
             return Self::Thin;
         }
-        let least_dot = nearest(assembly, lens) * lens.least_dot();
+        let least_dot = nearest(assembly, pinhole) * pinhole.least_dot();
         if least_dot == 0.0 {
             return Self::Near;
         }
@@ -125,8 +125,8 @@ impl Digital {
 }
 
 /// How near anything is to the eye at least.
-fn nearest(assembly: &Assembly, lens: &Lens) -> f64 {
-    let eye = assembly.datum.inward_near(lens.eye);
+fn nearest(assembly: &Assembly, pinhole: &PinholeCamera) -> f64 {
+    let eye = assembly.scene_frame.inward_near(pinhole.eye);
     let distance = |lo: DVec3, hi: DVec3| (eye.clamp(lo, hi) - eye).length();
     let to_world = distance(assembly.limit.lo, assembly.limit.hi);
     if to_world > 0.0 || assembly.objects.len() > ASKED {

@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Div, Mul};
 
-use crate::math::{Column, DVec3, LANES, Number};
+use crate::math::{DVec3, LANES, Lanes, Number};
 
 /// The shares of the linear primaries (sRGB, Rec. 709) in luminance.
 const LUMINANCE: DVec3 = DVec3::new(0.2126, 0.7152, 0.0722);
@@ -48,7 +48,7 @@ pub trait Channel:
     fn from_parts(parts: [f64; 3]) -> Self;
 
     /// Those of a row of rays, `row` below [`ROWS`](crate::math::ROWS), out of a column for each part.
-    fn row(columns: &[Column], row: usize) -> [Self; LANES];
+    fn row(columns: &[Lanes], row: usize) -> [Self; LANES];
 
     /// From the three primaries.
     fn from_rgb(rgb: DVec3) -> Self;
@@ -86,7 +86,7 @@ impl Channel for f64 {
     }
 
     #[inline(always)]
-    fn row(columns: &[Column], row: usize) -> [Self; LANES] {
+    fn row(columns: &[Lanes], row: usize) -> [Self; LANES] {
         columns[0].row(row)
     }
 
@@ -127,7 +127,7 @@ impl Channel for DVec3 {
     }
 
     #[inline(always)]
-    fn row(columns: &[Column], row: usize) -> [Self; LANES] {
+    fn row(columns: &[Lanes], row: usize) -> [Self; LANES] {
         let [red, green, blue] = [columns[0].row(row), columns[1].row(row), columns[2].row(row)];
         let mut lights = [Self::ZERO; LANES];
         for (lane, light) in lights.iter_mut().enumerate() {

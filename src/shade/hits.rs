@@ -1,13 +1,13 @@
 //! What the rays from the eye through a tile met, kept: while view and solids stay, light is computed anew without tracing
 //! them.
 
-use crate::math::{BUNDLE, DVec3, Place};
+use crate::math::{DVec3, PACKET, RayIndex};
 use crate::stage::{Meter, Probe, Stage};
-use crate::trace::{Fast, Hit, Nearest};
-use crate::view::Sight;
+use crate::trace::{Fast, Hit, PacketHits};
+use crate::view::TileCamera;
 
 use super::channel::Channel;
-use super::surface::{Memory, Met, Shader};
+use super::surface::{Memory, Shader, SurfaceInteraction};
 use super::tile::TileShading;
 
 /// What the rays from the eye through a tile met. It depends on nothing but the view and the solids: not on lights, on what
@@ -20,13 +20,13 @@ pub struct TileHits {
     blocks: Vec<BlockHits>,
 }
 
-/// What the rays of one block met, as [`Nearest`] has it.
+/// What the rays of one block met, as [`PacketHits`] has it.
 #[derive(Debug)]
 pub(super) struct BlockHits {
-    t: [f64; BUNDLE],
-    object: [u32; BUNDLE],
-    primitive: [u32; BUNDLE],
-    surface: [u32; BUNDLE],
+    t: [f64; PACKET],
+    object: [u32; PACKET],
+    primitive: [u32; PACKET],
+    surface: [u32; PACKET],
     entering: u64,
     /// Rays that met more than one surface in one place: which of them shows, and what is behind it, are questions of
     /// material.
@@ -46,9 +46,9 @@ impl TileHits {
 }
 
 impl BlockHits {
-    /// Of what is known of a bundle. `alone` are rays that were traced alone, `together` those among them whose light is known
+    /// Of what is known of a packet. `alone` are rays that were traced alone, `together` those among them whose light is known
     /// already.
-    pub fn new(nearest: &Nearest, together: u64, alone: &[(Place, Met)]) -> Self {
+    pub fn new(nearest: &PacketHits, together: u64, alone: &[(RayIndex, SurfaceInteraction)]) -> Self {
         let single = alone.iter().filter(|(at, _)| together >> at.lane & 1 == 0);
         Self {
             t: nearest.t.0,
@@ -61,8 +61,8 @@ impl BlockHits {
         }
     }
 
-    /// Says so to the bundle `k`. Answers which rays met what when they were traced alone.
-    fn tell(&self, k: usize, nearest: &mut Nearest) -> Vec<(Place, Met)> {
+    /// Says so to the packet `k`. Answers which rays met what when they were traced alone.
+    fn tell(&self, k: usize, nearest: &mut PacketHits) -> Vec<(RayIndex, SurfaceInteraction)> {
         nearest.t.0 = self.t;
         nearest.object.0 = self.object.map(f64::from);
         nearest.primitive.0 = self.primitive.map(f64::from);
@@ -78,7 +78,7 @@ impl BlockHits {
                 surface: self.surface[lane],
                 entering: self.entering >> lane & 1 == 1,
             };
-            (Place { bundle: k, lane }, Met { hit, p, normal: DVec3::ZERO })
+            (RayIndex { packet: k, lane }, SurfaceInteraction { hit, p, normal: DVec3::ZERO })
         };
         self.alone.iter().map(met).collect()
     }
@@ -88,7 +88,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
     /// Takes over what the rays from the eye met. Only those are traced again that met more than one surface in one place.
     pub(super) fn recall(
         &self,
-        sight: &Sight,
+        sight: &TileCamera,
         hits: &TileHits,
         tile: &mut TileShading<C>,
         memory: &mut Memory<Fast<'e>>,

@@ -1,16 +1,16 @@
 //! The light that the surfaces of one generation send back of themselves: their lit points ask for one lamp after the
 //! other, so that the rays towards it run side by side.
 
-use crate::math::{Column, places};
+use crate::math::{Lanes, places};
 use crate::stage::{Meter, Probe, Stage};
-use crate::trace::{Fast, Shaft, Shone};
+use crate::trace::{Fast, ShadowPacket, ShadowQuery};
 
 use super::channel::Channel;
 use super::lit::{Gathering, Lit, Needs, before_lamps};
-use super::surface::{Finish, Lamp, Memory, Shader};
+use super::surface::{Lamp, Memory, ResolvedMaterial, Shader};
 use super::surfaces::Surfaces;
 use super::tile::TileShading;
-use super::wave::Wave;
+use super::wavefront::Wavefront;
 
 impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
     /// The light that a generation's surfaces send back of themselves.
@@ -33,8 +33,8 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
             self.lamp(lamp, generation, tile, memory, meter);
         }
         let wave = &mut tile.waves[generation];
-        let unit = self.assembly.datum.unit;
-        let Wave { rays, surfaces, light, .. } = wave;
+        let unit = self.assembly.scene_frame.unit;
+        let Wavefront { rays, surfaces, light, .. } = wave;
         for (Surfaces { materials, way, .. }, light) in
             surfaces[..rays.len()].iter().zip(light.chunks_mut(C::PARTS))
         {
@@ -57,58 +57,61 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
     ) {
         let level = self.engine.level();
         let Lamp { at: place, light: shed } = self.lamps[lamp];
-        let TileShading { trace, waves, shafts, lit } = tile;
+        let TileShading { trace, waves, shadow_packets, lit } = tile;
         let wave = &mut waves[generation];
         let count = wave.rays.len();
-        if shafts.len() < count {
-            shafts.resize(count, Shaft::EMPTY);
+        if shadow_packets.len() < count {
+            shadow_packets.resize(count, ShadowPacket::EMPTY);
             lit.resize(count, Lit::NONE);
         }
-        let shafts = &mut shafts[..count];
+        let shadow_packets = &mut shadow_packets[..count];
         for k in 0..count {
             if wave.surfaces[k].hits == 0 {
-                shafts[k].clear();
+                shadow_packets[k].clear();
                 continue;
             }
             let shines = self.made_so(&wave.surfaces[k], |finish| finish.kd > 0.0 || finish.ks > 0.0);
             let highlights = self.made_so(&wave.surfaces[k], |finish| finish.ks > 0.0) != 0;
             let asked = (shines, Needs { shadows: self.shadows, highlights });
-            lit[k].light(place, &wave.rays[k], &wave.surfaces[k], asked, &mut shafts[k], level);
+            lit[k].light(place, &wave.rays[k], &wave.surfaces[k], asked, &mut shadow_packets[k], level);
         }
         if self.shadows {
             meter.at(Stage::Cell);
-            let shone = Shone {
+            let shone = ShadowQuery {
                 at: place,
-                clarity: &self.clarity,
+                opacity: &self.opacity,
                 dark: &self.dark,
                 lets_through: &self.lets_through,
             };
             if wave.apart {
-                self.engine.blocked_alone(shafts, &wave.departures, &shone, trace);
+                self.engine.blocked_alone(shadow_packets, &wave.departures, &shone, trace);
             } else {
                 // What curved surfaces send on mostly runs apart, towards one lamp as towards another.
                 wave.apart =
-                    self.engine.blocked_of(shafts, &wave.departures, &shone, trace) && generation > 0;
+                    self.engine.blocked_of(shadow_packets, &wave.departures, &shone, trace) && generation > 0;
             }
             meter.at(Stage::Shade);
         }
-        for (k, shaft) in shafts.iter().enumerate().filter(|(_, shaft)| shaft.rays.live != 0) {
-            let asked = shaft.rays.live;
+        for (k, shadow_packet) in
+            shadow_packets.iter().enumerate().filter(|(_, shadow_packet)| shadow_packet.rays.live != 0)
+        {
+            let asked = shadow_packet.rays.live;
             let mut reached = asked;
             let mut dimmed = false;
             if self.shadows {
-                let blocked = asked & shaft.blocked;
-                let alone = asked & !blocked & shaft.unsure;
-                let tinted = asked & !blocked & !alone & shaft.tint.rays;
+                let blocked = asked & shadow_packet.blocked;
+                let alone = asked & !blocked & shadow_packet.unsure;
+                let tinted = asked & !blocked & !alone & shadow_packet.tint.rays;
                 meter.counts.shadow_rays += u64::from((asked & !alone).count_ones());
                 meter.counts.shadow_hits += u64::from((blocked | tinted).count_ones());
                 reached &= !blocked;
                 for at in places(k, tinted) {
-                    lit[k].visible.0[at.lane] = shaft.tint.share.0[at.lane];
+                    lit[k].visible.0[at.lane] = shadow_packet.tint.share.0[at.lane];
                     dimmed = true;
                 }
                 for at in places(k, alone) {
-                    let (ray, distance) = (shaft.rays.ray(at.lane), shaft.distance.0[at.lane]);
+                    let (ray, distance) =
+                        (shadow_packet.rays.ray(at.lane), shadow_packet.distance.0[at.lane]);
                     let visible = self.visibility(&ray, wave.departure(at), distance, memory, meter);
                     lit[k].visible.0[at.lane] = visible;
                     dimmed |= visible != 1.0;
@@ -117,20 +120,20 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
                     }
                 }
             }
-            let Wave { surfaces, light, .. } = &mut *wave;
+            let Wavefront { surfaces, light, .. } = &mut *wave;
             let sum = &mut light[k * C::PARTS..][..C::PARTS];
             for &(material, lanes) in &surfaces[k].materials {
                 let finish = &self.finishes[material as usize];
                 lit[k].add(shed, finish, lanes & reached, dimmed, sum, level);
             }
             if dimmed {
-                lit[k].visible = Column::filled(1.0);
+                lit[k].visible = Lanes::filled(1.0);
             }
         }
     }
 
-    /// The rays of a bundle that met a material of some kind.
-    pub(super) fn made_so(&self, surfaces: &Surfaces, kind: impl Fn(&Finish<C>) -> bool) -> u64 {
+    /// The rays of a packet that met a material of some kind.
+    pub(super) fn made_so(&self, surfaces: &Surfaces, kind: impl Fn(&ResolvedMaterial<C>) -> bool) -> u64 {
         let materials = surfaces.materials.iter();
         let of_kind = materials.filter(|(material, _)| kind(&self.finishes[*material as usize]));
         of_kind.fold(0, |rays, (_, lanes)| rays | lanes)

@@ -1,16 +1,16 @@
-//! How the surfaces that a bundle met lie to a lamp, and the light that they get from it: what [`super::surface`] computes
+//! How the surfaces that a packet met lie to a lamp, and the light that they get from it: what [`super::surface`] computes
 //! for one, in the same order, for eight at a time.
 
 use fearless_simd::{Level, Select, Simd, SimdBase, dispatch, f64x8};
 
-use crate::math::{Bundle, Column, Columns, DVec3, LANES, Mask, Number, ROWS, row_of};
-use crate::trace::Shaft;
+use crate::math::{DVec3, LANES, LaneVector, Lanes, Mask, Number, ROWS, RayPacket, row_of};
+use crate::trace::ShadowPacket;
 use crate::view::all_settled;
 
 use super::channel::{Channel, limited};
 use super::direction::WITHIN;
 use super::power::power;
-use super::surface::{Finish, NEAREST};
+use super::surface::{NEAREST, ResolvedMaterial};
 use super::surfaces::Surfaces;
 
 /// What is asked about the way to a lamp, beside which surfaces face it.
@@ -22,34 +22,34 @@ pub(super) struct Needs {
     pub highlights: bool,
 }
 
-/// How the surfaces of a bundle lie to a lamp.
+/// How the surfaces of a packet lie to a lamp.
 #[derive(Clone, Debug)]
 pub(super) struct Lit {
     /// `L·N`.
-    facing: Column,
+    facing: Lanes,
     /// The cosine of the angle between the mirrored light and the way to the eye, at most 1.
-    cosine: Column,
+    cosine: Lanes,
     /// V, where anything lets light through.
-    pub visible: Column,
+    pub visible: Lanes,
 }
 
 impl Lit {
     pub const NONE: Self =
-        Self { facing: Column::filled(0.0), cosine: Column::filled(0.0), visible: Column::filled(1.0) };
+        Self { facing: Lanes::filled(0.0), cosine: Lanes::filled(0.0), visible: Lanes::filled(1.0) };
 
     /// The ways from the surfaces to a lamp. Those among `shines` that face it ask for it.
     pub fn light(
         &mut self,
         lamp: DVec3,
-        bundle: &Bundle,
+        packet: &RayPacket,
         surfaces: &Surfaces,
         (shines, needs): (u64, Needs),
-        shaft: &mut Shaft,
+        shadow_packet: &mut ShadowPacket,
         level: Level,
     ) {
-        shaft.clear();
+        shadow_packet.clear();
         if shines != 0 {
-            dispatch!(level, simd => self.lit(simd, lamp, bundle, surfaces, (shines, needs), shaft));
+            dispatch!(level, simd => self.lit(simd, lamp, packet, surfaces, (shines, needs), shadow_packet));
         }
     }
 
@@ -58,10 +58,10 @@ impl Lit {
         &mut self,
         simd: S,
         lamp: DVec3,
-        bundle: &Bundle,
+        packet: &RayPacket,
         surfaces: &Surfaces,
         (shines, needs): (u64, Needs),
-        shaft: &mut Shaft,
+        shadow_packet: &mut ShadowPacket,
     ) {
         for row in 0..ROWS {
             if (shines >> (row * LANES)) as u8 == 0 {
@@ -78,20 +78,20 @@ impl Lit {
             self.facing.store(row, facing);
             if needs.highlights {
                 let mirrored = normal * (facing * 2.0) - d;
-                let cosine = -mirrored.dot(bundle.d.load(simd, row));
+                let cosine = -mirrored.dot(packet.d.load(simd, row));
                 let one = zero.same(1.0);
                 self.cosine.store(row, cosine.is_above(one).select(one, cosine));
             }
             if needs.shadows {
-                shaft.rays.o.store(row, p);
-                shaft.rays.d.store(row, d);
-                shaft.distance.store(row, distance);
+                shadow_packet.rays.o.store(row, p);
+                shadow_packet.rays.d.store(row, d);
+                shadow_packet.distance.store(row, distance);
             }
-            shaft.rays.live |= asks.bits() << (row * LANES);
+            shadow_packet.rays.live |= asks.bits() << (row * LANES);
         }
-        shaft.rays.live &= shines;
+        shadow_packet.rays.live &= shines;
         if needs.shadows {
-            shaft.close(simd);
+            shadow_packet.close(simd);
         }
     }
 
@@ -100,10 +100,10 @@ impl Lit {
     pub fn add<C: Channel>(
         &self,
         light: C,
-        finish: &Finish<C>,
+        finish: &ResolvedMaterial<C>,
         lanes: u64,
         dimmed: bool,
-        sum: &mut [Column],
+        sum: &mut [Lanes],
         level: Level,
     ) {
         dispatch!(level, simd => self.added(simd, light, finish, lanes, dimmed, sum));
@@ -114,10 +114,10 @@ impl Lit {
         &self,
         simd: S,
         light: C,
-        finish: &Finish<C>,
+        finish: &ResolvedMaterial<C>,
         lanes: u64,
         dimmed: bool,
-        sum: &mut [Column],
+        sum: &mut [Lanes],
     ) {
         let zero = f64x8::splat(simd, 0.0);
         for row in 0..ROWS {
@@ -146,11 +146,11 @@ impl Lit {
     }
 }
 
-/// The light of the rays of a bundle before any lamp gave some: what is `missed` for those that are not among `hits`, and
+/// The light of the rays of a packet before any lamp gave some: what is `missed` for those that are not among `hits`, and
 /// for those that are nothing. Of the `known` it stays.
-pub(super) fn before_lamps(missed: f64, hits: u64, known: u64, light: &mut Column, level: Level) {
+pub(super) fn before_lamps(missed: f64, hits: u64, known: u64, light: &mut Lanes, level: Level) {
     #[inline(always)]
-    fn set<S: Simd>(simd: S, missed: f64, hits: u64, known: u64, light: &mut Column) {
+    fn set<S: Simd>(simd: S, missed: f64, hits: u64, known: u64, light: &mut Lanes) {
         let zero = f64x8::splat(simd, 0.0);
         for row in 0..ROWS {
             let own = row_of(simd, hits, row).choose(zero, zero.same(missed));
@@ -161,9 +161,9 @@ pub(super) fn before_lamps(missed: f64, hits: u64, known: u64, light: &mut Colum
 }
 
 /// Adds the same light to that of all rays of `lanes`.
-pub(super) fn add_everywhere<C: Channel>(light: C, lanes: u64, sum: &mut [Column], level: Level) {
+pub(super) fn add_everywhere<C: Channel>(light: C, lanes: u64, sum: &mut [Lanes], level: Level) {
     #[inline(always)]
-    fn added<S: Simd>(simd: S, light: f64, lanes: u64, sum: &mut Column) {
+    fn added<S: Simd>(simd: S, light: f64, lanes: u64, sum: &mut Lanes) {
         for row in 0..ROWS {
             sum.put(simd, row, row_of(simd, lanes, row), limited(sum.load(simd, row) + light));
         }
@@ -187,12 +187,12 @@ pub(super) struct Gathering<C> {
 
 impl<C: Channel> Gathering<C> {
     /// Of the rays of `lanes`.
-    pub fn gather(&self, lanes: u64, way: &Column, sum: &mut [Column], level: Level) {
+    pub fn gather(&self, lanes: u64, way: &Lanes, sum: &mut [Lanes], level: Level) {
         dispatch!(level, simd => self.gathered(simd, lanes, way, sum));
     }
 
     #[inline(always)]
-    fn gathered<S: Simd>(&self, simd: S, lanes: u64, way: &Column, sum: &mut [Column]) {
+    fn gathered<S: Simd>(&self, simd: S, lanes: u64, way: &Lanes, sum: &mut [Lanes]) {
         for row in 0..ROWS {
             if (lanes >> (row * LANES)) as u8 == 0 {
                 continue;

@@ -11,7 +11,7 @@ pub const OUTSIDE: f64 = 1.0;
 
 /// A glass object that a path is in.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Filling {
+pub struct Medium {
     /// The object's index in the assembly.
     pub object: u32,
     /// The index of refraction of the surface through which it was entered.
@@ -20,9 +20,9 @@ pub struct Filling {
 
 /// A glass surface that a path goes through.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Passage {
+pub struct Interface {
     /// The object, with the index of refraction of this surface.
-    pub filling: Filling,
+    pub filling: Medium,
     /// Whether the path goes into the object.
     pub entering: bool,
     /// Whether the object has an inside to be in: a face has sides only.
@@ -31,29 +31,29 @@ pub struct Passage {
 
 /// The indices of refraction on the two sides of a place, on the way of a path.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Change {
+pub struct MediumTransition {
     /// Before it.
     pub before: f64,
     /// Behind it.
     pub behind: f64,
     /// The list of those who go on.
-    pub list: List,
+    pub list: MediumStack,
 }
 
 /// A list of glass objects, by its place in [`Media`].
-pub type List = Range<usize>;
+pub type MediumStack = Range<usize>;
 
 /// The lists of one path and its branches, one behind the other, so that none needs memory of its own. Each is
 /// sorted by object and holds each object once.
 #[derive(Clone, Debug, Default)]
 pub struct Media {
-    lists: Vec<Filling>,
+    lists: Vec<Medium>,
 }
 
 impl Media {
     /// Forgets all lists and starts a path inside these objects, sorted.
     #[inline]
-    pub fn start(&mut self, inside: &[Filling]) -> List {
+    pub fn start(&mut self, inside: &[Medium]) -> MediumStack {
         self.lists.clear();
         self.lists.extend_from_slice(inside);
         0..inside.len()
@@ -61,7 +61,7 @@ impl Media {
 
     /// The index of refraction that a list means.
     #[inline]
-    pub fn index(&self, list: &List) -> f64 {
+    pub fn index(&self, list: &MediumStack) -> f64 {
         self.lists[list.clone()].last().map_or(OUTSIDE, |filling| filling.index)
     }
 
@@ -69,7 +69,11 @@ impl Media {
     ///
     /// A path that enters an object was not in it before, and one that leaves an object was, whatever the list says:
     /// so a list that does not balance, as rounding or an open surface may leave it, mends itself.
-    pub fn change(&mut self, list: &List, passages: impl Iterator<Item = Passage> + Clone) -> Change {
+    pub fn change(
+        &mut self,
+        list: &MediumStack,
+        passages: impl Iterator<Item = Interface> + Clone,
+    ) -> MediumTransition {
         let start = self.lists.len();
         for place in list.clone() {
             let filling = self.lists[place];
@@ -79,21 +83,21 @@ impl Media {
         }
         let rest = self.lists.get(start..).and_then(<[_]>::last).copied();
         let (mut before, mut behind) = (rest, rest);
-        for Passage { filling, entering, .. } in passages.clone() {
+        for Interface { filling, entering, .. } in passages.clone() {
             let last = if entering { &mut behind } else { &mut before };
-            if last.is_none_or(|last: Filling| last.object <= filling.object) {
+            if last.is_none_or(|last: Medium| last.object <= filling.object) {
                 *last = Some(filling);
             }
         }
         let [before, behind] = [before, behind].map(|last| last.map_or(OUTSIDE, |filling| filling.index));
         self.lists.extend(passages.filter(|p| p.entering && p.solid).map(|p| p.filling));
         self.lists[start..].sort_unstable_by_key(|filling| filling.object);
-        Change { before, behind, list: start..self.lists.len() }
+        MediumTransition { before, behind, list: start..self.lists.len() }
     }
 
     /// Forgets a list and all that came after it.
     #[inline]
-    pub fn forget(&mut self, list: &List) {
+    pub fn forget(&mut self, list: &MediumStack) {
         self.lists.truncate(list.start);
     }
 }
@@ -102,12 +106,12 @@ impl Media {
 mod tests {
     use super::*;
 
-    fn passage(object: u32, index: f64, entering: bool) -> Passage {
-        Passage { filling: Filling { object, index }, entering, solid: true }
+    fn passage(object: u32, index: f64, entering: bool) -> Interface {
+        Interface { filling: Medium { object, index }, entering, solid: true }
     }
 
     /// The indices met on the way through these surfaces, one place after the other.
-    fn indices(places: &[&[Passage]]) -> Vec<(f64, f64)> {
+    fn indices(places: &[&[Interface]]) -> Vec<(f64, f64)> {
         let mut media = Media::default();
         let mut list = media.start(&[]);
         let mut met = Vec::new();
@@ -139,13 +143,13 @@ mod tests {
         // Left without having been entered; entered twice; then left once.
         let ways =
             [passage(0, 1.5, false), passage(0, 1.5, true), passage(0, 1.5, true), passage(0, 1.5, false)];
-        let places: Vec<&[Passage]> = ways.iter().map(std::slice::from_ref).collect();
+        let places: Vec<&[Interface]> = ways.iter().map(std::slice::from_ref).collect();
         assert_eq!(indices(&places), [(1.5, 1.0), (1.0, 1.5), (1.0, 1.5), (1.5, 1.0)]);
     }
 
     #[test]
     fn a_face_has_sides_and_no_inside() {
-        let face = |entering| Passage { solid: false, ..passage(0, 1.5, entering) };
+        let face = |entering| Interface { solid: false, ..passage(0, 1.5, entering) };
         assert_eq!(indices(&[&[face(true)], &[face(false)]]), [(1.0, 1.5), (1.5, 1.0)]);
         let mut media = Media::default();
         let list = media.start(&[]);
@@ -155,7 +159,7 @@ mod tests {
     #[test]
     fn forgotten_lists_leave_those_before_them() {
         let mut media = Media::default();
-        let eye = media.start(&[Filling { object: 7, index: 1.2 }]);
+        let eye = media.start(&[Medium { object: 7, index: 1.2 }]);
         let inner = media.change(&eye, [passage(9, 1.7, true)].into_iter());
         assert_eq!(media.index(&inner.list), 1.7);
         media.forget(&inner.list);

@@ -13,10 +13,10 @@ mod shadow;
 mod surface;
 mod surfaces;
 mod tile;
-mod wave;
+mod wavefront;
 
 pub use channel::{Channel, luminance};
 pub use hits::TileHits;
-pub use path::{Kind, Leg};
-pub use surface::{Memory, Seen, Shader, View};
+pub use path::{Kind, PathSegment};
+pub use surface::{Memory, PrimaryHit, Shader, View};
 pub use tile::TileShading;

@@ -7,8 +7,8 @@ use crate::trace::{Engine, Hit};
 
 use super::channel::Channel;
 use super::direction::{mirrored, refracted};
-use super::media::{Change, Filling, List, Media, Passage};
-use super::surface::{Finish, Memory, Met, Shader};
+use super::media::{Interface, Media, Medium, MediumStack, MediumTransition};
+use super::surface::{Memory, ResolvedMaterial, Shader, SurfaceInteraction};
 
 /// Why a ray goes where it goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,7 +23,7 @@ pub enum Kind {
 
 /// One ray of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Leg {
+pub struct PathSegment {
     /// Why it goes where it goes.
     pub kind: Kind,
     /// The ray, in the assembly's coordinates.
@@ -38,7 +38,7 @@ pub struct Leg {
 
 /// A ray on its way.
 #[derive(Clone, Debug)]
-pub(super) struct Sent {
+pub(super) struct PathState {
     pub ray: Ray,
     /// The way from the eye to its start.
     pub travelled: f64,
@@ -47,13 +47,13 @@ pub(super) struct Sent {
     /// 0 for a ray from the eye.
     pub generation: u32,
     /// The glass it starts in.
-    pub inside: List,
+    pub inside: MediumStack,
 }
 
-impl Sent {
+impl PathState {
     /// The ray that a surface sends on along `d`, with a share of its light.
     #[inline]
-    fn on(&self, met: &Met, d: DVec3, share: f64, inside: List) -> Self {
+    fn on(&self, met: &SurfaceInteraction, d: DVec3, share: f64, inside: MediumStack) -> Self {
         Self {
             ray: Ray::new(met.p, d),
             travelled: self.travelled + met.hit.t,
@@ -66,15 +66,15 @@ impl Sent {
 
 /// The rays that a surface sends on, each with its share.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Onward {
+pub(super) struct ScatteredRays {
     pub mirror: Option<(DVec3, f64)>,
     pub snell: Option<(DVec3, f64)>,
 }
 
-impl Onward {
+impl ScatteredRays {
     /// `before` and `behind` are the indices of refraction on the two sides.
     #[inline]
-    pub fn new<C>(d: DVec3, normal: DVec3, finish: &Finish<C>, before: f64, behind: f64) -> Self {
+    pub fn new<C>(d: DVec3, normal: DVec3, finish: &ResolvedMaterial<C>, before: f64, behind: f64) -> Self {
         let some = |direction, share| (share > 0.0).then_some((direction, share));
         let (kr, kt) = (finish.kr, finish.kt);
         match (kt > 0.0).then(|| refracted(d, normal, before, behind)) {
@@ -109,19 +109,24 @@ impl<E: Engine, C: Channel> Shader<'_, E, C> {
 
     /// The glass that a ray which goes on through the last hit goes through, and what is behind it.
     #[inline]
-    pub(super) fn change(&self, inside: &List, memory: &mut Memory<E>) -> Change {
+    pub(super) fn change(&self, inside: &MediumStack, memory: &mut Memory<E>) -> MediumTransition {
         let Memory { engine, media, .. } = memory;
         self.change_at(inside, self.engine.together(engine), media)
     }
 
     /// The glass that a ray which goes on through surfaces that lie in one place goes through, and what is behind it.
     #[inline]
-    pub(super) fn change_at(&self, inside: &List, together: &[(u32, Crossing)], media: &mut Media) -> Change {
+    pub(super) fn change_at(
+        &self,
+        inside: &MediumStack,
+        together: &[(u32, Crossing)],
+        media: &mut Media,
+    ) -> MediumTransition {
         let passages = together.iter().filter_map(|&(object, crossing)| {
             let finish = self.finish_of(crossing.primitive);
-            let filling = Filling { object, index: finish.index };
+            let filling = Medium { object, index: finish.index };
             let solid = !self.is_surface(crossing.primitive);
-            (finish.kt > 0.0).then_some(Passage { filling, entering: crossing.entering, solid })
+            (finish.kt > 0.0).then_some(Interface { filling, entering: crossing.entering, solid })
         });
         media.change(inside, passages)
     }
@@ -129,17 +134,17 @@ impl<E: Engine, C: Channel> Shader<'_, E, C> {
     /// The light of a surface that sends rays on: its `own`, and `kr·S + kt·T`. `change` is what its glass changes.
     pub(super) fn sending_surface(
         &self,
-        sent: &Sent,
-        met: &Met,
-        change: &Change,
+        sent: &PathState,
+        met: &SurfaceInteraction,
+        change: &MediumTransition,
         own: C,
         memory: &mut Memory<E>,
         meter: &mut Meter<impl Probe>,
     ) -> C {
         let finish = self.finish(&met.hit);
         let mut light = own;
-        let onward = Onward::new(sent.ray.d, met.normal, finish, change.before, change.behind);
-        let mut arriving = |(d, share): (DVec3, f64), side: DVec3, inside: &List| {
+        let onward = ScatteredRays::new(sent.ray.d, met.normal, finish, change.before, change.behind);
+        let mut arriving = |(d, share): (DVec3, f64), side: DVec3, inside: &MediumStack| {
             let next = sent.on(met, d, share, inside.clone());
             self.arriving(&next, self.departure(&met.hit, met.p, side), memory, meter) * share
         };
@@ -157,7 +162,7 @@ impl<E: Engine, C: Channel> Shader<'_, E, C> {
     /// light.
     pub(super) fn arriving(
         &self,
-        sent: &Sent,
+        sent: &PathState,
         departure: Departure,
         memory: &mut Memory<E>,
         meter: &mut Meter<impl Probe>,
@@ -184,11 +189,16 @@ impl<E: Engine, C: Channel> Shader<'_, E, C> {
         preferred: Kind,
         memory: &mut Memory<E>,
         meter: &mut Meter<impl Probe>,
-    ) -> Vec<Leg> {
+    ) -> Vec<PathSegment> {
         let mut inside = memory.media.start(&self.around_eye);
-        let mut legs: Vec<Leg> = Vec::new();
-        let mut leg =
-            Leg { kind: Kind::Eye, ray: *ray, index: memory.media.index(&inside), weight: 1.0, hit: None };
+        let mut legs: Vec<PathSegment> = Vec::new();
+        let mut leg = PathSegment {
+            kind: Kind::Eye,
+            ray: *ray,
+            index: memory.media.index(&inside),
+            weight: 1.0,
+            hit: None,
+        };
         let mut departure = None;
         loop {
             let hit = match departure {
@@ -199,8 +209,13 @@ impl<E: Engine, C: Channel> Shader<'_, E, C> {
             let met = self.met(&leg.ray, hit, memory);
             leg.hit = Some(met.hit);
             let change = self.change(&inside, memory);
-            let onward =
-                Onward::new(leg.ray.d, met.normal, self.finish(&met.hit), change.before, change.behind);
+            let onward = ScatteredRays::new(
+                leg.ray.d,
+                met.normal,
+                self.finish(&met.hit),
+                change.before,
+                change.behind,
+            );
             let mirror = onward.mirror.map(|(d, share)| (Kind::Mirror, d, share));
             let snell = onward.snell.map(|(d, share)| (Kind::Snell, d, share));
             let (one, other) = if preferred == Kind::Mirror { (mirror, snell) } else { (snell, mirror) };
@@ -217,7 +232,7 @@ impl<E: Engine, C: Channel> Shader<'_, E, C> {
             let weight = leg.weight * share;
             legs.push(std::mem::replace(
                 &mut leg,
-                Leg { kind, ray: Ray::new(met.p, d), index, weight, hit: None },
+                PathSegment { kind, ray: Ray::new(met.p, d), index, weight, hit: None },
             ));
         }
         legs.push(leg);

@@ -3,7 +3,7 @@
 use crate::math::Ray;
 use crate::solid::{Crossing, Departure};
 use crate::stage::{Meter, Probe, Stage};
-use crate::trace::{Clarity, Engine, Hit};
+use crate::trace::{Engine, Hit, OpacityClass};
 
 use super::channel::Channel;
 use super::surface::{Memory, Shader};
@@ -60,7 +60,7 @@ impl<E: Engine, C: Channel> Shader<'_, E, C> {
         crossed.sort_unstable_by_key(|&(object, _)| object);
         let mut share = None;
         for (object, first) in crossed {
-            let is_mixed = self.clarity[*object as usize] == Clarity::Mixed;
+            let is_mixed = self.opacity[*object as usize] == OpacityClass::Mixed;
             if is_mixed && self.goes_dark(ray, (*object, first), distance, engine, meter) {
                 return Some(0.0);
             }

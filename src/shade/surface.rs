@@ -3,15 +3,15 @@
 use crate::math::{Bounds, DVec3, Ray};
 use crate::plan::Plan;
 use crate::scene::Scene;
-use crate::solid::{Assembly, Crossing, Departure, Form};
+use crate::solid::{Assembly, Crossing, Departure, WorldShape};
 use crate::stage::{Meter, Probe, Stage};
-use crate::trace::{Clarity, Engine, Hit};
+use crate::trace::{Engine, Hit, OpacityClass};
 use crate::view::settled;
 
 use super::channel::Channel;
 use super::direction::WITHIN;
-use super::media::{Filling, Media};
-use super::path::Sent;
+use super::media::{Media, Medium};
+use super::path::PathState;
 use super::power::power;
 
 /// A light nearer than this, in the assembly's unit, is at the point itself: 2⁻⁵⁰⁰, whose square does not
@@ -23,7 +23,7 @@ pub(super) const NEAREST: f64 = f64::from_bits((1023 - 500) << 52);
 pub struct Shader<'a, E, C> {
     pub(super) engine: &'a E,
     pub(super) assembly: &'a Assembly,
-    pub(super) finishes: Vec<Finish<C>>,
+    pub(super) finishes: Vec<ResolvedMaterial<C>>,
     pub(super) lamps: Vec<Lamp<C>>,
     pub(super) ambient: C,
     pub(super) background: C,
@@ -33,7 +33,7 @@ pub struct Shader<'a, E, C> {
     /// Whether light can come through anything.
     pub(super) glass: bool,
     /// By object; empty where light comes through nothing.
-    pub(super) clarity: Vec<Clarity>,
+    pub(super) opacity: Vec<OpacityClass>,
     /// By object: a box around its opaque parts where others are glass; empty where light comes through nothing.
     pub(super) dark: Vec<Bounds>,
     /// By primitive: the share of light that its material lets through; empty where none does.
@@ -41,7 +41,7 @@ pub struct Shader<'a, E, C> {
     pub(super) generations: u32,
     pub(super) least_weight: f64,
     /// The glass that the eye is in.
-    pub(super) around_eye: Vec<Filling>,
+    pub(super) around_eye: Vec<Medium>,
 }
 
 /// Memory of one worker.
@@ -55,7 +55,7 @@ pub struct Memory<E: Engine> {
 
 /// A material, ready for the channels and the terms that are computed: the shares of all others are 0.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Finish<C> {
+pub(super) struct ResolvedMaterial<C> {
     pub color: C,
     pub kd: f64,
     pub ks: f64,
@@ -67,7 +67,7 @@ pub(super) struct Finish<C> {
 
 /// A surface that a ray met, and how it lies to the ray.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Met {
+pub(super) struct SurfaceInteraction {
     pub hit: Hit,
     pub p: DVec3,
     /// Turned to the side that the ray comes from, length 1.
@@ -87,12 +87,12 @@ pub struct View<C> {
     /// The light.
     pub light: C,
     /// The surface; absent where nothing was met.
-    pub seen: Option<Seen>,
+    pub seen: Option<PrimaryHit>,
 }
 
 /// A surface that was seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Seen {
+pub struct PrimaryHit {
     /// Distance from the eye, in the assembly's unit.
     pub t: f64,
     /// The object's index in the assembly.
@@ -125,7 +125,7 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
     /// A shader for a planned picture.
     pub fn new(scene: &Scene, assembly: &'a Assembly, plan: &Plan, engine: &'a E) -> Self {
         let if_planned = |planned: bool, share: f64| if planned { share } else { 0.0 };
-        let finishes = scene.materials.iter().map(|m| Finish {
+        let finishes = scene.materials.iter().map(|m| ResolvedMaterial {
             color: C::from_rgb(m.color),
             kd: m.kd,
             ks: if_planned(plan.highlight, m.ks),
@@ -137,19 +137,19 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
         let lamps = plan
             .lamps
             .iter()
-            .map(|l| Lamp { at: assembly.datum.inward_near(l.at), light: C::source(l.light) });
+            .map(|l| Lamp { at: assembly.scene_frame.inward_near(l.at), light: C::source(l.light) });
         let kt = |primitive: u32| scene.materials[assembly.material(primitive).0 as usize].kt;
-        let clarity = |object: u32| {
+        let opacity = |object: u32| {
             let primitives = assembly.primitives_of(object);
             match primitives.iter().filter(|&&primitive| kt(primitive) > 0.0).count() {
-                0 => Clarity::Opaque,
-                clear if clear == primitives.len() => Clarity::Clear,
-                _ => Clarity::Mixed,
+                0 => OpacityClass::Opaque,
+                clear if clear == primitives.len() => OpacityClass::Clear,
+                _ => OpacityClass::Mixed,
             }
         };
-        let dark = |object: u32| match clarity(object) {
-            Clarity::Mixed => assembly.bounds_of(object, |primitive| kt(primitive) == 0.0),
-            Clarity::Opaque | Clarity::Clear => Bounds::EMPTY,
+        let dark = |object: u32| match opacity(object) {
+            OpacityClass::Mixed => assembly.bounds_of(object, |primitive| kt(primitive) == 0.0),
+            OpacityClass::Opaque | OpacityClass::Clear => Bounds::EMPTY,
         };
         let if_glass = |count: usize| if plan.glass { count as u32 } else { 0 };
         let secondary = plan.secondary.as_ref();
@@ -164,12 +164,12 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
             depth: plan.depth,
             shadows: plan.shadows,
             glass: plan.glass,
-            clarity: (0..if_glass(assembly.objects.len())).map(clarity).collect(),
+            opacity: (0..if_glass(assembly.objects.len())).map(opacity).collect(),
             dark: (0..if_glass(assembly.objects.len())).map(dark).collect(),
             lets_through: (0..if_glass(assembly.primitives.len())).map(kt).collect(),
             generations: secondary.map_or(0, |s| s.generations),
             least_weight: secondary.map_or(0.0, |s| s.least_weight),
-            around_eye: around_eye.map(|&(object, index)| Filling { object, index }).collect(),
+            around_eye: around_eye.map(|&(object, index)| Medium { object, index }).collect(),
         }
     }
 
@@ -188,23 +188,23 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
         meter.at(Stage::Shade);
         let met = self.met(ray, hit, memory);
         let inside = memory.media.start(&self.around_eye);
-        let sent = Sent { ray: *ray, travelled: 0.0, weight: 1.0, generation: 0, inside };
+        let sent = PathState { ray: *ray, travelled: 0.0, weight: 1.0, generation: 0, inside };
         let light = self.light(&sent, &met, memory, meter);
-        View { light, seen: Some(Seen { t: met.hit.t, object: met.hit.object, normal: met.normal }) }
+        View { light, seen: Some(PrimaryHit { t: met.hit.t, object: met.hit.object, normal: met.normal }) }
     }
 
     /// The surface of the last hit.
-    pub(super) fn met(&self, ray: &Ray, hit: Hit, memory: &Memory<E>) -> Met {
+    pub(super) fn met(&self, ray: &Ray, hit: Hit, memory: &Memory<E>) -> SurfaceInteraction {
         let hit = self.shown(hit, memory);
         let normal = self.assembly.turned_normal(hit.primitive, hit.surface, hit.p, ray.d);
-        Met { hit, p: hit.p, normal }
+        SurfaceInteraction { hit, p: hit.p, normal }
     }
 
     /// The light that a surface sends back along the ray that met it, which is the last one traced.
     pub(super) fn light(
         &self,
-        sent: &Sent,
-        met: &Met,
+        sent: &PathState,
+        met: &SurfaceInteraction,
         memory: &mut Memory<E>,
         meter: &mut Meter<impl Probe>,
     ) -> C {
@@ -219,7 +219,13 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
     }
 
     /// `Ia·C + Σ Ip · V · (kd·C·(L·N) + ks·cosⁿθ) / (R + k)`.
-    fn own_light(&self, sent: &Sent, met: &Met, memory: &mut Memory<E>, meter: &mut Meter<impl Probe>) -> C {
+    fn own_light(
+        &self,
+        sent: &PathState,
+        met: &SurfaceInteraction,
+        memory: &mut Memory<E>,
+        meter: &mut Meter<impl Probe>,
+    ) -> C {
         let finish = self.finish(&met.hit);
         let (p, normal) = (met.p, met.normal);
         let departure = self.departure(&met.hit, p, normal);
@@ -256,7 +262,7 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
 
     /// `kd·C·(L·N) + ks·cosⁿθ`: the share of a light that a surface sends to where it is seen from.
     #[inline]
-    pub(super) fn share(finish: &Finish<C>, facing: f64, cosine: f64) -> C {
+    pub(super) fn share(finish: &ResolvedMaterial<C>, facing: f64, cosine: f64) -> C {
         let share = finish.color * (finish.kd * facing);
         if finish.ks > 0.0 && cosine > 0.0 {
             share + C::from_rgb(DVec3::ONE) * (finish.ks * power(cosine, finish.n))
@@ -267,21 +273,21 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
 
     /// The light of a surface, from the sum over all lamps and the whole way from the eye.
     #[inline]
-    pub(super) fn gathered(&self, sum: C, met: &Met, way: f64) -> C {
+    pub(super) fn gathered(&self, sum: C, met: &SurfaceInteraction, way: f64) -> C {
         let sum = match self.depth {
-            Some(k) => (sum / (way * self.assembly.datum.unit + k)).limited(),
+            Some(k) => (sum / (way * self.assembly.scene_frame.unit + k)).limited(),
             None => sum,
         };
         (self.ambient * self.finish(&met.hit).color + sum).limited()
     }
 
     /// The material of the surface that was hit.
-    pub(super) fn finish(&self, hit: &Hit) -> &Finish<C> {
+    pub(super) fn finish(&self, hit: &Hit) -> &ResolvedMaterial<C> {
         self.finish_of(hit.primitive)
     }
 
     /// The material of a primitive.
-    pub(super) fn finish_of(&self, primitive: u32) -> &Finish<C> {
+    pub(super) fn finish_of(&self, primitive: u32) -> &ResolvedMaterial<C> {
         &self.finishes[self.assembly.material(primitive).0 as usize]
     }
 
@@ -292,7 +298,7 @@ impl<'a, E: Engine, C: Channel> Shader<'a, E, C> {
 
     /// The surface that a ray leaves to the side to which `toward` points.
     pub(super) fn departure(&self, hit: &Hit, p: DVec3, toward: DVec3) -> Departure {
-        let form: &Form = &self.assembly.primitives[hit.primitive as usize].form;
+        let form: &WorldShape = &self.assembly.primitives[hit.primitive as usize].form;
         let inward = form.normal(p, hit.surface).dot(toward) < 0.0;
         Departure { primitive: hit.primitive, surface: hit.surface, inward, off: form.off() }
     }

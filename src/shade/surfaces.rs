@@ -1,22 +1,22 @@
-//! The surfaces that a bundle met: what [`super::surface`] finds for one ray, in the same order, for eight at a time.
+//! The surfaces that a packet met: what [`super::surface`] finds for one ray, in the same order, for eight at a time.
 
 use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
 
-use crate::math::{Bundle, Column, Columns, DVec3, LANES, Mask, Number, ROWS, Vector, row_of};
-use crate::solid::{Assembly, Departures, Form};
-use crate::trace::Nearest;
+use crate::math::{DVec3, LANES, LaneVector, Lanes, Mask, Number, ROWS, RayPacket, Vector, row_of};
+use crate::solid::{Assembly, Departures, WorldShape};
+use crate::trace::PacketHits;
 
-/// The surfaces that a bundle met.
+/// The surfaces that a packet met.
 #[derive(Clone, Debug)]
 pub(super) struct Surfaces {
     /// Which rays met one that is to be shaded.
     pub hits: u64,
     /// Where.
-    pub p: [Column; 3],
+    pub p: [Lanes; 3],
     /// The normals, turned to the sides that the rays come from, of length 1.
-    pub normal: [Column; 3],
+    pub normal: [Lanes; 3],
     /// The ways from the eye.
-    pub way: Column,
+    pub way: Lanes,
     /// Which of the surfaces are patches: their normals and departures are still to be found.
     pub patches: u64,
     /// The materials, by their numbers, each with the rays that met it.
@@ -26,9 +26,9 @@ pub(super) struct Surfaces {
 impl Surfaces {
     pub const NONE: Self = Self {
         hits: 0,
-        p: [Column::filled(0.0); 3],
-        normal: [Column::filled(0.0); 3],
-        way: Column::filled(0.0),
+        p: [Lanes::filled(0.0); 3],
+        normal: [Lanes::filled(0.0); 3],
+        way: Lanes::filled(0.0),
         patches: 0,
         materials: Vec::new(),
     };
@@ -41,19 +41,25 @@ impl Surfaces {
 
     /// The points at which rays met something; `before` are two parts of the way from the eye to where they start, the
     /// second to be added first.
-    pub fn points(&mut self, bundle: &Bundle, before: &[Column; 2], nearest: &Nearest, level: Level) {
-        dispatch!(level, simd => self.all_points(simd, bundle, before, nearest));
-        self.hits &= bundle.live & !nearest.unsure;
+    pub fn points(&mut self, packet: &RayPacket, before: &[Lanes; 2], nearest: &PacketHits, level: Level) {
+        dispatch!(level, simd => self.all_points(simd, packet, before, nearest));
+        self.hits &= packet.live & !nearest.unsure;
     }
 
     #[inline(always)]
-    fn all_points<S: Simd>(&mut self, simd: S, bundle: &Bundle, before: &[Column; 2], nearest: &Nearest) {
+    fn all_points<S: Simd>(
+        &mut self,
+        simd: S,
+        packet: &RayPacket,
+        before: &[Lanes; 2],
+        nearest: &PacketHits,
+    ) {
         self.hits = 0;
         for row in 0..ROWS {
             let t = nearest.t.load(simd, row);
             let met = t.is_below(t.same(f64::INFINITY));
             self.hits |= met.bits() << (row * LANES);
-            self.p.store(row, bundle.load(simd, row).at(t));
+            self.p.store(row, packet.load(simd, row).at(t));
             self.way.store(row, before[0].load(simd, row) + (before[1].load(simd, row) + t));
         }
     }
@@ -62,8 +68,8 @@ impl Surfaces {
     /// the sides that the others came from.
     pub fn know(
         &mut self,
-        bundle: &Bundle,
-        nearest: &Nearest,
+        packet: &RayPacket,
+        nearest: &PacketHits,
         assembly: &Assembly,
         departures: &mut Departures,
         level: Level,
@@ -72,7 +78,7 @@ impl Surfaces {
         self.patches = 0;
         if self.hits != 0 {
             dispatch!(level, simd => self.all_known(simd, nearest, assembly, departures));
-            departures.inward = dispatch!(level, simd => self.turned(simd, bundle));
+            departures.inward = dispatch!(level, simd => self.turned(simd, packet));
         }
     }
 
@@ -80,7 +86,7 @@ impl Surfaces {
     fn all_known<S: Simd>(
         &mut self,
         simd: S,
-        nearest: &Nearest,
+        nearest: &PacketHits,
         assembly: &Assembly,
         departures: &mut Departures,
     ) {
@@ -100,25 +106,25 @@ impl Surfaces {
             }
             let surface = surface as u32;
             match &own.form {
-                Form::Ball(ball) => self.face(
+                WorldShape::Ball(ball) => self.face(
                     simd,
                     group,
                     #[inline(always)]
                     |p| ball.normals(p),
                 ),
-                Form::Round(round) => self.face(
+                WorldShape::Round(round) => self.face(
                     simd,
                     group,
                     #[inline(always)]
                     |p| round.normals(p, surface),
                 ),
-                Form::Tube(tube) => self.face(
+                WorldShape::Tube(tube) => self.face(
                     simd,
                     group,
                     #[inline(always)]
                     |p| tube.normals(p),
                 ),
-                Form::Patch(_) => self.patches |= group,
+                WorldShape::Patch(_) => self.patches |= group,
                 flat => {
                     let normal = flat.normal(DVec3::ZERO, surface);
                     self.face(
@@ -155,13 +161,13 @@ impl Surfaces {
 
     /// Turns the normals to the sides that the rays come from. Answers for which rays that is the inside.
     #[inline(always)]
-    fn turned<S: Simd>(&mut self, simd: S, bundle: &Bundle) -> u64 {
+    fn turned<S: Simd>(&mut self, simd: S, packet: &RayPacket) -> u64 {
         let mut inward = 0;
         for row in 0..ROWS {
             if (self.hits >> (row * LANES)) as u8 == 0 {
                 continue;
             }
-            let d = bundle.d.load(simd, row);
+            let d = packet.d.load(simd, row);
             let normal = self.normal.load(simd, row).normalized_or(-d);
             let away = normal.dot(d).is_above(d.x.same(0.0));
             self.normal.store(row, Vector::choose(away, -normal, normal));
@@ -173,7 +179,7 @@ impl Surfaces {
 
 /// The rays from `lane` on that met the same face as it.
 #[inline(always)]
-fn same_face<S: Simd>(simd: S, nearest: &Nearest, lane: usize) -> u64 {
+fn same_face<S: Simd>(simd: S, nearest: &PacketHits, lane: usize) -> u64 {
     let primitive = f64x8::splat(simd, nearest.primitive.0[lane]);
     let surface = f64x8::splat(simd, nearest.surface.0[lane]);
     let mut group = 0;

@@ -1,4 +1,4 @@
-//! The light of a tile: what [`super::surface`] does for one ray, for bundles of them.
+//! The light of a tile: what [`super::surface`] does for one ray, for packets of them.
 //!
 //! All rays of one generation are traced before any is shaded ([`super::lamps`]); then those that are sent on
 //! ([`super::sends`]) are the next generation. When there are no more, the light that arrives goes the same way back. Only
@@ -7,61 +7,61 @@
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use crate::lattice::FAN;
-use crate::math::{Bundle, Column, Columns, DVec3, LANES, Place, Ray, places};
+use crate::lattice::FRUSTA;
+use crate::math::{DVec3, LANES, LaneVector, Lanes, Ray, RayIndex, RayPacket, places};
 use crate::stage::{Meter, Probe, Stage};
-use crate::trace::{Engine, Fast, Hit, Shaft, TileMemory};
-use crate::view::Sight;
+use crate::trace::{Engine, Fast, Hit, ShadowPacket, TileMemory};
+use crate::view::TileCamera;
 
 use super::channel::Channel;
 use super::hits::{BlockHits, TileHits};
 use super::lit::Lit;
-use super::path::Sent;
-use super::surface::{Memory, Met, Seen, Shader};
-use super::wave::{Leg, Wave};
+use super::path::PathState;
+use super::surface::{Memory, PrimaryHit, Shader, SurfaceInteraction};
+use super::wavefront::{QueuedRay, Wavefront};
 
 /// What shading a tile needs, used again for every tile.
 #[derive(Debug)]
 pub struct TileShading<C> {
     pub(super) trace: TileMemory,
     /// By generation.
-    pub(super) waves: Vec<Wave<C>>,
-    pub(super) shafts: Vec<Shaft>,
+    pub(super) waves: Vec<Wavefront<C>>,
+    pub(super) shadow_packets: Vec<ShadowPacket>,
     pub(super) lit: Vec<Lit>,
 }
 
 impl<C> Default for TileShading<C> {
     fn default() -> Self {
-        let (trace, shafts, lit) = (TileMemory::default(), Vec::new(), Vec::new());
-        Self { trace, waves: Vec::new(), shafts, lit }
+        let (trace, shadow_packets, lit) = (TileMemory::default(), Vec::new(), Vec::new());
+        Self { trace, waves: Vec::new(), shadow_packets, lit }
     }
 }
 
 impl<C: Channel> TileShading<C> {
-    /// Another tile, of so many bundles.
-    fn start(&mut self, bundles: usize) {
+    /// Another tile, of so many packets.
+    fn start(&mut self, packets: usize) {
         if self.waves.is_empty() {
-            self.waves.push(Wave::new(0));
+            self.waves.push(Wavefront::new(0));
         }
         let first = &mut self.waves[0];
-        first.rays.resize(bundles, Bundle::EMPTY);
-        first.before.resize(bundles, [Column::filled(0.0); 2]);
+        first.rays.resize(packets, RayPacket::EMPTY);
+        first.before.resize(packets, [Lanes::filled(0.0); 2]);
         first.make_room();
     }
 
-    /// The light that arrives along the rays of a row of a bundle.
+    /// The light that arrives along the rays of a row of a packet.
     #[inline]
-    pub fn light(&self, bundle: usize, row: usize) -> [C; LANES] {
-        self.waves[0].row_of_light(bundle, row)
+    pub fn light(&self, packet: usize, row: usize) -> [C; LANES] {
+        self.waves[0].row_of_light(packet, row)
     }
 
-    /// What one ray of a bundle saw.
+    /// What one ray of a packet saw.
     #[inline]
-    pub fn seen(&self, bundle: usize, lane: usize) -> Option<Seen> {
+    pub fn seen(&self, packet: usize, lane: usize) -> Option<PrimaryHit> {
         let first = &self.waves[0];
-        (first.found(bundle) >> lane & 1 == 1).then(|| {
-            let Met { hit, normal, .. } = first.met(Place { bundle, lane });
-            Seen { t: hit.t, object: hit.object, normal }
+        (first.found(packet) >> lane & 1 == 1).then(|| {
+            let SurfaceInteraction { hit, normal, .. } = first.met(RayIndex { packet, lane });
+            PrimaryHit { t: hit.t, object: hit.object, normal }
         })
     }
 }
@@ -71,7 +71,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
     /// the same solids, or put there; where there is no such place, it is not kept.
     pub fn tile(
         &self,
-        sight: &Sight,
+        sight: &TileCamera,
         kept: Option<&OnceLock<TileHits>>,
         tile: &mut TileShading<C>,
         memory: &mut Memory<Fast<'e>>,
@@ -105,7 +105,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
     /// Finds what the rays from the eye meet. Those of blocks in whose way there is nothing are not even made.
     fn see(
         &self,
-        sight: &Sight,
+        sight: &TileCamera,
         mut keep: Option<&mut TileHits>,
         tile: &mut TileShading<C>,
         memory: &mut Memory<Fast<'e>>,
@@ -115,8 +115,8 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         let TileShading { trace, waves, .. } = tile;
         let wave = &mut waves[0];
         let count = wave.rays.len();
-        let Wave { rays, before, nearest, .. } = &mut *wave;
-        let mut make = |k: usize, rays: &mut Bundle| {
+        let Wavefront { rays, before, nearest, .. } = &mut *wave;
+        let mut make = |k: usize, rays: &mut RayPacket| {
             meter.at(Stage::Ray);
             self.set_out(sight, k, rays, &mut before[k]);
             meter.at(Stage::Cell);
@@ -142,7 +142,13 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
     }
 
     /// Makes the rays from the eye through a block.
-    pub(super) fn set_out(&self, sight: &Sight, k: usize, rays: &mut Bundle, before: &mut [Column; 2]) {
+    pub(super) fn set_out(
+        &self,
+        sight: &TileCamera,
+        k: usize,
+        rays: &mut RayPacket,
+        before: &mut [Lanes; 2],
+    ) {
         sight.rays(k, self.engine.level(), rays);
         self.engine.approach(rays, before);
     }
@@ -150,10 +156,10 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
     /// Finds what some rays from the eye through a block meet, one after the other, and adds it to `alone`.
     pub(super) fn see_alone(
         &self,
-        sight: &Sight,
+        sight: &TileCamera,
         (k, some): (usize, u64),
-        wave: &mut Wave<C>,
-        alone: &mut Vec<(Place, Met)>,
+        wave: &mut Wavefront<C>,
+        alone: &mut Vec<(RayIndex, SurfaceInteraction)>,
         memory: &mut Memory<Fast<'e>>,
         meter: &mut Meter<impl Probe>,
     ) {
@@ -161,7 +167,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
             let ray = Ray::new(sight.eye, wave.rays[k].d.get(at.lane));
             let hit = self.engine.first(&ray, &mut memory.engine, meter);
             let inside = wave.inside.clone();
-            let sent = || Sent { ray, travelled: 0.0, weight: 1.0, generation: 0, inside };
+            let sent = || PathState { ray, travelled: 0.0, weight: 1.0, generation: 0, inside };
             if let Some(met) = self.take(wave, at, sent, hit, memory, meter) {
                 alone.push((at, met));
             }
@@ -179,20 +185,20 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         meter.at(Stage::Cell);
         let TileShading { trace, waves, .. } = tile;
         let wave = &mut waves[generation];
-        wave.bundle_legs(self.engine.level());
+        wave.packet_legs(self.engine.level());
         wave.make_room();
         let kinds = std::mem::take(&mut wave.kinds);
         for kind in &kinds {
-            let mut ask = |wave: &mut Wave<C>, bundles: Range<usize>| {
-                let (rays, from) = (&wave.rays[bundles.clone()], &wave.from[bundles.clone()]);
-                self.engine.first_of(rays, Some(from), &mut wave.nearest[bundles], trace)
+            let mut ask = |wave: &mut Wavefront<C>, packets: Range<usize>| {
+                let (rays, from) = (&wave.rays[packets.clone()], &wave.from[packets.clone()]);
+                self.engine.first_of(rays, Some(from), &mut wave.nearest[packets], trace)
             };
-            let Range { mut start, end } = kind.bundles();
-            // What curved surfaces send on runs apart: the first bundle shows it.
+            let Range { mut start, end } = kind.packets();
+            // What curved surfaces send on runs apart: the first packet shows it.
             let together = start < end && ask(wave, start..start + 1) == 0;
             start += 1;
             while start < end {
-                let some = start..(start + FAN).min(end);
+                let some = start..(start + FRUSTA).min(end);
                 start = some.end;
                 if together {
                     ask(wave, some);
@@ -209,8 +215,8 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         for kind in &kinds {
             for (number, leg) in kind.rays.iter().enumerate() {
                 let at = kind.place(number);
-                if wave.nearest[at.bundle].unsure >> at.lane & 1 == 1 {
-                    let Leg { sent, departure } = leg;
+                if wave.nearest[at.packet].unsure >> at.lane & 1 == 1 {
+                    let QueuedRay { sent, departure } = leg;
                     let hit = self.engine.next(&sent.ray, *departure, &mut memory.engine, meter);
                     self.take(wave, at, || sent.clone(), hit, memory, meter);
                 }
@@ -232,51 +238,51 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
     /// at once.
     fn take(
         &self,
-        wave: &mut Wave<C>,
-        at: Place,
-        sent: impl FnOnce() -> Sent,
+        wave: &mut Wavefront<C>,
+        at: RayIndex,
+        sent: impl FnOnce() -> PathState,
         hit: Option<Hit>,
         memory: &mut Memory<Fast<'e>>,
         meter: &mut Meter<impl Probe>,
-    ) -> Option<Met> {
-        wave.nearest[at.bundle].set(at.lane, hit.as_ref());
+    ) -> Option<SurfaceInteraction> {
+        wave.nearest[at.packet].set(at.lane, hit.as_ref());
         let hit = hit?;
         if self.engine.together(&memory.engine).len() == 1 {
-            return Some(Met { hit, p: hit.p, normal: DVec3::ZERO });
+            return Some(SurfaceInteraction { hit, p: hit.p, normal: DVec3::ZERO });
         }
         let sent = sent();
         meter.at(Stage::Shade);
         let met = self.met(&sent.ray, hit, memory);
         let light = self.light(&sent, &met, memory, meter);
         meter.at(Stage::Cell);
-        wave.nearest[at.bundle].set(at.lane, Some(&met.hit));
+        wave.nearest[at.packet].set(at.lane, Some(&met.hit));
         wave.set_light(at, light);
-        wave.known[at.bundle] |= 1 << at.lane;
+        wave.known[at.packet] |= 1 << at.lane;
         Some(met)
     }
 
-    /// The surfaces that a bundle met. `alone` are rays whose numbers were found alone.
-    pub(super) fn know(&self, wave: &mut Wave<C>, k: usize, alone: &[(Place, Met)]) {
+    /// The surfaces that a packet met. `alone` are rays whose numbers were found alone.
+    pub(super) fn know(&self, wave: &mut Wavefront<C>, k: usize, alone: &[(RayIndex, SurfaceInteraction)]) {
         let level = self.engine.level();
-        let Wave { rays, before, nearest, surfaces, departures, known, .. } = wave;
-        let (bundle, nearest, surfaces) = (&rays[k], &nearest[k], &mut surfaces[k]);
-        surfaces.points(bundle, &before[k], nearest, level);
+        let Wavefront { rays, before, nearest, surfaces, departures, known, .. } = wave;
+        let (packet, nearest, surfaces) = (&rays[k], &nearest[k], &mut surfaces[k]);
+        surfaces.points(packet, &before[k], nearest, level);
         surfaces.hits &= !known[k];
-        for (Place { lane, .. }, met) in alone {
+        for (RayIndex { lane, .. }, met) in alone {
             surfaces.p.set(*lane, met.p);
             surfaces.way.0[*lane] = met.hit.t;
         }
-        surfaces.know(bundle, nearest, self.assembly, &mut departures[k], level);
+        surfaces.know(packet, nearest, self.assembly, &mut departures[k], level);
         for at in places(k, surfaces.patches) {
             let (primitive, surface) =
                 (nearest.primitive.0[at.lane] as u32, nearest.surface.0[at.lane] as u32);
             let p = surfaces.p.get(at.lane);
-            let normal = self.assembly.turned_normal(primitive, surface, p, bundle.d.get(at.lane));
+            let normal = self.assembly.turned_normal(primitive, surface, p, packet.d.get(at.lane));
             surfaces.normal.set(at.lane, normal);
             let hit = Hit { t: 0.0, error: 0.0, p, object: 0, primitive, surface, entering: true };
             departures[k].set(at.lane, &self.departure(&hit, p, normal));
         }
-        for (Place { lane, .. }, met) in alone.iter().filter(|(at, _)| known[k] >> at.lane & 1 == 1) {
+        for (RayIndex { lane, .. }, met) in alone.iter().filter(|(at, _)| known[k] >> at.lane & 1 == 1) {
             surfaces.normal.set(*lane, met.normal);
         }
     }

@@ -1,25 +1,25 @@
-//! Stage 8, CSG, for a bundle of rays and an expression of which one primitive is left: [`super::crossings`] where
+//! Stage 8, CSG, for a packet of rays and an expression of which one primitive is left: [`super::crossings`] where
 //! there is nothing to toggle but that.
 
 use fearless_simd::Simd;
 
-use crate::math::{Digits, Mask, Number};
+use crate::math::{Mask, Number, Real};
 
 use super::crossing::start_of;
-use super::crossings::{Asked, Found, have_one_slope};
-use super::known::KnownSpans;
+use super::crossings::{CsgQuery, PacketCrossings, have_one_slope};
 use super::span::Ends;
+use super::span_cache::CachedSpans;
 
 /// The first crossings of the rays that are `open` with their spans in one primitive, which may be `negated`.
 #[inline(always)]
-pub(super) fn decide_alone<S: Simd, T: Digits>(
+pub(super) fn decide_alone<S: Simd, T: Real>(
     simd: S,
-    (asked, open): (&Asked<T>, u64),
-    known: &KnownSpans<T>,
+    (asked, open): (&CsgQuery<T>, u64),
+    known: &CachedSpans<T>,
     (primitive, negated): (u32, bool),
-    found: &mut Found<T>,
+    found: &mut PacketCrossings<T>,
 ) {
-    let Asked { departures, reach, .. } = *asked;
+    let CsgQuery { departures, reach, .. } = *asked;
     let (infinite, zero) = (T::all(simd, f64::INFINITY), T::all(simd, 0.0));
     let (from, to) = (T::all(simd, reach.from), T::all(simd, reach.to));
     let primitive = T::all(simd, f64::from(primitive));

@@ -11,7 +11,7 @@ use crate::stage::{Progress, Task};
 
 use super::ball::Ball;
 use super::expression::{Expression, Tree};
-use super::primitive::{Form, Primitive};
+use super::primitive::{Primitive, WorldShape};
 use super::span::ROUNDING;
 
 /// Eyes and lights farther away than this, in the assembly's unit, stand here: the square of such a length does not
@@ -57,18 +57,18 @@ pub struct Assembly {
     alone: Vec<(u32, Kind)>,
     /// The world limit: the box of all objects. Within −2..=2 on every axis.
     pub limit: Bounds,
-    /// How far any primitive may be off its place: the greatest [`Form::off`].
+    /// How far any primitive may be off its place: the greatest [`WorldShape::off`].
     pub off: f64,
     /// From the scene's coordinates to those of the assembly.
-    pub datum: Datum,
+    pub scene_frame: SceneFrame,
     /// What there is of what.
-    pub makeup: Makeup,
+    pub stats: AssemblyStats,
 }
 
 /// What there is of what in an assembly.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Makeup {
-    /// The least [`Form::thickness`] of the primitives.
+pub struct AssemblyStats {
+    /// The least [`WorldShape::thickness`] of the primitives.
     pub thinnest: f64,
     /// Objects that are one ball.
     pub balls: usize,
@@ -116,7 +116,7 @@ pub enum Kind {
 
 /// Where the assembly's coordinates have their origin, and their unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Datum {
+pub struct SceneFrame {
     /// The origin, in the scene's coordinates.
     pub origin: DVec3,
     /// The unit, in the scene's unit: a power of two.
@@ -142,8 +142,8 @@ impl Object {
     }
 }
 
-impl Datum {
-    /// The datum for a scene.
+impl SceneFrame {
+    /// The scene's frame for a scene.
     fn of(scene: &Scene) -> Self {
         // What it shows, and all that is computed with.
         let reach = |objects: &[scene::Object]| {
@@ -162,7 +162,7 @@ impl Datum {
         Self::new(&seen, &all)
     }
 
-    /// The datum for a scene that shows only in the box `b`, with cutters that reach to the box `all`.
+    /// The scene's frame for a scene that shows only in the box `b`, with cutters that reach to the box `all`.
     fn new(b: &Bounds, all: &Bounds) -> Self {
         // Cutters are computed with, too: where the body is small beside them, beyond all reason, the unit grows so
         // that no square of theirs overflows.
@@ -202,13 +202,13 @@ impl Datum {
     }
 
     /// The form of a primitive in the assembly.
-    fn form(&self, p: &scene::Primitive) -> Option<Form> {
+    fn form(&self, p: &scene::Primitive) -> Option<WorldShape> {
         let matrix3 = p.map.matrix3 * self.unit.recip();
         let map = DAffine3 { matrix3, translation: self.inward(p.map.translation) };
         // The scale is exact; a shift is rounded.
         let shifted = if self.origin == DVec3::ZERO { DVec3::ZERO } else { ROUNDING * map.translation.abs() };
         let error = p.displacement() / self.unit + shifted;
-        if let Some(ball) = Form::ball(&p.shape, &map, error) {
+        if let Some(ball) = WorldShape::ball(&p.shape, &map, error) {
             return Some(ball);
         }
         let place = Placement::new(&map).filter(|place| {
@@ -216,9 +216,11 @@ impl Datum {
             place.inverse.to_cols_array().iter().all(|x| x.abs() <= FARTHEST)
         });
         match place {
-            Some(place) => Some(Form::new(&p.shape, place, error)),
+            Some(place) => Some(WorldShape::new(&p.shape, place, error)),
             // So thin beside the scene that no ray meets it, though its map has an inverse: a ball of no size.
-            None => Placement::new(&p.map).map(|_| Form::Ball(Ball::new(map.translation, 0.0, DVec3::ZERO))),
+            None => {
+                Placement::new(&p.map).map(|_| WorldShape::Ball(Ball::new(map.translation, 0.0, DVec3::ZERO)))
+            }
         }
     }
 }
@@ -269,7 +271,7 @@ impl Assembly {
 
     /// The same, where `progress` says how far this is.
     pub fn watched(scene: &Scene, progress: &Progress) -> Result<Self, AssemblyError> {
-        let datum = Datum::of(scene);
+        let scene_frame = SceneFrame::of(scene);
         let mut parts = Vec::with_capacity(scene.objects.len());
         // By object: where its primitives start; one more than there are objects.
         let mut starts = Vec::with_capacity(scene.objects.len() + 1);
@@ -283,7 +285,7 @@ impl Assembly {
         progress.begin(Task::Assembling, (parts.len() + scene.objects.len()) as u64);
         let placed = |number, p: &&scene::Primitive| {
             tell(progress, number);
-            datum.form(p).map(|form| Primitive { form, material: p.material })
+            scene_frame.form(p).map(|form| Primitive { form, material: p.material })
         };
         let primitives = mapped(&parts, placed);
         if let Some(singular) = primitives.iter().position(Option::is_none) {
@@ -315,8 +317,8 @@ impl Assembly {
         };
         let alone = |object: &Object| match object.body {
             Body::Single(index) | Body::Surface(index) => match primitives[index as usize].form {
-                Form::Ball(_) => (index, Kind::Ball),
-                Form::Tube(_) => (index, Kind::Tube),
+                WorldShape::Ball(_) => (index, Kind::Ball),
+                WorldShape::Tube(_) => (index, Kind::Tube),
                 _ => (index, Kind::Other),
             },
             Body::Composite { .. } => (MANY, Kind::Other),
@@ -324,8 +326,8 @@ impl Assembly {
         let alone: Vec<_> = objects.iter().map(alone).collect();
         let balls = alone.iter().filter(|(_, kind)| *kind == Kind::Ball).count();
         let surfaces = objects.iter().filter(|o| matches!(o.body, Body::Surface(_))).count();
-        let makeup = Makeup { thinnest, balls, surfaces };
-        Ok(Self { primitives, objects, alone, limit, off, datum, makeup })
+        let stats = AssemblyStats { thinnest, balls, surfaces };
+        Ok(Self { primitives, objects, alone, limit, off, scene_frame, stats })
     }
 
     /// The primitive of an object that is a [`Body::Single`] or a [`Body::Surface`]. A list of its own: millions of
@@ -348,7 +350,7 @@ impl Assembly {
             Body::Single(index) | Body::Surface(index) => self.primitives[*index as usize].form.support(v),
             Body::Composite { tree, .. } => tree.support(&self.primitives, v),
         });
-        own.fold(f64::NEG_INFINITY, f64::max) * self.datum.unit + self.datum.origin.dot(v)
+        own.fold(f64::NEG_INFINITY, f64::max) * self.scene_frame.unit + self.scene_frame.origin.dot(v)
     }
 
     /// The material of a primitive.
@@ -374,7 +376,7 @@ impl Assembly {
         let form = &self.primitives[primitive as usize].form;
         let own = form.normal(p, surface).normalize_or(-d);
         let turned = if own.dot(d) > 0.0 { -own } else { own };
-        if !matches!(form, Form::Patch(_)) {
+        if !matches!(form, WorldShape::Patch(_)) {
             return turned;
         }
         let shown = form.shading_normal(p, surface);
@@ -383,8 +385,8 @@ impl Assembly {
         if away > 0.0 { (shown - away * d).normalize_or(turned) } else { shown }
     }
 
-    /// A ray of the scene in the assembly; distances along it are divided by [`Datum::unit`].
+    /// A ray of the scene in the assembly; distances along it are divided by [`SceneFrame::unit`].
     pub fn ray(&self, ray: &Ray) -> Ray {
-        Ray::new(self.datum.inward_near(ray.o), ray.d)
+        Ray::new(self.scene_frame.inward_near(ray.o), ray.d)
     }
 }

@@ -1,6 +1,6 @@
 //! Spheres that stayed spheres: a centre and a radius.
 
-use crate::math::{Bounds, DVec3, Digits, Mask, Number, Rays, Vector};
+use crate::math::{Bounds, DVec3, Mask, Number, Rays, Real, Vector};
 
 use super::primitive::Cover;
 use super::span::{Ends, LIMIT, ROUNDING, Spans, WORLD, rounding_at};
@@ -126,7 +126,7 @@ impl Ball {
 
     /// The most that the `error` of any of its ends can be: half a chord whose square is below `2·r·off` is off by no more
     /// than the root of that, and one above it by less than half of that root.
-    pub fn most_error<T: Digits>(&self) -> f64 {
+    pub fn most_error<T: Real>(&self) -> f64 {
         let off = self.off * T::COARSER;
         off + (2.0 * self.radius * off).sqrt()
     }

@@ -15,7 +15,7 @@ use crate::math::{Number, Ray, Rays};
 use crate::stage::{Meter, Probe, Stage};
 
 use super::expression::Expression;
-use super::primitive::{Form, Primitive};
+use super::primitive::{Primitive, WorldShape};
 use super::span::{Departure, End, Ends, Spans};
 use super::state::State;
 
@@ -59,14 +59,14 @@ pub struct Scratch {
 
 /// The part of a ray that is asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reach {
+pub struct TRange {
     /// Crossings before this are passed over.
     pub from: f64,
     /// Crossings behind this are not looked for.
     pub to: f64,
 }
 
-impl Reach {
+impl TRange {
     /// The whole ray.
     pub const ALL: Self = Self { from: 0.0, to: f64::INFINITY };
 }
@@ -75,7 +75,7 @@ impl Reach {
 /// be off its place: where they are one place they have one slope, so that `error` is to `off` as the start's to its own.
 /// The eye is where it is: for a ray from there only rounding counts, not how far the map of the primitive may be off.
 #[inline]
-pub fn at_start(end: &End, form: &Form, departure: Option<Departure>) -> bool {
+pub fn at_start(end: &End, form: &WorldShape, departure: Option<Departure>) -> bool {
     end.t <= start_of(end.error, (form.off(), form.seeming()), departure.map(|d| d.off))
 }
 
@@ -106,25 +106,25 @@ pub struct Starts<N: Number> {
 impl<N: Number> Starts<N> {
     /// Whether crossings lie at the starts of their rays, or before.
     #[inline(always)]
-    pub(super) fn before(&self, end: &Ends<N>, form: &Form) -> N::Mask {
+    pub(super) fn before(&self, end: &Ends<N>, form: &WorldShape) -> N::Mask {
         end.t.is_at_most(self.reach(end, form))
     }
 
     /// Whether numbers that do not decide leave a doubt which of these they do.
     #[inline(always)]
-    pub fn near(&self, end: &Ends<N>, form: &Form) -> N::Mask {
+    pub fn near(&self, end: &Ends<N>, form: &WorldShape) -> N::Mask {
         end.t.magnitude().is_at_most(self.reach(end, form))
     }
 
     #[inline(always)]
-    fn reach(&self, end: &Ends<N>, form: &Form) -> N {
+    fn reach(&self, end: &Ends<N>, form: &WorldShape) -> N {
         start_of(end.error, (form.off() * N::COARSER, form.seeming()), self.off)
     }
 }
 
 /// The first crossings of one convex primitive.
 #[derive(Clone, Copy, Debug)]
-pub struct Firsts<N: Number> {
+pub struct FirstCrossings<N: Number> {
     /// Where.
     pub end: Ends<N>,
     /// Whether the ray goes into the solid there.
@@ -135,7 +135,11 @@ pub struct Firsts<N: Number> {
 
 /// The first crossings of one convex primitive, given the spans of rays in it.
 #[inline(always)]
-pub fn firsts_of_spans<N: Number>(spans: Spans<N>, form: &Form, starts: &Starts<N>) -> Firsts<N> {
+pub fn firsts_of_spans<N: Number>(
+    spans: Spans<N>,
+    form: &WorldShape,
+    starts: &Starts<N>,
+) -> FirstCrossings<N> {
     // A convex solid is not met again by a ray that leaves it.
     let any = spans.any & !(starts.here & !starts.inward);
     let leaving = starts.here | starts.before(&spans.enter, form);
@@ -143,7 +147,7 @@ pub fn firsts_of_spans<N: Number>(spans: Spans<N>, form: &Form, starts: &Starts<
     // The start on this primitive is at 0 by construction.
     let behind =
         (starts.here & end.t.is_at_most(end.t.same(0.0))) | (!starts.here & starts.before(&end, form));
-    Firsts { end, entering: !leaving, any: any & !behind }
+    FirstCrossings { end, entering: !leaving, any: any & !behind }
 }
 
 /// The first crossing of one convex primitive.
@@ -173,7 +177,7 @@ pub fn first_of_expression(
     expression: &Expression,
     primitives: &[Primitive],
     departure: Option<Departure>,
-    reach: Reach,
+    reach: TRange,
     scratch: &mut Scratch,
     meter: &mut Meter<impl Probe>,
 ) -> Option<Crossing> {
@@ -257,7 +261,7 @@ fn gather(
     expression: &Expression,
     primitives: &[Primitive],
     departure: Option<Departure>,
-    reach: Reach,
+    reach: TRange,
     events: &mut Vec<Event>,
 ) {
     events.clear();

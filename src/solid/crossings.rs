@@ -1,36 +1,36 @@
-//! Stage 8, CSG, for a bundle of rays: the first place along each where an expression changes.
+//! Stage 8, CSG, for a packet of rays: the first place along each where an expression changes.
 //!
-//! It does what [`super::crossing`] does for one ray, and finds the same bits where it has all digits: the crossings of all primitives, those
+//! It does what [`super::crossing`] does for one ray, and finds the same bits where it has double precision: the crossings of all primitives, those
 //! that are one place with the first of them toggled together, until the expression's value changes. Instead of a
 //! sorted list there is a bit for each ray: of a crossing that is yet to come, of a primitive that the place is inside,
 //! of an operator that is true there. So an operator is one operation on a word for all rays.
 
 use fearless_simd::Simd;
 
-use crate::math::{Answers, Bundle, Column, Digits, Mask, Number};
+use crate::math::{Lanes, Mask, Number, RayPacket, Real, RealMask};
 
 use super::alone::decide_alone;
-use super::crossing::{Crossing, Reach, SAME_SLOPE, start_of};
+use super::crossing::{Crossing, SAME_SLOPE, TRange, start_of};
 use super::expression::Link;
-use super::known::{Known, KnownSpans, Side};
 use super::primitive::Primitive;
-use super::prune::Flat;
+use super::prune::ExprView;
 use super::span::Departure;
+use super::span_cache::{CachedSpans, SpanCache, SpanEnds};
 
-/// The surfaces that the rays of a bundle start on: [`super::Departure`] of each.
+/// The surfaces that the rays of a packet start on: [`super::Departure`] of each.
 #[derive(Clone, Debug)]
 pub struct Departures<T = f64> {
     /// The index of the primitive.
-    pub primitive: Column<T>,
+    pub primitive: Lanes<T>,
     /// Which rays go to the inside of it, a bit for each.
     pub inward: u64,
     /// How far it may be off its place.
-    pub off: Column<T>,
+    pub off: Lanes<T>,
 }
 
 impl Departures {
     /// From nowhere.
-    pub const NONE: Self = Self { primitive: Column::filled(-1.0), inward: 0, off: Column::filled(0.0) };
+    pub const NONE: Self = Self { primitive: Lanes::filled(-1.0), inward: 0, off: Lanes::filled(0.0) };
 
     /// Sets the surface that one ray starts on; it goes to the outside unless it did to the inside before.
     pub fn set(&mut self, lane: usize, departure: &Departure) {
@@ -50,7 +50,7 @@ impl Departures {
     }
 }
 
-impl<T: Digits> Departures<T> {
+impl<T: Real> Departures<T> {
     /// Which rays start on a primitive, and which of these go to its inside.
     pub fn here<S: Simd>(&self, simd: S, primitive: u32) -> (u64, u64) {
         let here = simd.vectorize(
@@ -75,39 +75,39 @@ impl<T: Digits> Departures<T> {
     }
 }
 
-/// The first crossings of a bundle.
+/// The first crossings of a packet.
 #[derive(Clone, Debug)]
-pub struct Found<T = f64> {
+pub struct PacketCrossings<T = f64> {
     /// Which rays have one, a bit for each: of the others the numbers mean nothing.
     pub any: u64,
-    /// Which rays are to be asked one by one: theirs is a place where no primitive alone makes the change; or by more digits.
+    /// Which rays are to be asked one by one: theirs is a place where no primitive alone makes the change; or by double precision.
     pub unsure: u64,
     /// Which rays go into the solid there.
     pub entering: u64,
     /// Where, and how far that may be off.
-    pub t: Column<T>,
+    pub t: Lanes<T>,
     /// How far `t` may be off.
-    pub error: Column<T>,
+    pub error: Lanes<T>,
     /// The primitive whose surface it is, by its index.
-    pub primitive: Column<T>,
+    pub primitive: Lanes<T>,
     /// The face of that primitive.
-    pub surface: Column<T>,
+    pub surface: Lanes<T>,
 }
 
-impl<T: Digits> Found<T> {
+impl<T: Real> PacketCrossings<T> {
     /// None.
     pub const NONE: Self = Self {
         any: 0,
         unsure: 0,
         entering: 0,
-        t: Column::filled(T::INFINITY),
-        error: Column::filled(T::ZERO),
-        primitive: Column::filled(T::ZERO),
-        surface: Column::filled(T::ZERO),
+        t: Lanes::filled(T::INFINITY),
+        error: Lanes::filled(T::ZERO),
+        primitive: Lanes::filled(T::ZERO),
+        surface: Lanes::filled(T::ZERO),
     };
 }
 
-impl Found {
+impl PacketCrossings {
     /// Sets the crossing of one ray.
     pub fn set(&mut self, lane: usize, crossing: &Crossing) {
         self.any |= 1 << lane;
@@ -119,10 +119,10 @@ impl Found {
     }
 }
 
-/// Memory that is used again for every bundle.
+/// Memory that is used again for every packet.
 #[derive(Clone, Debug, Default)]
-pub struct BundleScratch<T> {
-    known: Known<T>,
+pub struct PacketScratch<T> {
+    known: SpanCache<T>,
     /// By leaf: the place of its spans among those that are known.
     places: Vec<u32>,
     /// By leaf: the rays that are inside; and those that the place toggles.
@@ -133,8 +133,8 @@ pub struct BundleScratch<T> {
     behind: Vec<u64>,
 }
 
-impl<T: Digits> BundleScratch<T> {
-    /// Another bundle follows, or the same from other surfaces.
+impl<T: Real> PacketScratch<T> {
+    /// Another packet follows, or the same from other surfaces.
     pub fn start(&mut self) {
         self.known.clear();
     }
@@ -142,29 +142,29 @@ impl<T: Digits> BundleScratch<T> {
 
 /// What is asked of an expression.
 #[derive(Clone, Copy, Debug)]
-pub struct Asked<'a, T> {
+pub struct CsgQuery<'a, T> {
     /// The rays.
-    pub bundle: &'a Bundle<T>,
+    pub packet: &'a RayPacket<T>,
     /// Which of them ask, a bit for each.
     pub wanted: u64,
     /// The surfaces that they leave; none for rays from the eye.
     pub departures: Option<&'a Departures<T>>,
     /// The part of each.
-    pub reach: Reach,
+    pub reach: TRange,
 }
 
 /// The first crossings of an expression of convex primitives.
 ///
 /// Rays whose expression has a primitive that is not convex are unsure, all of them.
-pub fn first_of_expressions<S: Simd, T: Digits>(
+pub fn first_of_expressions<S: Simd, T: Real>(
     simd: S,
-    asked: &Asked<T>,
-    expression: Flat,
+    asked: &CsgQuery<T>,
+    expression: ExprView,
     primitives: &[Primitive],
-    scratch: &mut BundleScratch<T>,
-    found: &mut Found<T>,
+    scratch: &mut PacketScratch<T>,
+    found: &mut PacketCrossings<T>,
 ) {
-    let Asked { bundle, wanted, departures, reach } = *asked;
+    let CsgQuery { packet, wanted, departures, reach } = *asked;
     (found.any, found.unsure, found.entering) = (0, 0, 0);
     let form = |leaf: usize| &primitives[expression.leaves[leaf].primitive as usize].form;
     let leaves = expression.leaves.len();
@@ -176,7 +176,7 @@ pub fn first_of_expressions<S: Simd, T: Digits>(
     scratch.places.clear();
     for (leaf, place) in expression.leaves.iter().enumerate() {
         let about = (place.primitive, form(leaf));
-        let (place, [ahead, may]) = scratch.known.look(simd, (bundle, departures), about, wanted, reach);
+        let (place, [ahead, may]) = scratch.known.look(simd, (packet, departures), about, wanted, reach);
         scratch.places.push(place);
         some |= ahead;
         doubtful |= may;
@@ -203,34 +203,34 @@ pub fn first_of_expressions<S: Simd, T: Digits>(
 
 /// The spans of an expression's leaves.
 struct Leaves<'a, T> {
-    spans: &'a mut [KnownSpans<T>],
+    spans: &'a mut [CachedSpans<T>],
     places: &'a [u32],
 }
 
 impl<T> Leaves<'_, T> {
     #[inline(always)]
-    fn of(&self, leaf: usize) -> &KnownSpans<T> {
+    fn of(&self, leaf: usize) -> &CachedSpans<T> {
         &self.spans[self.places[leaf] as usize]
     }
 
     #[inline(always)]
-    fn of_mut(&mut self, leaf: usize) -> &mut KnownSpans<T> {
+    fn of_mut(&mut self, leaf: usize) -> &mut CachedSpans<T> {
         &mut self.spans[self.places[leaf] as usize]
     }
 }
 
 #[inline(always)]
-fn decide<S: Simd, T: Digits>(
+fn decide<S: Simd, T: Real>(
     simd: S,
-    asked: &Asked<T>,
+    asked: &CsgQuery<T>,
     mut open: u64,
-    expression: Flat,
-    scratch: &mut BundleScratch<T>,
-    found: &mut Found<T>,
+    expression: ExprView,
+    scratch: &mut PacketScratch<T>,
+    found: &mut PacketCrossings<T>,
 ) {
-    let Asked { departures, reach, .. } = *asked;
+    let CsgQuery { departures, reach, .. } = *asked;
     let leaves = expression.leaves.len();
-    let BundleScratch { known, places, inside, flipped, before, behind } = scratch;
+    let PacketScratch { known, places, inside, flipped, before, behind } = scratch;
     let mut sides = Leaves { spans: known.spans(), places };
     inside.clear();
     inside.resize(leaves, 0);
@@ -249,7 +249,7 @@ fn decide<S: Simd, T: Digits>(
         }
         open &= !done;
         for leaf in 0..leaves {
-            let KnownSpans { enter, leave, .. } = sides.of_mut(leaf);
+            let CachedSpans { enter, leave, .. } = sides.of_mut(leaf);
             flipped[leaf] = (enter.now ^ leave.now) & open;
             inside[leaf] ^= flipped[leaf];
             enter.ahead &= !enter.now;
@@ -284,13 +284,13 @@ fn decide<S: Simd, T: Digits>(
 
 /// The first crossing that is yet to come on each ray of a row, and all that are one place with it. Answers which rays
 /// have none within reach, and whose place is passed over: it lies at the start of the ray, or before the reach; and of which
-/// more digits are to decide what is one place.
+/// double precision are to decide what is one place.
 #[inline(always)]
-fn next_place<S: Simd, T: Digits>(
+fn next_place<S: Simd, T: Real>(
     (simd, row, open): (S, usize, u64),
     sides: &mut Leaves<T>,
     departures: Option<&Departures<T>>,
-    reach: Reach,
+    reach: TRange,
 ) -> [u64; 3] {
     let shift = row * T::LANES;
     let (infinite, zero) = (T::all(simd, f64::INFINITY), T::all(simd, 0.0));
@@ -346,12 +346,12 @@ fn next_place<S: Simd, T: Digits>(
 /// Which crossings of those that reach back to the first of a row, where several do, are one place with it. Answers
 /// where all of these are before the reach.
 #[inline(always)]
-fn one_place<S: Simd, T: Digits>(
-    (simd, row, asking): (S, usize, Answers<T, S>),
+fn one_place<S: Simd, T: Real>(
+    (simd, row, asking): (S, usize, RealMask<T, S>),
     sides: &mut Leaves<T>,
-    [t, error, off]: [T::Wide<S>; 3],
-    reach: Reach,
-) -> Answers<T, S> {
+    [t, error, off]: [T::SimdReal<S>; 3],
+    reach: TRange,
+) -> RealMask<T, S> {
     let shift = row * T::LANES;
     let (infinite, zero) = (T::all(simd, f64::INFINITY), T::all(simd, 0.0));
     let limit = t + error;
@@ -393,7 +393,7 @@ pub(super) fn have_one_slope<N: Number>(a: N, b: N) -> N::Mask {
 
 /// The value of each operator, a bit for each ray.
 #[inline(always)]
-fn evaluate(expression: Flat, inside: &[u64], values: &mut Vec<u64>) {
+fn evaluate(expression: ExprView, inside: &[u64], values: &mut Vec<u64>) {
     values.clear();
     // More than one child is asked for where all are.
     values.extend(expression.nodes.iter().map(|node| if node.threshold == 1 { 0 } else { u64::MAX }));
@@ -420,7 +420,7 @@ fn evaluate(expression: Flat, inside: &[u64], values: &mut Vec<u64>) {
 /// direction in which its child pushed.
 #[inline(always)]
 fn decides(
-    expression: Flat,
+    expression: ExprView,
     leaf: usize,
     inside: &[u64],
     flipped: &[u64],
@@ -441,7 +441,13 @@ fn decides(
 
 /// The crossing of some rays with one side is the one that is asked for.
 #[inline(always)]
-fn take<S: Simd, T: Digits>(simd: S, side: &Side<T>, lanes: u64, primitive: u32, found: &mut Found<T>) {
+fn take<S: Simd, T: Real>(
+    simd: S,
+    side: &SpanEnds<T>,
+    lanes: u64,
+    primitive: u32,
+    found: &mut PacketCrossings<T>,
+) {
     if lanes == 0 {
         return;
     }

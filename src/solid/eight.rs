@@ -8,8 +8,8 @@ use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
 use crate::math::{LANES, Mask, Ray, Rays, Vector};
 
 use super::ball::Balls;
-use super::crossing::{Crossing, Firsts, Starts, firsts_of_spans};
-use super::primitive::{Form, Primitive};
+use super::crossing::{Crossing, FirstCrossings, Starts, firsts_of_spans};
+use super::primitive::{Primitive, WorldShape};
 use super::span::{Departure, Ends, Spans};
 use super::surface::firsts_of_sides;
 use super::tube::{NUMBERS_OF_TUBE, SideCrossings, Tubes};
@@ -52,8 +52,8 @@ impl Eight {
             to[lane] = x;
         }
         match &primitive.form {
-            Form::Ball(ball) => self.set_form(lane, &ball.numbers()),
-            Form::Tube(tube) => self.set_form(lane, &tube.numbers()),
+            WorldShape::Ball(ball) => self.set_form(lane, &ball.numbers()),
+            WorldShape::Tube(tube) => self.set_form(lane, &tube.numbers()),
             _ => {}
         }
     }
@@ -151,7 +151,7 @@ impl Eight {
         let leave = Ends { t: self.leave[0][lane], error: self.leave[1][lane], surface: 0.0 };
         let is = |bits: u8| bits >> lane & 1 == 1;
         let form = &primitive.form;
-        let Firsts { end, entering, any } = if let Form::Tube(_) = form {
+        let FirstCrossings { end, entering, any } = if let WorldShape::Tube(_) = form {
             let [enters, leaves, one_way] = [is(self.any[0]), is(self.any[1]), is(self.any[2])];
             firsts_of_sides(SideCrossings { enter, enters, leave, leaves, one_way }, form, &starts)
         } else {

@@ -1,11 +1,11 @@
 //! Polygons, concave ones too: surfaces seen from both sides.
 //!
 //! A ray meets a polygon where its outline turns around it an odd number of times, decided exactly in the plane
-//! across the ray ([`super::across`]): of two polygons with a common edge exactly one is met there.
+//! across the ray ([`super::ray_shear`]): of two polygons with a common edge exactly one is met there.
 
 use crate::math::{Bounds, DVec3, Mask, Number, Placement, Ray, Rays};
 
-use super::across::{Across, OnPlane, STEEP, on_plane, plane_crossing};
+use super::ray_shear::{OnPlane, RayShear, STEEP, on_plane, plane_crossing};
 use super::span::{End, Ends, rounding_at};
 
 /// So many edges are looked at together: past twice as many, boxes around each group of them are asked first.
@@ -70,7 +70,7 @@ impl Face {
     /// Where the line of the ray meets the polygon.
     #[inline]
     pub fn crossing(&self, ray: &Ray) -> Option<End> {
-        let across = Across::new(ray);
+        let across = RayShear::new(ray);
         if !self.surrounds(&across) {
             return None;
         }
@@ -105,7 +105,7 @@ impl Face {
         })
     }
 
-    fn surrounds(&self, across: &Across) -> bool {
+    fn surrounds(&self, across: &RayShear) -> bool {
         let mut odd = false;
         for (b, corners) in self.stretches() {
             if b.is_none_or(|b| across.may_cross(b)) {

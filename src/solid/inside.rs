@@ -4,7 +4,7 @@ use crate::math::{Bounds, DVec3, Ray};
 use crate::stage::{Meter, Silent};
 
 use super::assembly::{Assembly, Body};
-use super::crossing::{Reach, Scratch, first_of_expression, first_of_span};
+use super::crossing::{Scratch, TRange, first_of_expression, first_of_span};
 use super::expression::Tree;
 
 /// A direction of length 1, to the bit, that runs along no axis and in no plane of two.
@@ -27,7 +27,7 @@ impl Assembly {
             Body::Composite { whole, .. } => {
                 let mut scratch = Scratch::default();
                 let primitives = &self.primitives;
-                first_of_expression(&ray, whole, primitives, None, Reach::ALL, &mut scratch, &mut meter)
+                first_of_expression(&ray, whole, primitives, None, TRange::ALL, &mut scratch, &mut meter)
             }
             // A surface has sides, but no inside.
             Body::Surface(_) => return false,

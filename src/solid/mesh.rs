@@ -1,12 +1,12 @@
 //! Closed surfaces of triangles.
 //!
-//! Whether a ray crosses a triangle is decided exactly, in the plane across the ray ([`super::across`]), so that a
+//! Whether a ray crosses a triangle is decided exactly, in the plane across the ray ([`super::ray_shear`]), so that a
 //! closed surface is always crossed an even number of times.
 
 use crate::math::{Bounds, DVec3, Placement, Ray};
 use crate::scene;
 
-use super::across::{Across, plane_crossing};
+use super::ray_shear::{RayShear, plane_crossing};
 use super::span::{End, rounding_at};
 
 /// At most this many triangles are tested without looking at a box first.
@@ -61,7 +61,7 @@ impl Mesh {
 
     /// Every crossing of the line with the surface, in no order.
     pub fn crossings(&self, ray: &Ray, mut found: impl FnMut(End)) {
-        let across = Across::new(ray);
+        let across = RayShear::new(ray);
         let mut stack = vec![0_u32];
         while let Some(index) = stack.pop() {
             let node = &self.nodes[index as usize];
@@ -151,7 +151,7 @@ fn line_meets(ray: &Ray, b: &Bounds, off: f64) -> bool {
 }
 
 impl Triangle {
-    fn crossing(&self, ray: &Ray, across: &Across, off: f64, surface: u32) -> Option<End> {
+    fn crossing(&self, ray: &Ray, across: &RayShear, off: f64, surface: u32) -> Option<End> {
         if !across.meets_triangle(&self.corners) {
             return None;
         }

@@ -1,7 +1,6 @@
 //! Stages 7 and 8, SOLID and CSG: ray × primitive → interval, intervals × expression → hit, and an expression
 //! pruned to a box.
 
-mod across;
 mod alone;
 mod assembly;
 mod ball;
@@ -13,15 +12,16 @@ mod face;
 mod facets;
 mod hull;
 mod inside;
-mod known;
 mod mesh;
+mod packet_shear;
 mod patch;
 mod primitive;
 mod prune;
+mod ray_shear;
 mod round;
-mod sheared;
 mod slabs;
 mod span;
+mod span_cache;
 mod state;
 mod surface;
 mod surfaces;
@@ -31,19 +31,19 @@ mod tests;
 mod tube;
 mod unit_space;
 
-pub use assembly::{Assembly, AssemblyError, Body, Datum, Kind, Makeup, Object};
+pub use assembly::{Assembly, AssemblyError, AssemblyStats, Body, Kind, Object, SceneFrame};
 pub use ball::Ball;
 pub use crossing::{
-    Crossing, Firsts, Reach, Scratch, Starts, first_of_expression, first_of_span, firsts_of_spans,
+    Crossing, FirstCrossings, Scratch, Starts, TRange, first_of_expression, first_of_span, firsts_of_spans,
 };
-pub use crossings::{Asked, BundleScratch, Departures, Found, first_of_expressions};
+pub use crossings::{CsgQuery, Departures, PacketCrossings, PacketScratch, first_of_expressions};
 pub use eight::Eight;
 pub use expression::{Child, Expression, Leaf, Pruned, Tree};
-pub(crate) use known::with_spans;
-pub use primitive::{Cover, Form, Primitive};
-pub use prune::{Flat, Left, Pruning, Remains};
-pub use sheared::Sheared;
+pub use packet_shear::PacketShear;
+pub use primitive::{Cover, Primitive, WorldShape};
+pub use prune::{Classification, ExprView, PrunedExpr, Pruning};
 pub use span::{Departure, End, Ends, LIMIT, ROUNDING, Span, Spans, WORLD};
+pub(crate) use span_cache::with_spans;
 pub use surface::first_of_surface;
 pub use surfaces::firsts_of_surface;
 pub use tube::Bar;

@@ -20,7 +20,7 @@ use super::tube::Tube;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Primitive {
     /// Its form.
-    pub form: Form,
+    pub form: WorldShape,
     /// Its surface.
     pub material: MaterialId,
 }
@@ -28,7 +28,7 @@ pub struct Primitive {
 /// The forms, each with its own intersection. Those of more numbers than a sphere's are boxed, so that a scene of a million
 /// spheres does not pay for them.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Form {
+pub enum WorldShape {
     /// A sphere.
     Ball(Ball),
     /// A box along the axes.
@@ -63,7 +63,7 @@ pub enum Cover {
 /// Radii whose inverse maps are far from the limits of f64.
 const PLAIN: RangeInclusive<f64> = 1e-90..=1e90;
 
-impl Form {
+impl WorldShape {
     /// A unit sphere that the map keeps round, which may be off by `error`: it needs no inverse. `None` for another shape,
     /// or a map that wants a closer look.
     pub fn ball(shape: &Shape, map: &DAffine3, error: DVec3) -> Option<Self> {
@@ -184,7 +184,7 @@ impl Form {
         matches!(self, Self::Face(_) | Self::Patch(_) | Self::Tube(_))
     }
 
-    /// The normal that light is answered with at a point of a surface: [`Form::normal`] everywhere but on a patch,
+    /// The normal that light is answered with at a point of a surface: [`WorldShape::normal`] everywhere but on a patch,
     /// where it is interpolated and may stand on the other side of the patch's own plane.
     pub fn shading_normal(&self, p: DVec3, surface: u32) -> DVec3 {
         match self {
@@ -193,7 +193,7 @@ impl Form {
         }
     }
 
-    /// The normal of the surface itself at a point of it, as for [`Form::normals`].
+    /// The normal of the surface itself at a point of it, as for [`WorldShape::normals`].
     #[inline]
     pub fn normal(&self, p: DVec3, surface: u32) -> DVec3 {
         self.normals(Vector::from(p), surface).into()

@@ -8,7 +8,7 @@ use super::primitive::{Cover, Primitive};
 
 /// What is left of an expression in a box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Left {
+pub enum Classification {
     /// Nothing of the solid is in the box.
     Out,
     /// The whole box is in the solid.
@@ -31,7 +31,7 @@ pub struct Pruning {
 
 /// An expression that is overwritten by what others are pruned to.
 #[derive(Clone, Debug, Default)]
-pub struct Remains {
+pub struct PrunedExpr {
     /// The primitives that still matter, in file order.
     pub leaves: Vec<Leaf>,
     /// The operators above them; the root is the first.
@@ -40,26 +40,26 @@ pub struct Remains {
 
 /// An expression laid out flat, whoever holds it.
 #[derive(Clone, Copy, Debug)]
-pub struct Flat<'e> {
+pub struct ExprView<'e> {
     /// The primitives in file order.
     pub leaves: &'e [Leaf],
     /// The operators; the root is the first. None where the expression is one primitive.
     pub(super) nodes: &'e [Node],
 }
 
-impl<'e> From<&'e Expression> for Flat<'e> {
+impl<'e> From<&'e Expression> for ExprView<'e> {
     fn from(expression: &'e Expression) -> Self {
         Self { leaves: &expression.leaves, nodes: &expression.nodes }
     }
 }
 
-impl<'e> From<&'e Remains> for Flat<'e> {
-    fn from(remains: &'e Remains) -> Self {
+impl<'e> From<&'e PrunedExpr> for ExprView<'e> {
+    fn from(remains: &'e PrunedExpr) -> Self {
         Self { leaves: &remains.leaves, nodes: &remains.nodes }
     }
 }
 
-impl Flat<'_> {
+impl ExprView<'_> {
     /// Of an expression of one primitive: whether it is true outside.
     pub(super) fn is_negated(self) -> bool {
         // Every operator has one child, the one behind it or the primitive.
@@ -69,14 +69,14 @@ impl Flat<'_> {
             .fold(false, |odd, link| odd ^ link.negated)
     }
 
-    /// Prunes to a box; `remains` means something only where the answer is [`Left::Some`].
+    /// Prunes to a box; `remains` means something only where the answer is [`Classification::Some`].
     pub fn pruned(
         self,
         primitives: &[Primitive],
         b: &Bounds,
         memory: &mut Pruning,
-        remains: &mut Remains,
-    ) -> Left {
+        remains: &mut PrunedExpr,
+    ) -> Classification {
         let Pruning { covers, open, decided, places } = memory;
         covers.clear();
         covers.extend(self.leaves.iter().map(|leaf| primitives[leaf.primitive as usize].form.cover(b)));
@@ -85,9 +85,9 @@ impl Flat<'_> {
             remains.leaves.clear();
             remains.leaves.extend_from_slice(self.leaves);
             return match covers[0] {
-                Cover::All => Left::In,
-                Cover::None => Left::Out,
-                Cover::Some => Left::Some,
+                Cover::All => Classification::In,
+                Cover::None => Classification::Out,
+                Cover::Some => Classification::Some,
             };
         }
         // An operator is decided by a child that alone decides it, and stays so; `stop` is the value of such a child.
@@ -121,11 +121,11 @@ impl Flat<'_> {
             }
         }
         match value(&self.nodes[0], decided[0], open[0]) {
-            Some(true) => return Left::In,
-            Some(false) => return Left::Out,
+            Some(true) => return Classification::In,
+            Some(false) => return Classification::Out,
             None => {}
         }
-        let Remains { leaves, nodes } = remains;
+        let PrunedExpr { leaves, nodes } = remains;
         nodes.clear();
         leaves.clear();
         places.clear();
@@ -152,7 +152,7 @@ impl Flat<'_> {
                 leaves.push(Leaf { primitive: leaf.primitive, parent });
             }
         }
-        Left::Some
+        Classification::Some
     }
 }
 

@@ -28,7 +28,7 @@ pub fn rounding_at(from_origin: f64) -> f64 {
     ROUNDING * (WORLD + from_origin)
 }
 
-/// Below so many of the least numbers with all digits the reciprocal of a direction overflows, or nearly so. On its whole way
+/// Below so many of the least numbers in double precision the reciprocal of a direction overflows, or nearly so. On its whole way
 /// through the world such a ray comes no closer to a face that it runs along.
 pub(super) const STILL: f64 = 4.0;
 
@@ -72,7 +72,7 @@ pub struct Spans<N: Number> {
     pub leave: Ends<N>,
     /// Which have a span at all: of the others the numbers mean nothing.
     pub any: N::Mask,
-    /// Which may have one: these, and where numbers do not [decide](Number::DECIDES) also those of which more digits might say
+    /// Which may have one: these, and where numbers do not [decide](Number::DECIDES) also those of which double precision might say
     /// otherwise.
     pub may: N::Mask,
 }
@@ -185,6 +185,6 @@ pub struct Departure {
     pub surface: u32,
     /// Whether the ray goes to the inside of the primitive.
     pub inward: bool,
-    /// How far the primitive, and with it the start, may be off its place: [`Form::off`](super::Form::off).
+    /// How far the primitive, and with it the start, may be off its place: [`WorldShape::off`](super::Form::off).
     pub off: f64,
 }

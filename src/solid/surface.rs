@@ -3,8 +3,8 @@
 use crate::math::{Number, Ray, Rays};
 use crate::stage::{Meter, Probe};
 
-use super::crossing::{Crossing, Firsts, Starts, at_start};
-use super::primitive::{Form, Primitive};
+use super::crossing::{Crossing, FirstCrossings, Starts, at_start};
+use super::primitive::{Primitive, WorldShape};
 use super::span::{Departure, End, Ends};
 use super::tube::{SideCrossings, Tube};
 
@@ -28,16 +28,16 @@ pub fn first_of_surface(
     };
     let at_start = |end: &End| at_start(end, &primitive.form, departure);
     match &primitive.form {
-        Form::Face(face) => {
+        WorldShape::Face(face) => {
             // A plane is not met again by a ray that leaves it.
             let end = if here.is_some() { None } else { face.crossing(ray) };
             end.filter(|end| !at_start(end)).map(|end| crossing(end, face.normal().dot(ray.d) < 0.0))
         }
-        Form::Patch(patch) => {
+        WorldShape::Patch(patch) => {
             let end = if here.is_some() { None } else { patch.face.crossing(ray) };
             end.filter(|end| !at_start(end)).map(|end| crossing(end, patch.face.normal().dot(ray.d) < 0.0))
         }
-        Form::Tube(tube) => {
+        WorldShape::Tube(tube) => {
             let starts = Starts {
                 here: here.is_some(),
                 inward: here.is_some_and(|d| d.inward),
@@ -55,9 +55,9 @@ pub fn first_of_surface(
 pub(super) fn firsts_of_tube<N: Number>(
     rays: &Rays<N>,
     tube: &Tube,
-    form: &Form,
+    form: &WorldShape,
     starts: &Starts<N>,
-) -> Firsts<N> {
+) -> FirstCrossings<N> {
     firsts_of_sides(tube.crossings(rays), form, starts)
 }
 
@@ -65,9 +65,9 @@ pub(super) fn firsts_of_tube<N: Number>(
 #[inline(always)]
 pub(super) fn firsts_of_sides<N: Number>(
     found: SideCrossings<N>,
-    form: &Form,
+    form: &WorldShape,
     starts: &Starts<N>,
-) -> Firsts<N> {
+) -> FirstCrossings<N> {
     let (enter, leave) = (&found.enter, &found.leave);
     let enter_ahead = !starts.before(enter, form);
     let leave_ahead = !starts.before(leave, form);
@@ -76,7 +76,11 @@ pub(super) fn firsts_of_sides<N: Number>(
     // the outside of a convex solid does not meet its side again.
     let other = starts.inward & !found.one_way & leave.t.is_above(leave.t.same(0.0));
     let leaving = found.leaves & ((starts.here & other) | (!starts.here & leave_ahead));
-    Firsts { end: Ends::choose(entering, found.enter, found.leave), entering, any: entering | leaving }
+    FirstCrossings {
+        end: Ends::choose(entering, found.enter, found.leave),
+        entering,
+        any: entering | leaving,
+    }
 }
 
 #[cfg(test)]
@@ -104,7 +108,7 @@ mod tests {
         let departure = inward.map(|inward| Departure { primitive: 0, surface: 0, inward, off: 0.0 });
         let mut meter = Meter::new(Silent);
         let found = first_of_surface(&ray, &assembly.primitives[0], 0, departure, &mut meter)?;
-        Some((found.t * assembly.datum.unit, found.entering))
+        Some((found.t * assembly.scene_frame.unit, found.entering))
     }
 
     fn face(corners: &[[f64; 3]]) -> Shape {

@@ -1,41 +1,41 @@
-//! Stage 7, SOLID, for a bundle of rays: the first place along each where it meets a surface that bounds no solid.
+//! Stage 7, SOLID, for a packet of rays: the first place along each where it meets a surface that bounds no solid.
 //!
 //! It does what [`super::surface`] does for one ray, and finds the same bits. The few rays of which eight at a time can
 //! not be certain, through an edge to within rounding or along a polygon's plane, are asked one by one.
 
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 
-use crate::math::{Bundle, LANES, Mask, Number, ROWS};
+use crate::math::{LANES, Mask, Number, ROWS, RayPacket};
 use crate::stage::{Meter, Silent};
 
-use super::crossing::{Firsts, Starts, start_of};
-use super::crossings::{Departures, Found};
+use super::crossing::{FirstCrossings, Starts, start_of};
+use super::crossings::{Departures, PacketCrossings};
 use super::face::{Face, SteepCrossings};
-use super::primitive::{Form, Primitive};
-use super::sheared::{Around, Sheared};
+use super::packet_shear::{Around, PacketShear};
+use super::primitive::{Primitive, WorldShape};
 use super::surface::{first_of_surface, firsts_of_tube};
 use super::tube::Tube;
 
-/// The first crossings of a surface, a primitive with its index, for the rays of `wanted`. `sheared` are the planes across the bundle's rays.
+/// The first crossings of a surface, a primitive with its index, for the rays of `wanted`. `sheared` are the planes across the packet's rays.
 pub fn firsts_of_surface<S: Simd>(
     simd: S,
-    bundle: &Bundle,
+    packet: &RayPacket,
     wanted: u64,
     (primitive, index): (&Primitive, u32),
     departures: Option<&Departures>,
-    sheared: &mut Sheared,
-    found: &mut Found,
+    sheared: &mut PacketShear,
+    found: &mut PacketCrossings,
 ) {
     (found.any, found.unsure, found.entering) = (0, 0, 0);
     simd.vectorize(
         #[inline(always)]
         || {
             let (here, inward) = departures.map_or((0, 0), |d| d.here(simd, index));
-            let asking = Asking { bundle, form: &primitive.form, index, here, inward, departures };
+            let asking = Asking { packet, form: &primitive.form, index, here, inward, departures };
             match &primitive.form {
-                Form::Face(face) => asking.polygon(simd, face, wanted, sheared, found),
-                Form::Patch(patch) => asking.polygon(simd, &patch.face, wanted, sheared, found),
-                Form::Tube(tube) => asking.tube(simd, tube, wanted, found),
+                WorldShape::Face(face) => asking.polygon(simd, face, wanted, sheared, found),
+                WorldShape::Patch(patch) => asking.polygon(simd, &patch.face, wanted, sheared, found),
+                WorldShape::Tube(tube) => asking.tube(simd, tube, wanted, found),
                 _ => {}
             }
         },
@@ -45,14 +45,14 @@ pub fn firsts_of_surface<S: Simd>(
         let lane = rest.trailing_zeros() as usize;
         rest &= rest - 1;
         let departure = departures.map(|d| d.get(lane));
-        let ray = bundle.ray(lane);
+        let ray = packet.ray(lane);
         if let Some(c) = first_of_surface(&ray, primitive, index, departure, &mut Meter::new(Silent)) {
             found.set(lane, &c);
         }
     }
 }
 
-/// Those of a row among some rays of a bundle.
+/// Those of a row among some rays of a packet.
 #[inline(always)]
 fn rays_of_row<S: Simd>(simd: S, row: usize, rays: u64) -> mask64x8<S> {
     mask64x8::from_bitmask(simd, rays >> (row * LANES) & 0xFF)
@@ -60,8 +60,8 @@ fn rays_of_row<S: Simd>(simd: S, row: usize, rays: u64) -> mask64x8<S> {
 
 /// Who asks one surface.
 struct Asking<'a> {
-    bundle: &'a Bundle,
-    form: &'a Form,
+    packet: &'a RayPacket,
+    form: &'a WorldShape,
     index: u32,
     /// The rays that start on it, and which of these go to its inside.
     here: u64,
@@ -71,8 +71,15 @@ struct Asking<'a> {
 
 impl Asking<'_> {
     #[inline(always)]
-    fn polygon<S: Simd>(&self, simd: S, face: &Face, wanted: u64, sheared: &mut Sheared, found: &mut Found) {
-        sheared.know(simd, self.bundle);
+    fn polygon<S: Simd>(
+        &self,
+        simd: S,
+        face: &Face,
+        wanted: u64,
+        sheared: &mut PacketShear,
+        found: &mut PacketCrossings,
+    ) {
+        sheared.know(simd, self.packet);
         // A plane is not met again by a ray that leaves it.
         let wanted = wanted & !self.here;
         self.polygon_along::<S, 0>(simd, face, wanted, sheared, found);
@@ -87,8 +94,8 @@ impl Asking<'_> {
         simd: S,
         face: &Face,
         wanted: u64,
-        sheared: &Sheared,
-        found: &mut Found,
+        sheared: &PacketShear,
+        found: &mut PacketCrossings,
     ) {
         let rays = wanted & sheared.main(MAIN);
         if rays == 0 {
@@ -99,7 +106,7 @@ impl Asking<'_> {
             if !asking.any_true() {
                 continue;
             }
-            let across = sheared.row::<S, MAIN>(simd, self.bundle, row);
+            let across = sheared.row::<S, MAIN>(simd, self.packet, row);
             let mut around = Around::nothing(simd);
             for (b, corners) in face.stretches() {
                 if b.is_none_or(|b| across.may_cross(b)) {
@@ -110,7 +117,7 @@ impl Asking<'_> {
             let odd = around.odd & asking & !unsure;
             if odd.any_true() {
                 let SteepCrossings { end, against, steep } =
-                    face.steep_crossings(&self.bundle.load(simd, row));
+                    face.steep_crossings(&self.packet.load(simd, row));
                 unsure |= odd & !steep;
                 let before = end.t.is_at_most(start_of(
                     end.error,
@@ -118,21 +125,21 @@ impl Asking<'_> {
                     self.off(simd, row),
                 ));
                 let any = odd & steep & !before;
-                self.put(simd, row, &Firsts { end, entering: against, any }, found);
+                self.put(simd, row, &FirstCrossings { end, entering: against, any }, found);
             }
             found.unsure |= unsure.bits() << (row * LANES);
         }
     }
 
     #[inline(always)]
-    fn tube<S: Simd>(&self, simd: S, tube: &Tube, wanted: u64, found: &mut Found) {
+    fn tube<S: Simd>(&self, simd: S, tube: &Tube, wanted: u64, found: &mut PacketCrossings) {
         for row in 0..ROWS {
             let asking = rays_of_row(simd, row, wanted);
             if asking.any_true() {
                 let (here, inward) = (rays_of_row(simd, row, self.here), rays_of_row(simd, row, self.inward));
                 let starts = Starts { here, inward, off: self.off(simd, row) };
-                let firsts = firsts_of_tube(&self.bundle.load(simd, row), tube, self.form, &starts);
-                self.put(simd, row, &Firsts { any: firsts.any & asking, ..firsts }, found);
+                let firsts = firsts_of_tube(&self.packet.load(simd, row), tube, self.form, &starts);
+                self.put(simd, row, &FirstCrossings { any: firsts.any & asking, ..firsts }, found);
             }
         }
     }
@@ -148,7 +155,13 @@ impl Asking<'_> {
 
     /// Notes the first crossings of a row.
     #[inline(always)]
-    fn put<S: Simd>(&self, simd: S, row: usize, firsts: &Firsts<f64x8<S>>, found: &mut Found) {
+    fn put<S: Simd>(
+        &self,
+        simd: S,
+        row: usize,
+        firsts: &FirstCrossings<f64x8<S>>,
+        found: &mut PacketCrossings,
+    ) {
         let any = firsts.any.bits() << (row * LANES);
         if any == 0 {
             return;
@@ -170,7 +183,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::math::{BUNDLE, DAffine3, DVec3, Placement, Ray};
+    use crate::math::{DAffine3, DVec3, PACKET, Placement, Ray};
     use crate::scene::{Corner, MaterialId, Shape};
     use crate::solid::Departure;
 
@@ -230,15 +243,15 @@ mod tests {
         wanted: u64,
         departures: Option<&Departures>,
     ) -> Result<u32, TestCaseError> {
-        let mut bundle = Bundle::EMPTY;
+        let mut packet = RayPacket::EMPTY;
         for (lane, ray) in rays.iter().enumerate() {
-            bundle.set(lane, ray);
+            packet.set(lane, ray);
         }
         let mut met = 0;
         for level in [Level::new(), Level::baseline()] {
-            let (mut sheared, mut found) = (Sheared::UNKNOWN, Found::NONE);
+            let (mut sheared, mut found) = (PacketShear::UNKNOWN, PacketCrossings::NONE);
             dispatch!(level, simd => firsts_of_surface(
-                simd, &bundle, wanted, (primitive, 3), departures, &mut sheared, &mut found,
+                simd, &packet, wanted, (primitive, 3), departures, &mut sheared, &mut found,
             ));
             prop_assert_eq!((found.unsure, found.any & !wanted), (0, 0));
             for (lane, ray) in rays.iter().enumerate().filter(|(lane, _)| wanted >> lane & 1 == 1) {
@@ -261,7 +274,7 @@ mod tests {
     }
 
     fn primitive(shape: &Shape, map: &DAffine3) -> Primitive {
-        let form = Form::new(shape, Placement::new(map).unwrap(), DVec3::splat(1e-15));
+        let form = WorldShape::new(shape, Placement::new(map).unwrap(), DVec3::splat(1e-15));
         Primitive { form, material: MaterialId(0) }
     }
 
@@ -270,7 +283,7 @@ mod tests {
         fn eight_at_a_time_find_what_each_finds_alone(
             shape in shape(),
             turn in (point(), -3.0..3.0_f64),
-            aims in prop::collection::vec((point(), (0..48_usize, 0.0..1.0_f64), point()), BUNDLE),
+            aims in prop::collection::vec((point(), (0..48_usize, 0.0..1.0_f64), point()), PACKET),
             wanted in any::<u64>(),
             (here, inward, off) in (any::<u64>(), any::<u64>(), 0.0..1e-12_f64),
         ) {
@@ -284,7 +297,7 @@ mod tests {
                 .collect();
             assert_like_alone(&primitive, &rays, wanted, None)?;
             let mut departures = Departures::NONE;
-            for lane in 0..BUNDLE {
+            for lane in 0..PACKET {
                 let (primitive, inward) = (2 + (here >> lane & 1) as u32, inward >> lane & 1 == 1);
                 departures.set(lane, &Departure { primitive, surface: 0, inward, off });
             }

@@ -59,12 +59,12 @@ fn first(solid: &scene::Solid, o: [f64; 3], d: [f64; 3]) -> Option<(f64, u32, bo
             whole,
             &assembly.primitives,
             None,
-            Reach::ALL,
+            TRange::ALL,
             &mut Scratch::default(),
             &mut meter,
         ),
     };
-    found.map(|c| (c.t * assembly.datum.unit, c.primitive, c.entering))
+    found.map(|c| (c.t * assembly.scene_frame.unit, c.primitive, c.entering))
 }
 
 fn rotations() -> [DAffine3; 3] {
@@ -217,7 +217,7 @@ fn pruning_keeps_what_a_point_sees() {
     let assembly = Assembly::new(&scene).unwrap();
     let Body::Composite { tree, .. } = &assembly.objects[0].body else { panic!("a composite") };
     let at = |x: f64, y: f64, z: f64| {
-        let p = assembly.datum.inward(DVec3::new(x, y, z));
+        let p = assembly.scene_frame.inward(DVec3::new(x, y, z));
         tree.pruned(&assembly.primitives, &Bounds::new(p - 1e-3, p + 1e-3))
     };
     assert_eq!(at(0.0, 0.0, 0.0), Pruned::Out);

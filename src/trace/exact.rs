@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use crate::lattice::{self, SLACK, Structure, slack};
 use crate::math::{Bounds, DVec3, Mask, Number, Ray, Rays, Vector};
 use crate::solid::{
-    self, Assembly, Body, Crossing, Departure, LIMIT, Reach, first_of_expression, first_of_span,
+    self, Assembly, Body, Crossing, Departure, LIMIT, TRange, first_of_expression, first_of_span,
     first_of_surface,
 };
 use crate::stage::{Meter, Probe, Stage};
@@ -126,7 +126,7 @@ impl<'a> Exact<'a> {
         let primitives = &self.assembly.primitives;
         match self.structure.sub(object) {
             None => {
-                let reach = Reach { from: 0.0, to };
+                let reach = TRange { from: 0.0, to };
                 first_of_expression(ray, whole, primitives, departure, reach, scratch, meter)
             }
             Some(sub) => {
@@ -136,7 +136,7 @@ impl<'a> Exact<'a> {
                     if step.from > to {
                         return ControlFlow::Break(None);
                     }
-                    let reach = Reach { from: step.from - SLACK, to: step.to + SLACK };
+                    let reach = TRange { from: step.from - SLACK, to: step.to + SLACK };
                     let found = first_of_expression(ray, part, primitives, departure, reach, scratch, meter);
                     meter.at(Stage::Cell);
                     found.map_or(ControlFlow::Continue(()), |c| ControlFlow::Break(Some(c)))

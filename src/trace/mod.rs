@@ -5,7 +5,7 @@ mod exact;
 mod fast;
 
 pub use exact::{Exact, Memory};
-pub use fast::{Clarity, Fast, Nearest, Shaft, Shone, TileMemory, Tint};
+pub use fast::{Fast, OpacityClass, PacketHits, ShadowPacket, ShadowQuery, TileMemory, Transmittance};
 
 use crate::math::{DVec3, Ray};
 use crate::solid::{Crossing, Departure};

@@ -1,16 +1,16 @@
-//! Rays from the eye in bundles: blocks of eight by eight dots.
+//! Rays from the eye in packets: blocks of eight by eight dots.
 
 use std::ops::Range;
 
 use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
 
-use crate::math::{Bundle, Columns, DVec3, Number, ROWS, Size};
+use crate::math::{DVec3, LaneVector, Number, ROWS, RayPacket, Size};
 
 use super::direction::all_settled;
-use super::lens::Lens;
+use super::pinhole::PinholeCamera;
 use super::tile::Tile;
 
-/// Dots along each side of a block: together as many as a bundle has rays.
+/// Dots along each side of a block: together as many as a packet has rays.
 pub const BLOCK: u32 = 8;
 
 /// A block of dots, row by row.
@@ -23,7 +23,7 @@ pub struct Block {
 }
 
 impl Block {
-    /// Which rays of its bundle are there.
+    /// Which rays of its packet are there.
     pub fn live(&self) -> u64 {
         let row = (1_u64 << self.size.width) - 1;
         (0..self.size.height).fold(0, |live, j| live | row << (j * BLOCK))
@@ -40,25 +40,41 @@ impl Block {
         }
     }
 
-    /// Sets a bundle's rays to those through a point of each dot, `off` from its middle in dots. `eye` is where they start,
+    /// Sets a packet's rays to those through a point of each dot, `off` from its middle in dots. `eye` is where they start,
     /// and `way` how far they may go, in the assembly's coordinates ([`super::settled`]).
-    pub fn rays(&self, lens: &Lens, off: [f64; 2], eye: DVec3, way: f64, level: Level, bundle: &mut Bundle) {
-        bundle.live = self.live();
-        dispatch!(level, simd => self.fill(simd, lens, off, eye, way, bundle));
+    pub fn rays(
+        &self,
+        pinhole: &PinholeCamera,
+        off: [f64; 2],
+        eye: DVec3,
+        way: f64,
+        level: Level,
+        packet: &mut RayPacket,
+    ) {
+        packet.live = self.live();
+        dispatch!(level, simd => self.fill(simd, pinhole, off, eye, way, packet));
     }
 
     #[inline(always)]
-    fn fill<S: Simd>(&self, simd: S, lens: &Lens, off: [f64; 2], eye: DVec3, way: f64, bundle: &mut Bundle) {
+    fn fill<S: Simd>(
+        &self,
+        simd: S,
+        pinhole: &PinholeCamera,
+        off: [f64; 2],
+        eye: DVec3,
+        way: f64,
+        packet: &mut RayPacket,
+    ) {
         let columns = f64x8::load_array(simd, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
         let x = columns + f64::from(self.corner[0]) + 0.5 + off[0];
-        let across = lens.across(x);
+        let across = pinhole.across(x);
         let start = across.same(eye);
         for row in 0..ROWS {
             let y = f64::from(self.corner[1] + row as u32) + 0.5 + off[1];
-            let d = all_settled(lens.upward(across, x.same(lens.height(y))), way);
-            bundle.o.store(row, start);
-            bundle.d.store(row, d);
+            let d = all_settled(pinhole.upward(across, x.same(pinhole.height(y))), way);
+            packet.o.store(row, start);
+            packet.d.store(row, d);
         }
-        bundle.close(simd);
+        packet.close(simd);
     }
 }

@@ -61,7 +61,7 @@ pub fn framed(support: impl Fn(DVec3) -> f64, aspect: f64) -> Camera {
 mod tests {
     use super::*;
     use crate::math::{Bounds, Size};
-    use crate::view::{Lens, Picture};
+    use crate::view::{Picture, PinholeCamera};
 
     // What showed of a scene had vanished beside what was cut from it, and the eye stood at its target.
     #[test]
@@ -81,12 +81,15 @@ mod tests {
             let picture = Picture { dots, dot_aspect: 1.0 };
             let support =
                 |v: DVec3| b.corners().into_iter().map(|p| p.dot(v)).fold(f64::NEG_INFINITY, f64::max);
-            let lens = Lens::new(&framed(support, picture.aspect()), &picture);
+            let pinhole = PinholeCamera::new(&framed(support, picture.aspect()), &picture);
             let place = |corner: DVec3| {
-                let q = corner - lens.eye;
-                let depth = q.dot(lens.forward);
+                let q = corner - pinhole.eye;
+                let depth = q.dot(pinhole.forward);
                 assert!(depth > 0.0);
-                [q.dot(lens.right) / depth / lens.tangents[0], q.dot(lens.up) / depth / lens.tangents[1]]
+                [
+                    q.dot(pinhole.right) / depth / pinhole.tangents[0],
+                    q.dot(pinhole.up) / depth / pinhole.tangents[1],
+                ]
             };
             let places = b.corners().map(place);
             let reach = |axis: usize, sign: f64| places.iter().map(|p| sign * p[axis]).fold(0.0, f64::max);

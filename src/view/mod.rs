@@ -3,13 +3,13 @@
 mod block;
 mod direction;
 mod framing;
-mod lens;
-mod sight;
+mod pinhole;
 mod tile;
+mod tile_camera;
 
 pub use block::{BLOCK, Block};
 pub use direction::{all_settled, settled};
 pub use framing::framed;
-pub use lens::{Lens, Picture};
-pub use sight::Sight;
+pub use pinhole::{Picture, PinholeCamera};
 pub use tile::{TILE, Tile, tiles};
+pub use tile_camera::TileCamera;

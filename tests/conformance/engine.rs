@@ -3,11 +3,11 @@
 
 use ray13::frame::{Frame, Request, Studio, Wants};
 use ray13::glyph::{GlyphMode, Palette};
-use ray13::lattice::{Boxes, Lattice, Structure, SubLattices, Tree};
+use ray13::lattice::{Bvh8, Lattice, Structure, SubLattices, Tree};
 use ray13::math::{DVec3, Placement, Ray, Size};
 use ray13::plan::{EngineChoice, Options, StructureChoice};
 use ray13::scene::{Camera, Primitive, Scene};
-use ray13::solid::{Assembly, Datum, Departure, ROUNDING, WORLD};
+use ray13::solid::{Assembly, Departure, ROUNDING, SceneFrame, WORLD};
 use ray13::stage::{Meter, Silent};
 use ray13::tone::Tone;
 use ray13::trace::{Engine, Exact, Hit};
@@ -95,7 +95,7 @@ pub struct ExactEngine {
     cut: Cut,
     lattice: Option<Lattice>,
     tree: Tree,
-    pub(crate) boxes: Boxes,
+    pub(crate) boxes: Bvh8,
     pub(crate) subs: SubLattices,
 }
 
@@ -110,7 +110,7 @@ impl ExactEngine {
     }
 
     pub(crate) fn found(&self, hit: Hit) -> Found {
-        let unit = self.assembly.datum.unit;
+        let unit = self.assembly.scene_frame.unit;
         Found {
             t: hit.t * unit,
             error: hit.error * unit,
@@ -123,7 +123,7 @@ impl ExactEngine {
 
     /// The ray in the assembly, and the departure, of one that leaves a hit.
     pub(crate) fn leaving(&self, start: &Start) -> (Ray, Departure) {
-        let p = self.assembly.ray(&start.ray).at(start.hit.t / self.assembly.datum.unit);
+        let p = self.assembly.ray(&start.ray).at(start.hit.t / self.assembly.scene_frame.unit);
         let form = &self.assembly.primitives[start.hit.primitive as usize].form;
         let inward = form.normal(p, start.hit.surface).dot(start.toward) < 0.0;
         let Found { primitive, surface, .. } = start.hit;
@@ -137,7 +137,7 @@ impl Subject for ExactEngine {
     fn new(scene: &Scene, cut: Cut) -> Self {
         let assembly = Assembly::new(scene).unwrap();
         let (lattice, tree) = (Lattice::new(&assembly).ok(), Tree::new(&assembly));
-        let (boxes, subs) = (Boxes::new(&assembly), SubLattices::new(&assembly));
+        let (boxes, subs) = (Bvh8::new(&assembly), SubLattices::new(&assembly));
         Self { assembly, cut, lattice, tree, boxes, subs }
     }
 
@@ -163,7 +163,13 @@ impl Subject for ExactEngine {
         let (mut memory, mut meter) = (engine.memory(), Meter::new(Silent));
         let mut blocked = |start: &Start, distance: f64| {
             let (ray, departure) = self.leaving(start);
-            engine.blocked(&ray, departure, distance / self.assembly.datum.unit, &mut memory, &mut meter)
+            engine.blocked(
+                &ray,
+                departure,
+                distance / self.assembly.scene_frame.unit,
+                &mut memory,
+                &mut meter,
+            )
         };
         starts.iter().map(|(start, distance)| blocked(start, *distance)).collect()
     }
@@ -181,7 +187,7 @@ impl Subject for ExactEngine {
     /// error of the silhouette, on the side of a frustum within three times, one for each axis. At an apex a chord through
     /// a circle of radius ρ counts as none for ρ² ≤ 3·off·(2ρ + off), up to 6.5 times; rounded up to 7.
     fn rim(&self, primitive: &Primitive, ray: &Ray) -> DVec3 {
-        let Datum { origin, unit } = self.assembly.datum;
+        let SceneFrame { origin, unit } = self.assembly.scene_frame;
         let from_origin = primitive.map.translation.distance(origin);
         let eye = if origin == DVec3::ZERO { 0.0 } else { f64::EPSILON * ray.o.distance(origin) };
         let off = ROUNDING * (WORLD * unit + from_origin) + eye;

@@ -4,12 +4,12 @@
 //! prints figures.
 
 mod aim;
-mod bundles;
 mod chance;
 mod coincidence;
 mod distance;
 mod engine;
 mod expressions;
+mod packets;
 
 mod faults;
 mod leaving;
@@ -169,4 +169,4 @@ macro_rules! conformance {
 }
 
 conformance!(exact, crate::engine::ExactEngine);
-conformance!(fast, crate::bundles::FastEngine);
+conformance!(fast, crate::packets::FastEngine);

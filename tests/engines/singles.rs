@@ -1,4 +1,4 @@
-//! Half the digits against all of them: every ray meets the same object in nearly the same place.
+//! Single precision against all of them: every ray meets the same object in nearly the same place.
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -61,7 +61,7 @@ fn both(studio: &Studio, camera: &Camera, dots: Size, precision: PrecisionChoice
     [precision, PrecisionChoice::Double].map(|choice| studio.draw_anew(&plain(camera.clone(), dots, choice)))
 }
 
-/// Checks all views of a scene, and counts those that took half the digits.
+/// Checks all views of a scene, and counts those that took single precision.
 #[track_caller]
 fn alike(name: &str, scene: Scene) -> usize {
     let studio = Studio::new(scene).unwrap();
@@ -79,7 +79,7 @@ fn alike(name: &str, scene: Scene) -> usize {
 #[test]
 fn scenes_as_people_write_them() {
     let inside: usize = embedded_scenes().into_iter().map(|(name, scene)| alike(name, scene)).sum();
-    assert!(inside >= 6, "{inside} views took half the digits");
+    assert!(inside >= 6, "{inside} views took single precision");
     for (name, scene) in beside("openscad") {
         assert!(alike(&name, scene) > 0, "{name} took all digits");
     }
@@ -103,7 +103,7 @@ fn same_from(text: &str, eyes: &[DVec3]) {
     }
 }
 
-/// What half the digits can not tell apart is asked with all: a wall of a millionth, with one face from each of two primitives.
+/// What single precision can not tell apart is asked with all: a wall of a millionth, with one face from each of two primitives.
 #[test]
 fn thin_walls_stay() {
     let eyes = [DVec3::new(1.0, -2.0, 6.0), DVec3::new(5.0, 0.1, 1.0)];
@@ -133,7 +133,7 @@ fn sharp_edges_stay() {
     }
 }
 
-/// What lies at the start of a ray, to within what half the digits lose, was passed over.
+/// What lies at the start of a ray, to within what single precision lose, was passed over.
 #[test]
 fn an_eye_beside_a_face_sees_it() {
     let studio = studio(
@@ -178,7 +178,7 @@ fn what_is_beyond_the_numbers_is_asked_with_all_digits() {
     }
 }
 
-/// Edges on a row of dots: which of two faces a ray meets there was left to half the digits.
+/// Edges on a row of dots: which of two faces a ray meets there was left to single precision.
 #[test]
 fn edges_in_the_plane_of_a_row_show_the_same_face() {
     let text = "rotate([180, 90, 0]) cube([0.5, 1.5, 0.5], center = true);

@@ -1,4 +1,4 @@
-//! Surfaces that bound no solid: polygons as fans of triangles counted by parity, the wall of a tube as the quadric
+//! Surfaces that bound no solid: polygons as frusta of triangles counted by parity, the wall of a tube as the quadric
 //! between its caps.
 
 use ray13::math::{DAffine3, DVec3};
@@ -14,13 +14,13 @@ pub enum Open<N> {
     /// The first side is the wall, the others cut it off.
     Tube(Vec<Side<N>>),
     /// A flat polygon, with the normals of its corners where it is a triangle that has them.
-    Polygon { fan: Vec<Triangle<N>>, normals: Option<[DVec3; 3]> },
+    Polygon { frusta: Vec<Triangle<N>>, normals: Option<[DVec3; 3]> },
 }
 
 impl<N: Number> Open<N> {
     pub fn new(shape: &Shape, map: &DAffine3) -> Self {
         let polygon =
-            |corners: &[DVec3], normals| Self::Polygon { fan: Triangle::fan(corners, map), normals };
+            |corners: &[DVec3], normals| Self::Polygon { frusta: Triangle::frusta(corners, map), normals };
         match shape {
             Shape::Face(corners) => polygon(corners, None),
             Shape::Patch(corners) => {
@@ -47,13 +47,13 @@ impl<N: Number> Open<N> {
                 let normal = against(unit(&wall.gradient(&p)), toward);
                 Some((t, normal, normal))
             }
-            Self::Polygon { fan, normals } => {
-                let inside = fan.iter().filter(|triangle| triangle.crossing(o, d).is_some()).count();
+            Self::Polygon { frusta, normals } => {
+                let inside = frusta.iter().filter(|triangle| triangle.crossing(o, d).is_some()).count();
                 if inside % 2 == 0 {
                     return None;
                 }
                 // The largest triangle knows the plane best.
-                let largest = fan.iter().reduce(|a, b| if b.size() > a.size() { b } else { a })?;
+                let largest = frusta.iter().reduce(|a, b| if b.size() > a.size() { b } else { a })?;
                 let t = largest.plane_crossing(o, d)?;
                 let plane = against(largest.unit_normal(), toward);
                 let normal = normals.map_or(plane, |normals| {

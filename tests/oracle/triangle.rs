@@ -23,8 +23,8 @@ impl<N: Number> Triangle<N> {
         mesh.triangles.iter().map(|t| Self { corners: t.map(corner) }).collect()
     }
 
-    /// A polygon as a fan of triangles: a point is inside it if it is inside an odd number of them.
-    pub fn fan(corners: &[DVec3], map: &DAffine3) -> Vec<Self> {
+    /// A polygon as a frusta of triangles: a point is inside it if it is inside an odd number of them.
+    pub fn frusta(corners: &[DVec3], map: &DAffine3) -> Vec<Self> {
         let corners: Vec<[N; 3]> = corners.iter().map(|&p| place(&mapped(map, p))).collect();
         let apex = &corners[0];
         corners[1..]

@@ -73,7 +73,7 @@ fn through_a_shell_is_the_same_for_a_cut_and_for_air_inside() {
 }
 
 #[test]
-fn through_a_lens_of_two_balls() {
+fn through_a_pinhole_of_two_balls() {
     let (left, right) = (DVec3::new(-0.9, 0.0, 0.0), DVec3::new(0.9, 0.0, 0.0));
     let world = World {
         spheres: &[(left, 1.4), (right, 1.4)],

@@ -5,11 +5,11 @@ use ray13::lattice::Structure;
 use ray13::math::{DVec3, Ray, Size};
 use ray13::plan::{Options, Plan};
 use ray13::scene::{Camera, FieldSpan, ReadOptions, Scene, read};
-use ray13::shade::{Kind, Leg, Shader};
+use ray13::shade::{Kind, PathSegment, Shader};
 use ray13::solid::Assembly;
 use ray13::stage::{Counts, Meter, Silent};
 use ray13::trace::Exact;
-use ray13::view::{Lens, Picture};
+use ray13::view::{Picture, PinholeCamera};
 
 use crate::glass::Bend;
 use crate::request::request;
@@ -44,23 +44,23 @@ pub fn all_rays() -> Options {
 }
 
 /// The legs of one path, in the scene's coordinates.
-pub fn legs(scene: &Scene, eye: DVec3, d: DVec3, preferred: Kind) -> Vec<Leg> {
+pub fn legs(scene: &Scene, eye: DVec3, d: DVec3, preferred: Kind) -> Vec<PathSegment> {
     let assembly = Assembly::new(scene).unwrap();
-    let lens = Lens::new(&camera(eye, d), &Picture { dots: Size::new(1, 1), dot_aspect: 1.0 });
-    let plan = Plan::new(scene, &assembly, &lens, &all_rays());
+    let pinhole = PinholeCamera::new(&camera(eye, d), &Picture { dots: Size::new(1, 1), dot_aspect: 1.0 });
+    let plan = Plan::new(scene, &assembly, &pinhole, &all_rays());
     let engine = Exact::new(&assembly, Structure::None);
     let shader = Shader::<_, f64>::new(scene, &assembly, &plan, &engine);
     let (mut memory, mut meter) = (shader.memory(), Meter::new(Silent));
     let ray = assembly.ray(&Ray::new(eye, d));
     let mut legs = shader.path(&ray, preferred, &mut memory, &mut meter);
     for leg in &mut legs {
-        leg.ray.o = assembly.datum.outward(leg.ray.o);
+        leg.ray.o = assembly.scene_frame.outward(leg.ray.o);
     }
     legs
 }
 
 /// The places where the path bends: where the medium changes, and where the ray is reflected.
-pub fn bends(legs: &[Leg]) -> Vec<Bend> {
+pub fn bends(legs: &[PathSegment]) -> Vec<Bend> {
     let changed = legs.windows(2).filter(|w| w[1].index != w[0].index || w[1].kind == Kind::Mirror);
     changed.map(|w| Bend { at: w[1].ray.o, d: w[1].ray.d, index: w[1].index }).collect()
 }

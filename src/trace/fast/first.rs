@@ -1,50 +1,50 @@
 //! What the rays of a tile meet first.
 //!
-//! The frustum of the whole tile walks the boxes once, nearest first. Where it meets objects, each bundle of the tile
-//! asks with a frustum of its own, and the objects that are left are asked by eight rays at a time, or by sixteen in half the digits. What lies behind
+//! The frustum of the whole tile walks the boxes once, nearest first. Where it meets objects, each packet of the tile
+//! asks with a frustum of its own, and the objects that are left are asked by eight rays at a time, or by sixteen in single precision. What lies behind
 //! the farthest hit of all rays is never looked at.
 
 use fearless_simd::Simd;
 
-use crate::lattice::{Child, FAN, SLACK};
-use crate::math::{Bounds, Bundle, Digits, Mask, Number, Rays};
+use crate::lattice::{Child, FRUSTA, SLACK};
+use crate::math::{Bounds, Mask, Number, RayPacket, Rays, Real};
 use crate::solid::{
-    Asked, Ball, Body, Ends, Firsts, Flat, Form, Found, Reach, Spans, Starts, first_of_expressions,
-    firsts_of_spans, firsts_of_surface, with_spans,
+    Ball, Body, CsgQuery, Ends, ExprView, FirstCrossings, PacketCrossings, Spans, Starts, TRange, WorldShape,
+    first_of_expressions, firsts_of_spans, firsts_of_surface, with_spans,
 };
 
 use super::Fast;
 use super::memory::{Asks, Numbers, TileMemory};
-use super::nearest::{Nearest, Offer};
-use super::outset::{Outset, Outsets};
+use super::packet_culler::Slabs;
+use super::packet_hits::{HitCandidate, PacketHits};
 use super::slices::{Slices, slices};
-use super::thin::Slabs;
+use super::source::{PacketSource, PacketSources};
 use super::walk::{Waits, asking, bounds_between, push_nearest_last, reach, wide};
 
-/// The most objects that a bundle is asked about, for each of its rays: where a dot holds many objects, or rays run apart,
-/// they have no company. Fewer than for a shaft, which ends at the first thing that it meets.
+/// The most objects that a packet is asked about, for each of its rays: where a dot holds many objects, or rays run apart,
+/// they are incoherent. Fewer than for a shadow packet, which ends at the first thing that it meets.
 const CROWD: u32 = 1;
 
 impl Fast<'_> {
-    /// The first hits of the rays of a tile. `nearest` has as many as there are bundles. Answers which bundles may have met
+    /// The first hits of the rays of a tile. `nearest` has as many as there are packets. Answers which packets may have met
     /// anything, and how many were given up. Of those that were still to be made the others are not: that none of their rays
-    /// is unsure or without company is all that is known of them.
+    /// is unsure or without reordering is all that is known of them.
     #[inline(always)]
     pub(super) fn first_of_tile<S: Simd, T: Asks>(
         &self,
         simd: S,
-        outsets: &mut Outsets,
-        (own, nearest): (&mut [Bundle<T>], &mut [Nearest<T>]),
+        sources: &mut PacketSources,
+        (own, nearest): (&mut [RayPacket<T>], &mut [PacketHits<T>]),
         memory: &mut TileMemory,
     ) -> (u16, usize) {
         let slack = self.slack_of::<T>();
-        let whole = outsets.whole(simd);
-        let seen = matches!(outsets, Outsets::Seen { .. });
+        let whole = sources.whole(simd);
+        let seen = matches!(sources, PacketSources::PrimaryHit { .. });
         memory.forget_sheared();
         let TileMemory { far, stack, .. } = memory;
         far.clear();
         for (k, found) in nearest.iter_mut().enumerate() {
-            far.push(if outsets.is_blind(k) { f64::NEG_INFINITY } else { f64::INFINITY });
+            far.push(if sources.is_blind(k) { f64::NEG_INFINITY } else { f64::INFINITY });
             if seen {
                 found.forget_rays();
             } else {
@@ -55,7 +55,7 @@ impl Fast<'_> {
         stack.push(Waits::root(u16::MAX));
         let mut spread = false;
         let (mut touched, mut given_up) = (0, 0);
-        let mut left_to_ask = [0; FAN];
+        let mut left_to_ask = [0; FRUSTA];
         while let Some(Waits { near, node, frustums }) = memory.stack.pop() {
             let farthest = memory.far.iter().fold(f64::NEG_INFINITY, |most, &far| f64::max(most, far));
             if near > farthest + slack {
@@ -70,7 +70,7 @@ impl Fast<'_> {
             }
             if !spread {
                 spread = true;
-                outsets.spread(simd, self.level, (&mut memory.beams, &mut memory.fan));
+                sources.spread(simd, self.level, (&mut memory.frustums, &mut memory.frusta));
             }
             let mut objects = met.boxes & !node.inner();
             while objects != 0 {
@@ -80,8 +80,8 @@ impl Fast<'_> {
                 let (lo, hi) = node.corners(slot);
                 let round = node.ball(slot);
                 let met = match &round {
-                    Some(round) => memory.fan.meets_ball(simd, round.center, round.outer),
-                    None => memory.fan.meets(simd, lo, hi),
+                    Some(round) => memory.frusta.meets_ball(simd, round.center, round.outer),
+                    None => memory.frusta.meets(simd, lo, hi),
                 };
                 let mut left = met.frustums & frustums;
                 if left == 0 {
@@ -98,34 +98,34 @@ impl Fast<'_> {
                         if touched >> k & 1 == 0 {
                             touched |= 1 << k;
                             if seen {
-                                outsets.make(k);
+                                sources.make(k);
                                 nearest.clear();
                             }
-                            let bundle = outsets.get(k).rays;
-                            T::take(simd, bundle, own, k);
-                            left_to_ask[k] = CROWD * bundle.live.count_ones();
-                            memory.thin[k].set(bundle);
+                            let packet = sources.get(k).rays;
+                            T::take(simd, packet, own, k);
+                            left_to_ask[k] = CROWD * packet.live.count_ones();
+                            memory.thin[k].set(packet);
                         }
-                        let outset = T::outset(outsets.get(k), own, k);
-                        let bundle = outset.full_rays;
+                        let source = T::source(sources.get(k), own, k);
+                        let packet = source.full_rays;
                         let Some(left_to_ask_now) = left_to_ask[k].checked_sub(1) else {
                             given_up += 1;
-                            nearest.apart = bundle.live;
+                            nearest.apart = packet.live;
                             memory.far[k] = f64::NEG_INFINITY;
                             continue;
                         };
                         left_to_ask[k] = left_to_ask_now;
                         let passing = if let Some(round) = &round {
-                            memory.thin[k].set_points(simd, bundle);
-                            memory.thin[k].ball(simd, round, slack, bundle.live).0
+                            memory.thin[k].set_points(simd, packet);
+                            memory.thin[k].ball(simd, round, slack, packet.live).0
                         } else {
-                            memory.thin[k].set_lines(simd, bundle);
-                            memory.thin[k].passing(simd, &slabs, bundle.live)
+                            memory.thin[k].set_lines(simd, packet);
+                            memory.thin[k].passing(simd, &slabs, packet.live)
                         };
                         if passing != 0
-                            && self.object_of_bundle(simd, (object, passing), outset, nearest, memory, k)
+                            && self.object_of_packet(simd, (object, passing), source, nearest, memory, k)
                         {
-                            memory.far[k] = nearest.farthest(simd, outset.rays);
+                            memory.far[k] = nearest.farthest(simd, source.rays);
                             memory.thin[k].look(
                                 #[inline(always)]
                                 |lane| nearest.reach_of(lane) + slack,
@@ -134,19 +134,19 @@ impl Fast<'_> {
                     }
                 }
             }
-            let TileMemory { fan, stack, .. } = memory;
-            push_nearest_last(simd, stack, node, &met, (fan, frustums));
+            let TileMemory { frusta, stack, .. } = memory;
+            push_nearest_last(simd, stack, node, &met, (frusta, frustums));
         }
         (touched, given_up)
     }
 
-    /// The first hits of a bundle with one object, whose box some of its rays may pass. Answers whether any ray came near it.
-    pub(super) fn object_of_bundle<S: Simd, T: Asks>(
+    /// The first hits of a packet with one object, whose box some of its rays may pass. Answers whether any ray came near it.
+    pub(super) fn object_of_packet<S: Simd, T: Asks>(
         &self,
         simd: S,
         (object, passing): (u32, u64),
-        outset: Outset<T>,
-        nearest: &mut Nearest<T>,
+        source: PacketSource<T>,
+        nearest: &mut PacketHits<T>,
         memory: &mut TileMemory,
         k: usize,
     ) -> bool {
@@ -157,12 +157,12 @@ impl Fast<'_> {
             Body::Single(index) => {
                 memory.counts.primitive_tests += 1;
                 let form = &primitives[*index as usize].form;
-                let doubtful = self.single(simd, form, (outset, passing), nearest, [object, *index]);
+                let doubtful = self.single(simd, form, (source, passing), nearest, [object, *index]);
                 if !T::DECIDES && doubtful != 0 {
                     memory.counts.primitive_tests += 1;
                     let met = &mut *memory.met;
                     met.clear();
-                    self.single(simd, form, (outset.full(), doubtful), met, [object, *index]);
+                    self.single(simd, form, (source.full(), doubtful), met, [object, *index]);
                     offer_met(simd, met, doubtful, object, nearest);
                 }
                 true
@@ -172,11 +172,11 @@ impl Fast<'_> {
                 let primitive = &primitives[*index as usize];
                 let TileMemory { thin, sheared, numbers: Numbers { found, .. }, .. } = memory;
                 let sheared = &mut sheared[k];
-                let wanted = asking(simd, &mut thin[k], outset.full_rays, &primitive.form, slack, passing);
+                let wanted = asking(simd, &mut thin[k], source.full_rays, &primitive.form, slack, passing);
                 if wanted == 0 {
                     return false;
                 }
-                let (rays, departures) = (outset.full_rays, outset.full_departures);
+                let (rays, departures) = (source.full_rays, source.full_departures);
                 firsts_of_surface(simd, rays, wanted, (primitive, *index), departures, sheared, found);
                 if found.any != 0 {
                     offer_found(simd, found, object, nearest);
@@ -186,66 +186,72 @@ impl Fast<'_> {
             Body::Composite { whole, .. } => {
                 let (from, to) = reach(simd, &memory.thin[k], &own.bounds, slack, passing);
                 let way = (passing, from, to.min(memory.far[k] + slack));
-                self.composite(simd, (object, Flat::from(&**whole)), outset, way, nearest, memory);
+                self.composite(simd, (object, ExprView::from(&**whole)), source, way, nearest, memory);
                 true
             }
         }
     }
 
-    /// The first hits of the rays of a bundle with one convex primitive that is an object. Answers of which more digits are to
+    /// The first hits of the rays of a packet with one convex primitive that is an object. Answers of which double precision are to
     /// say whether they meet it.
     fn single<S: Simd, T: Asks>(
         &self,
         simd: S,
-        form: &Form,
-        (outset, passing): (Outset<T>, u64),
-        nearest: &mut Nearest<T>,
+        form: &WorldShape,
+        (source, passing): (PacketSource<T>, u64),
+        nearest: &mut PacketHits<T>,
         indices: [u32; 2],
     ) -> u64 {
-        let Form::Ball(ball) = form else {
-            return convex_of_bundle(simd, form, (outset, passing), nearest, indices);
+        let WorldShape::Ball(ball) = form else {
+            return convex_of_packet(simd, form, (source, passing), nearest, indices);
         };
         simd.vectorize(
             #[inline(always)]
             || {
-                let start = match outset.departures {
+                let start = match source.departures {
                     None => 2.0 * ball.most_error::<T>(),
                     Some(_) => ball.most_error::<T>() * (1.0 + self.assembly.off / ball.off()),
                 };
-                ball_of_bundle(simd, (ball, form, start), passing, outset, nearest, indices)
+                ball_of_packet(simd, (ball, form, start), passing, source, nearest, indices)
             },
         )
     }
 
-    /// The first hits of a bundle with a composite object: its way through the object's box in slices, each with what the
+    /// The first hits of a packet with a composite object: its way through the object's box in slices, each with what the
     /// expression is there.
     fn composite<S: Simd, T: Asks>(
         &self,
         simd: S,
-        (object, expression): (u32, Flat),
-        outset: Outset<T>,
+        (object, expression): (u32, ExprView),
+        source: PacketSource<T>,
         (open, from, to): (u64, f64, f64),
-        nearest: &mut Nearest<T>,
+        nearest: &mut PacketHits<T>,
         memory: &mut TileMemory,
     ) {
         T::numbers(memory).scratch.start();
         let whole = self.subs.loose(object).map(|loose| (loose, expression));
-        let mut slicing = Slicing { fast: self, simd, outset, object, open, nearest };
+        let mut slicing = Slicing { fast: self, simd, source, object, open, nearest };
         slices(self, whole, &mut slicing, expression, (from, to), memory);
     }
 }
 
 /// Which rays may have a span, or start on a surface, and may not: of these none is left.
 #[inline(always)]
-fn doubts<N: Number>(spans: &mut Spans<N>, form: &Form, starts: &Starts<N>) -> N::Mask {
+fn doubts<N: Number>(spans: &mut Spans<N>, form: &WorldShape, starts: &Starts<N>) -> N::Mask {
     let at_start = starts.near(&spans.enter, form) | starts.near(&spans.leave, form);
     let doubtful = spans.may & (!spans.any | at_start);
     spans.any = spans.any & !doubtful;
     doubtful
 }
 
-/// Offers what some rays met of one object by more digits.
-fn offer_met<S: Simd, T: Digits>(simd: S, met: &Nearest, rays: u64, object: u32, nearest: &mut Nearest<T>) {
+/// Offers what some rays met of one object by double precision.
+fn offer_met<S: Simd, T: Real>(
+    simd: S,
+    met: &PacketHits,
+    rays: u64,
+    object: u32,
+    nearest: &mut PacketHits<T>,
+) {
     simd.vectorize(
         #[inline(always)]
         || {
@@ -254,7 +260,7 @@ fn offer_met<S: Simd, T: Digits>(simd: S, met: &Nearest, rays: u64, object: u32,
                     continue;
                 }
                 let t = met.t.load_nearest::<T, S>(simd, row);
-                let met = Offer {
+                let met = HitCandidate {
                     any: T::row_of(simd, rays, row) & t.is_below(T::all(simd, f64::INFINITY)),
                     t,
                     error: loosened::<T, S>(met.error.load_nearest::<T, S>(simd, row), t),
@@ -269,15 +275,15 @@ fn offer_met<S: Simd, T: Digits>(simd: S, met: &Nearest, rays: u64, object: u32,
     );
 }
 
-/// The first hits of the rays of a bundle that are near a ball. A crossing beyond `start` lies at the start of no ray. Answers
-/// of which more digits are to say.
+/// The first hits of the rays of a packet that are near a ball. A crossing beyond `start` lies at the start of no ray. Answers
+/// of which double precision are to say.
 #[inline(always)]
-fn ball_of_bundle<S: Simd, T: Asks>(
+fn ball_of_packet<S: Simd, T: Asks>(
     simd: S,
-    (ball, form, start): (&Ball, &Form, f64),
+    (ball, form, start): (&Ball, &WorldShape, f64),
     near: u64,
-    outset: Outset<T>,
-    nearest: &mut Nearest<T>,
+    source: PacketSource<T>,
+    nearest: &mut PacketHits<T>,
     [object, index]: [u32; 2],
 ) -> u64 {
     let mut doubtful = 0;
@@ -288,21 +294,21 @@ fn ball_of_bundle<S: Simd, T: Asks>(
         if !T::has_any(near, row) {
             continue;
         }
-        let mut spans = ball.spans(&outset.rays.load(simd, row));
+        let mut spans = ball.spans(&source.rays.load(simd, row));
         if !spans.may.any() {
             continue;
         }
-        let starts = outset.starts(simd, row, primitive);
+        let starts = source.starts(simd, row, primitive);
         if !T::DECIDES {
             doubtful |= T::bits_of(simd, doubts(&mut spans, form, &starts), row);
         }
         let ahead = spans.enter.t.is_above(start) & !starts.here;
         let met = if (spans.any & !ahead).any() {
-            let Firsts { end, entering, any } = firsts_of_spans(spans, form, &starts);
-            Offer { any, t: end.t, error: end.error, entering, object, primitive, surface }
+            let FirstCrossings { end, entering, any } = firsts_of_spans(spans, form, &starts);
+            HitCandidate { any, t: end.t, error: end.error, entering, object, primitive, surface }
         } else {
             let Ends { t, error, .. } = spans.enter;
-            Offer { any: spans.any, t, error, entering: yes, object, primitive, surface }
+            HitCandidate { any: spans.any, t, error, entering: yes, object, primitive, surface }
         };
         nearest.offer(simd, row, &met);
     }
@@ -313,11 +319,11 @@ fn ball_of_bundle<S: Simd, T: Asks>(
 struct Slicing<'a, S, T> {
     fast: &'a Fast<'a>,
     simd: S,
-    outset: Outset<'a, T>,
+    source: PacketSource<'a, T>,
     object: u32,
     /// The rays that have not met the object yet.
     open: u64,
-    nearest: &'a mut Nearest<T>,
+    nearest: &'a mut PacketHits<T>,
 }
 
 impl<S: Simd, T: Asks> Slices for Slicing<'_, S, T> {
@@ -333,18 +339,18 @@ impl<S: Simd, T: Asks> Slices for Slicing<'_, S, T> {
     }
 
     fn bounds(&self, from: f64, to: f64) -> Bounds {
-        bounds_between(self.simd, self.outset.rays, self.open, from, to)
+        bounds_between(self.simd, self.source.rays, self.open, from, to)
     }
 
-    fn ask(&mut self, expression: Flat, (from, to): (f64, f64), memory: &mut TileMemory) {
-        let (simd, Outset { rays: bundle, departures, .. }) = (self.simd, self.outset);
+    fn ask(&mut self, expression: ExprView, (from, to): (f64, f64), memory: &mut TileMemory) {
+        let (simd, PacketSource { rays: packet, departures, .. }) = (self.simd, self.source);
         let slack = SLACK * T::COARSER;
-        let reach = Reach { from: from - slack, to: to + slack };
+        let reach = TRange { from: from - slack, to: to + slack };
         let primitives = &self.fast.assembly.primitives;
         memory.counts.primitive_tests += expression.leaves.len() as u64;
         memory.counts.csg_evaluations += 1;
         let Numbers { scratch, found, .. } = T::numbers(memory);
-        let asked = Asked { bundle, wanted: self.open, departures, reach };
+        let asked = CsgQuery { packet, wanted: self.open, departures, reach };
         first_of_expressions(simd, &asked, expression, primitives, scratch, found);
         if found.any != 0 {
             self.open &= !found.any;
@@ -356,8 +362,8 @@ impl<S: Simd, T: Asks> Slices for Slicing<'_, S, T> {
             memory.counts.csg_evaluations += 1;
             let Numbers { scratch, found, .. } = f64::numbers(memory);
             scratch.start();
-            let Outset { rays: bundle, departures, .. } = self.outset.full();
-            let asked = Asked { bundle, wanted: unsure, departures, reach };
+            let PacketSource { rays: packet, departures, .. } = self.source.full();
+            let asked = CsgQuery { packet, wanted: unsure, departures, reach };
             first_of_expressions(simd, &asked, expression, primitives, scratch, found);
             if found.any != 0 {
                 self.open &= !found.any;
@@ -370,18 +376,18 @@ impl<S: Simd, T: Asks> Slices for Slicing<'_, S, T> {
     }
 }
 
-/// How far a distance may be off that was rounded to fewer digits: by half an ulp more.
+/// How far a distance may be off that was rounded to single precision: by half an ulp more.
 #[inline(always)]
-fn loosened<T: Digits, S: Simd>(error: T::Wide<S>, t: T::Wide<S>) -> T::Wide<S> {
+fn loosened<T: Real, S: Simd>(error: T::SimdReal<S>, t: T::SimdReal<S>) -> T::SimdReal<S> {
     if T::DECIDES { error } else { error + t.magnitude() * (0.5 * f64::EPSILON * T::COARSER) }
 }
 
 /// Offers what an expression's crossings are.
-fn offer_found<S: Simd, T: Digits, U: Digits>(
+fn offer_found<S: Simd, T: Real, U: Real>(
     simd: S,
-    found: &Found<U>,
+    found: &PacketCrossings<U>,
     object: u32,
-    nearest: &mut Nearest<T>,
+    nearest: &mut PacketHits<T>,
 ) {
     simd.vectorize(
         #[inline(always)]
@@ -391,7 +397,7 @@ fn offer_found<S: Simd, T: Digits, U: Digits>(
                     continue;
                 }
                 let t = found.t.load_nearest::<T, S>(simd, row);
-                let met = Offer {
+                let met = HitCandidate {
                     any: T::row_of(simd, found.any, row),
                     t,
                     error: loosened::<T, S>(found.error.load_nearest::<T, S>(simd, row), t),
@@ -406,41 +412,41 @@ fn offer_found<S: Simd, T: Digits, U: Digits>(
     );
 }
 
-/// The first hits of the rays of a bundle with one convex primitive that is an object. Answers of which more digits are to say.
-fn convex_of_bundle<S: Simd, T: Asks>(
+/// The first hits of the rays of a packet with one convex primitive that is an object. Answers of which double precision are to say.
+fn convex_of_packet<S: Simd, T: Asks>(
     simd: S,
-    form: &Form,
-    (outset, wanted): (Outset<T>, u64),
-    nearest: &mut Nearest<T>,
+    form: &WorldShape,
+    (source, wanted): (PacketSource<T>, u64),
+    nearest: &mut PacketHits<T>,
     [object, index]: [u32; 2],
 ) -> u64 {
     #[inline(always)]
     fn rows<S: Simd, T: Asks>(
         simd: S,
-        (form, outset, wanted, object, index): (&Form, Outset<T>, u64, u32, u32),
-        (nearest, doubtful): (&mut Nearest<T>, &mut u64),
-        spans: impl Fn(&Rays<T::Wide<S>>) -> Spans<T::Wide<S>>,
+        (form, source, wanted, object, index): (&WorldShape, PacketSource<T>, u64, u32, u32),
+        (nearest, doubtful): (&mut PacketHits<T>, &mut u64),
+        spans: impl Fn(&Rays<T::SimdReal<S>>) -> Spans<T::SimdReal<S>>,
     ) {
         let primitive = T::all(simd, f64::from(index));
         for row in 0..T::ROWS {
             if !T::has_any(wanted, row) {
                 continue;
             }
-            let mut spans = spans(&outset.rays.load(simd, row));
+            let mut spans = spans(&source.rays.load(simd, row));
             if !spans.may.any() {
                 continue;
             }
-            let starts = outset.starts(simd, row, primitive);
+            let starts = source.starts(simd, row, primitive);
             if !T::DECIDES {
                 *doubtful |= T::bits_of(simd, doubts(&mut spans, form, &starts), row);
             }
-            let Firsts { end, entering, any } = firsts_of_spans(spans, form, &starts);
+            let FirstCrossings { end, entering, any } = firsts_of_spans(spans, form, &starts);
             let Ends { t, error, surface } = end;
-            let met = Offer { any, t, error, entering, object, primitive, surface };
+            let met = HitCandidate { any, t, error, entering, object, primitive, surface };
             nearest.offer(simd, row, &met);
         }
     }
-    let about = (form, outset, wanted, object, index);
+    let about = (form, source, wanted, object, index);
     let mut doubtful = 0;
     with_spans!(simd, form, rows, about, (nearest, &mut doubtful));
     doubtful & wanted

@@ -2,74 +2,74 @@
 
 use fearless_simd::Simd;
 
-use crate::lattice::{Beam, FAN, Fan};
-use crate::math::{Bundle, Digits};
-use crate::solid::{BundleScratch, Found, Pruning, Remains, Sheared};
+use crate::lattice::{FRUSTA, Frustum, FrustumSoa};
+use crate::math::{RayPacket, Real};
+use crate::solid::{PacketCrossings, PacketScratch, PacketShear, PrunedExpr, Pruning};
 use crate::stage::Counts;
 
-use super::company::Company;
-use super::nearest::Nearest;
-use super::outset::Outset;
+use super::packet_culler::PacketCuller;
+use super::packet_hits::PacketHits;
+use super::reordering::RayReordering;
+use super::source::PacketSource;
 use super::stream::Apart;
-use super::thin::Thin;
 use super::walk::Waits;
 
 /// What tracing a tile needs, used again for every tile.
 #[derive(Debug)]
 pub struct TileMemory {
-    /// By bundle: its own frustum, if it asks, and how far its rays have still to look.
-    pub(super) beams: Vec<Option<Beam>>,
+    /// By packet: its own frustum, if it asks, and how far its rays have still to look.
+    pub(super) frustums: Vec<Option<Frustum>>,
     pub(super) far: Vec<f64>,
-    /// Their rays in half the digits, for as many as a fan has.
-    pub(super) thin: Vec<Thin>,
-    pub(super) fan: Fan,
-    pub(super) company: Company,
+    /// Their rays in single precision, for as many as a frusta has.
+    pub(super) thin: Vec<PacketCuller>,
+    pub(super) frusta: FrustumSoa,
+    pub(super) reordering: RayReordering,
     pub(super) apart: Apart,
-    /// By bundle: the planes across its rays, where they were asked for.
-    pub(super) sheared: Vec<Sheared>,
+    /// By packet: the planes across its rays, where they were asked for.
+    pub(super) sheared: Vec<PacketShear>,
     /// Nodes to be walked.
     pub(super) stack: Vec<Waits>,
     pub(super) numbers: Numbers<f64>,
     pub(super) singles: Numbers<f32>,
     /// What rays meet of one object.
-    pub(super) met: Box<Nearest>,
+    pub(super) met: Box<PacketHits>,
     pub(super) pruning: Pruning,
     /// Pruned expressions that are not in use.
-    pub(super) remains: Vec<Remains>,
+    pub(super) remains: Vec<PrunedExpr>,
     pub(super) counts: Counts,
 }
 
-/// Memory for what is asked of a bundle, in numbers of so many digits.
+/// Memory for what is asked of a packet, in numbers of this precision.
 #[derive(Debug)]
 pub(super) struct Numbers<T> {
-    pub scratch: BundleScratch<T>,
-    pub found: Box<Found<T>>,
-    /// By bundle: its rays, and what they met, where those of the tile are others.
-    pub rays: Vec<Bundle<T>>,
-    pub nearest: Vec<Nearest<T>>,
+    pub scratch: PacketScratch<T>,
+    pub found: Box<PacketCrossings<T>>,
+    /// By packet: its rays, and what they met, where those of the tile are others.
+    pub rays: Vec<RayPacket<T>>,
+    pub nearest: Vec<PacketHits<T>>,
 }
 
-impl<T: Digits> Default for Numbers<T> {
+impl<T: Real> Default for Numbers<T> {
     fn default() -> Self {
         Self {
-            scratch: BundleScratch::default(),
-            found: Box::new(Found::NONE),
+            scratch: PacketScratch::default(),
+            found: Box::new(PacketCrossings::NONE),
             rays: Vec::new(),
             nearest: Vec::new(),
         }
     }
 }
 
-/// Digits in which rays are asked.
-pub(super) trait Asks: Digits {
+/// Precisions in which rays are asked.
+pub(super) trait Asks: Real {
     /// Their part of the memory.
     fn numbers(memory: &mut TileMemory) -> &mut Numbers<Self>;
 
-    /// Makes a bundle known in these digits, where they are not its own.
-    fn take<S: Simd>(simd: S, full: &Bundle, own: &mut [Bundle<Self>], k: usize);
+    /// Makes a packet known in this precision, where they are not its own.
+    fn take<S: Simd>(simd: S, full: &RayPacket, own: &mut [RayPacket<Self>], k: usize);
 
-    /// A bundle that was made known.
-    fn outset<'a>(full: Outset<'a>, own: &'a [Bundle<Self>], k: usize) -> Outset<'a, Self>;
+    /// A packet that was made known.
+    fn source<'a>(full: PacketSource<'a>, own: &'a [RayPacket<Self>], k: usize) -> PacketSource<'a, Self>;
 }
 
 impl Asks for f64 {
@@ -79,10 +79,10 @@ impl Asks for f64 {
     }
 
     #[inline(always)]
-    fn take<S: Simd>(_: S, _: &Bundle, _: &mut [Bundle], _: usize) {}
+    fn take<S: Simd>(_: S, _: &RayPacket, _: &mut [RayPacket], _: usize) {}
 
     #[inline(always)]
-    fn outset<'a>(full: Outset<'a>, _: &'a [Bundle], _: usize) -> Outset<'a> {
+    fn source<'a>(full: PacketSource<'a>, _: &'a [RayPacket], _: usize) -> PacketSource<'a> {
         full
     }
 }
@@ -94,7 +94,7 @@ impl Asks for f32 {
     }
 
     #[inline(always)]
-    fn take<S: Simd>(simd: S, full: &Bundle, own: &mut [Bundle<Self>], k: usize) {
+    fn take<S: Simd>(simd: S, full: &RayPacket, own: &mut [RayPacket<Self>], k: usize) {
         simd.vectorize(
             #[inline(always)]
             || own[k].set_nearest(full),
@@ -102,9 +102,14 @@ impl Asks for f32 {
     }
 
     #[inline(always)]
-    fn outset<'a>(full: Outset<'a>, own: &'a [Bundle<Self>], k: usize) -> Outset<'a, Self> {
+    fn source<'a>(full: PacketSource<'a>, own: &'a [RayPacket<Self>], k: usize) -> PacketSource<'a, Self> {
         // Only rays from the eye are asked so, which leave nothing.
-        Outset { rays: &own[k], departures: None, full_rays: full.rays, full_departures: full.departures }
+        PacketSource {
+            rays: &own[k],
+            departures: None,
+            full_rays: full.rays,
+            full_departures: full.departures,
+        }
     }
 }
 
@@ -116,20 +121,20 @@ impl TileMemory {
 
     /// Forgets the planes across the rays of the last tile.
     pub(super) fn forget_sheared(&mut self) {
-        self.sheared.iter_mut().for_each(Sheared::forget);
+        self.sheared.iter_mut().for_each(PacketShear::forget);
     }
 }
 
 impl Default for TileMemory {
     fn default() -> Self {
         Self {
-            beams: Vec::new(),
+            frustums: Vec::new(),
             far: Vec::new(),
-            thin: vec![Thin::EMPTY; FAN],
-            fan: Fan::default(),
-            company: Company::default(),
+            thin: vec![PacketCuller::EMPTY; FRUSTA],
+            frusta: FrustumSoa::default(),
+            reordering: RayReordering::default(),
             apart: Apart::default(),
-            sheared: vec![Sheared::UNKNOWN; FAN],
+            sheared: vec![PacketShear::UNKNOWN; FRUSTA],
             stack: Vec::new(),
             numbers: Numbers::default(),
             singles: Numbers::default(),

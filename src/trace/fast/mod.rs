@@ -6,58 +6,58 @@
 //! place or a solid that is not convex, the exact engine is asked for that ray; and so are rays that have no
 //! company.
 
-mod company;
 mod first;
 mod memory;
-mod nearest;
-mod outset;
-mod shaft;
+mod packet_culler;
+mod packet_hits;
+mod reordering;
+mod shadow_packet;
 mod slices;
+mod source;
 mod stream;
-mod thin;
-mod tint;
+mod transmittance;
 mod walk;
 
 use fearless_simd::{Level, Simd, dispatch};
 
-use crate::lattice::{Boxes, FAN, Structure, SubLattices, slack};
-use crate::math::{BUNDLE, Bundle, Column, Columns, Digits, ROWS, Ray};
+use crate::lattice::{Bvh8, FRUSTA, Structure, SubLattices, slack};
+use crate::math::{LaneVector, Lanes, PACKET, ROWS, Ray, RayPacket, Real};
 use crate::solid::{Assembly, Crossing, Departure, Departures};
 use crate::stage::{Meter, Probe};
-use crate::view::Sight;
+use crate::view::TileCamera;
 
 use super::exact::all_moved_nearer;
 use super::{Engine, Exact, Hit, Memory};
 
 use memory::Asks;
-use outset::Outsets;
+use source::PacketSources;
 
 pub use memory::TileMemory;
-pub use nearest::Nearest;
-pub use shaft::{Shaft, Shone};
-pub use tint::{Clarity, Tint};
+pub use packet_hits::PacketHits;
+pub use shadow_packet::{ShadowPacket, ShadowQuery};
+pub use transmittance::{OpacityClass, Transmittance};
 
 /// So few rays of a tile towards a light take less time one by one than bringing them together does: what would not fill two
-/// bundles.
-const FEW_OF_TILE: u32 = 2 * BUNDLE as u32;
+/// packets.
+const FEW_OF_TILE: u32 = 2 * PACKET as u32;
 
 /// The engine for tiles of rays, over an assembly and a hierarchy of its boxes.
 #[derive(Clone, Copy, Debug)]
 pub struct Fast<'a> {
     exact: Exact<'a>,
     assembly: &'a Assembly,
-    boxes: &'a Boxes,
+    boxes: &'a Bvh8,
     subs: &'a SubLattices,
     /// How far apart two hits may seem that are one place.
     slack: f64,
     level: Level,
-    /// Whether rays from the eye are asked with half the digits.
+    /// Whether rays from the eye are asked in single precision.
     singles: bool,
 }
 
 impl<'a> Fast<'a> {
     /// An engine over an assembly, at the SIMD width of this processor.
-    pub fn new(assembly: &'a Assembly, boxes: &'a Boxes, subs: &'a SubLattices) -> Self {
+    pub fn new(assembly: &'a Assembly, boxes: &'a Bvh8, subs: &'a SubLattices) -> Self {
         let exact = Exact::new(assembly, Structure::Boxes(boxes, subs));
         Self { exact, assembly, boxes, subs, slack: slack(assembly.off), level: Level::new(), singles: false }
     }
@@ -68,15 +68,15 @@ impl<'a> Fast<'a> {
         Self { level, ..self }
     }
 
-    /// The same engine that asks rays from the eye with half the digits: what they meet first is off its place by up to
-    /// [`Digits::COARSER`] times as much. Where these leave a doubt which of two things is met first, all digits are asked.
+    /// The same engine that asks rays from the eye in single precision: what they meet first is off its place by up to
+    /// [`Real::COARSER`] times as much. Where these leave a doubt which of two things is met first, double precision is asked.
     #[must_use]
     pub fn in_singles(self, singles: bool) -> Self {
         Self { singles, ..self }
     }
 
-    /// How far apart two hits may seem that are one place, in numbers of so many digits.
-    fn slack_of<T: Digits>(&self) -> f64 {
+    /// How far apart two hits may seem that are one place, in numbers of this precision.
+    fn slack_of<T: Real>(&self) -> f64 {
         self.slack * T::COARSER
     }
 
@@ -87,44 +87,49 @@ impl<'a> Fast<'a> {
 
     /// Moves the starts of rays from the eye near to the world. Sets the way there, in two parts that are to be added to a
     /// distance, the second first.
-    pub fn approach(&self, bundle: &mut Bundle, ways: &mut [Column; 2]) {
-        dispatch!(self.level, simd => approached(simd, bundle, ways));
+    pub fn approach(&self, packet: &mut RayPacket, ways: &mut [Lanes; 2]) {
+        dispatch!(self.level, simd => approached(simd, packet, ways));
     }
 
-    /// The first hits of a tile of rays, by bundles that are [closed](Bundle::close), up to [`FAN`]
+    /// The first hits of a tile of rays, by packets that are [closed](RayPacket::close), up to [`FRUSTA`]
     /// of them; `departures` are the surfaces that the rays of each leave, none for rays from the eye. Those that are unsure,
     /// and those that meet two objects in one place, are to be asked of [`Engine::first`] or [`Engine::next`] one by one.
-    /// Answers how many bundles had so many objects between their rays that they were given up.
+    /// Answers how many packets had so many objects between their rays that they were given up.
     pub fn first_of(
         &self,
-        bundles: &[Bundle],
+        packets: &[RayPacket],
         departures: Option<&[Departures]>,
-        nearest: &mut [Nearest],
+        nearest: &mut [PacketHits],
         memory: &mut TileMemory,
     ) -> usize {
-        self.first_of_outsets::<f64>(&mut Outsets::Made { bundles, departures }, (&mut [], nearest), memory).1
+        self.first_of_sources::<f64>(
+            &mut PacketSources::Made { packets, departures },
+            (&mut [], nearest),
+            memory,
+        )
+        .1
     }
 
-    /// The first hits of the rays from the eye through a tile, as [`Fast::first_of`] finds them. `bundles` and `nearest` have
+    /// The first hits of the rays from the eye through a tile, as [`Fast::first_of`] finds them. `packets` and `nearest` have
     /// as many as the tile has blocks. The rays of a block are made, by `make`, where anything may lie in their way; the
     /// answer has a bit for each block whose are. Of the others nothing is to be read.
     pub fn first_seen(
         &self,
-        sight: &Sight,
-        bundles: &mut [Bundle],
-        make: &mut dyn FnMut(usize, &mut Bundle),
-        nearest: &mut [Nearest],
+        sight: &TileCamera,
+        packets: &mut [RayPacket],
+        make: &mut dyn FnMut(usize, &mut RayPacket),
+        nearest: &mut [PacketHits],
         memory: &mut TileMemory,
     ) -> u16 {
-        let outsets = &mut Outsets::Seen { sight, bundles, make };
+        let sources = &mut PacketSources::PrimaryHit { sight, packets, make };
         if !self.singles {
-            return self.first_of_outsets::<f64>(outsets, (&mut [], nearest), memory).0;
+            return self.first_of_sources::<f64>(sources, (&mut [], nearest), memory).0;
         }
         let (mut own, mut met) =
             (std::mem::take(&mut memory.singles.rays), std::mem::take(&mut memory.singles.nearest));
-        own.resize(nearest.len(), Bundle::EMPTY);
-        met.resize(nearest.len(), Nearest::NOTHING);
-        let touched = self.first_of_outsets::<f32>(outsets, (&mut own, &mut met), memory).0;
+        own.resize(nearest.len(), RayPacket::EMPTY);
+        met.resize(nearest.len(), PacketHits::NOTHING);
+        let touched = self.first_of_sources::<f32>(sources, (&mut own, &mut met), memory).0;
         dispatch!(self.level, simd => for (k, found) in nearest.iter_mut().enumerate() {
             found.forget_rays();
             if touched >> k & 1 == 1 {
@@ -138,80 +143,79 @@ impl<'a> Fast<'a> {
         touched
     }
 
-    fn first_of_outsets<T: Asks>(
+    fn first_of_sources<T: Asks>(
         &self,
-        outsets: &mut Outsets,
-        (own, nearest): (&mut [Bundle<T>], &mut [Nearest<T>]),
+        sources: &mut PacketSources,
+        (own, nearest): (&mut [RayPacket<T>], &mut [PacketHits<T>]),
         memory: &mut TileMemory,
     ) -> (u16, usize) {
         dispatch!(self.level, simd => {
-            let (touched, given_up) = self.first_of_tile(simd, outsets, (own, nearest), memory);
+            let (touched, given_up) = self.first_of_tile(simd, sources, (own, nearest), memory);
             for (k, found) in nearest.iter_mut().enumerate().filter(|(k, _)| touched >> k & 1 == 1) {
                 found.doubt(simd, self.slack_of::<T>());
-                found.unsure &= outsets.get(k).rays.live & !found.apart;
+                found.unsure &= sources.get(k).rays.live & !found.apart;
             }
             (touched, given_up)
         })
     }
 
     /// Which rays towards one light are blocked, and what glass leaves of the light of the others. Those that are unsure are
-    /// to be asked of [`Engine::blocked`] one by one. Answers whether most shafts had so many objects between their rays that
+    /// to be asked of [`Engine::blocked`] one by one. Answers whether most shadow packets had so many objects between their rays that
     /// they were given up.
     pub fn blocked_of(
         &self,
-        shafts: &mut [Shaft],
+        shadow_packets: &mut [ShadowPacket],
         departures: &[Departures],
-        lamp: &Shone,
+        lamp: &ShadowQuery,
         memory: &mut TileMemory,
     ) -> bool {
-        let rays: u32 = shafts.iter().map(|shaft| shaft.rays.live.count_ones()).sum();
+        let rays: u32 = shadow_packets.iter().map(|shadow_packet| shadow_packet.rays.live.count_ones()).sum();
         if rays < FEW_OF_TILE {
-            self.blocked_alone(shafts, departures, lamp, memory);
+            self.blocked_alone(shadow_packets, departures, lamp, memory);
             return false;
         }
-        let mut company = std::mem::take(&mut memory.company);
-        let helps = dispatch!(self.level, simd => company.would_help(simd, shafts, lamp.at));
+        let mut reordering = std::mem::take(&mut memory.reordering);
+        let helps = dispatch!(self.level, simd => reordering.would_help(simd, shadow_packets, lamp.at));
         let apart = if helps {
-            dispatch!(self.level, simd => company.gather(simd, shafts, departures));
-            let (new, leave) = company.shafts();
-            let apart = self.blocked_in_company(new, leave, lamp, memory);
-            company.scatter(shafts);
+            dispatch!(self.level, simd => reordering.gather(simd, shadow_packets, departures));
+            let (new, leave) = reordering.shadow_packets();
+            let apart = self.blocked_in_reordering(new, leave, lamp, memory);
+            reordering.scatter(shadow_packets);
             apart
         } else {
-            self.blocked_in_company(shafts, departures, lamp, memory)
+            self.blocked_in_reordering(shadow_packets, departures, lamp, memory)
         };
-        memory.company = company;
+        memory.reordering = reordering;
         apart
     }
 
-    fn blocked_in_company(
+    fn blocked_in_reordering(
         &self,
-        shafts: &mut [Shaft],
+        shadow_packets: &mut [ShadowPacket],
         departures: &[Departures],
-        lamp: &Shone,
+        lamp: &ShadowQuery,
         memory: &mut TileMemory,
     ) -> bool {
         let mut apart = false;
-        for (shafts, departures) in shafts.chunks_mut(FAN).zip(departures.chunks(FAN)) {
+        for (shadow_packets, departures) in shadow_packets.chunks_mut(FRUSTA).zip(departures.chunks(FRUSTA)) {
             if apart {
-                shafts.iter_mut().for_each(Shaft::give_up);
+                shadow_packets.iter_mut().for_each(ShadowPacket::give_up);
                 continue;
             }
-            let asking = shafts.iter().filter(|shaft| shaft.rays.live != 0).count();
-            let given_up =
-                dispatch!(self.level, simd => self.blocked_of_tile(simd, shafts, departures, lamp, memory));
+            let asking = shadow_packets.iter().filter(|shadow_packet| shadow_packet.rays.live != 0).count();
+            let given_up = dispatch!(self.level, simd => self.blocked_of_tile(simd, shadow_packets, departures, lamp, memory));
             apart = 2 * given_up > asking;
         }
-        self.blocked_apart(shafts, departures, lamp, memory);
+        self.blocked_apart(shadow_packets, departures, lamp, memory);
         apart
     }
 }
 
 #[inline(always)]
-fn approached<S: Simd>(simd: S, bundle: &mut Bundle, ways: &mut [Column; 2]) {
+fn approached<S: Simd>(simd: S, packet: &mut RayPacket, ways: &mut [Lanes; 2]) {
     for row in 0..ROWS {
-        let (near, [far, left]) = all_moved_nearer(&bundle.load(simd, row));
-        bundle.o.store(row, near.o);
+        let (near, [far, left]) = all_moved_nearer(&packet.load(simd, row));
+        packet.o.store(row, near.o);
         ways[0].store(row, far);
         ways[1].store(row, left);
     }

@@ -1,8 +1,8 @@
-//! The way of a bundle through a composite object in slices, nearest first, each with what its expression is there.
+//! The way of a packet through a composite object in slices, nearest first, each with what its expression is there.
 
-use crate::lattice::{Loose, MANY};
+use crate::lattice::{LooseOctree, MANY};
 use crate::math::{Bounds, DVec3};
-use crate::solid::{Flat, Left, Primitive};
+use crate::solid::{Classification, ExprView, Primitive};
 
 use super::Fast;
 use super::memory::TileMemory;
@@ -33,7 +33,7 @@ pub trait Slices {
     fn bounds(&self, from: f64, to: f64) -> Bounds;
 
     /// Asks the rays that are open what they meet between two distances.
-    fn ask(&mut self, expression: Flat, way: (f64, f64), memory: &mut TileMemory);
+    fn ask(&mut self, expression: ExprView, way: (f64, f64), memory: &mut TileMemory);
 }
 
 /// Asks along the way from `from` to `to`, nearest slices first.
@@ -41,7 +41,7 @@ pub fn slices(
     fast: &Fast,
     whole: Option<Whole>,
     rays: &mut impl Slices,
-    expression: Flat,
+    expression: ExprView,
     way: (f64, f64),
     memory: &mut TileMemory,
 ) {
@@ -52,7 +52,7 @@ fn slice<R: Slices>(
     fast: &Fast,
     whole: Option<Whole>,
     rays: &mut R,
-    expression: Flat,
+    expression: ExprView,
     (from, to): (f64, f64),
     halvings: u32,
     memory: &mut TileMemory,
@@ -73,8 +73,8 @@ fn slice<R: Slices>(
         return;
     }
     let mut remains = memory.remains.pop().unwrap_or_default();
-    if expression.pruned(primitives, &b, &mut memory.pruning, &mut remains) == Left::Some {
-        let left = Flat::from(&remains);
+    if expression.pruned(primitives, &b, &mut memory.pruning, &mut remains) == Classification::Some {
+        let left = ExprView::from(&remains);
         let few = if halvings + CUTS > HALVINGS { R::FEW } else { SOME };
         if left.leaves.len() <= few || halvings == 0 {
             rays.ask(left, (from, to), memory);
@@ -88,16 +88,16 @@ fn slice<R: Slices>(
 }
 
 /// The expression of a whole object, and what is known of its parts.
-pub type Whole<'a> = (&'a Loose, Flat<'a>);
+pub type Whole<'a> = (&'a LooseOctree, ExprView<'a>);
 
 /// What an expression in a box is to be pruned from: what is left of it already, or of the whole object in a cell around
 /// the box, whichever is less; none where there is no surface in that cell.
 fn begin<'e>(
     whole: Option<Whole<'e>>,
-    left: Flat<'e>,
+    left: ExprView<'e>,
     primitives: &[Primitive],
     b: &Bounds,
-) -> Option<Flat<'e>> {
+) -> Option<ExprView<'e>> {
     let Some((loose, whole)) = whole.filter(|_| left.leaves.len() >= MANY) else { return Some(left) };
     let around = loose.around(whole, primitives, b)?;
     Some(if around.leaves.len() < left.leaves.len() { around } else { left })

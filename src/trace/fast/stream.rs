@@ -1,22 +1,22 @@
-//! Rays that have no company: those of bundles that were given up, many on their way at once.
+//! Rays that are incoherent: those of packets that were given up, many on their way at once.
 //!
 //! Each finds what it finds alone. Where that is more than one thing in one place, it is asked of the exact engine.
 
-use crate::lattice::{Meeting, Stream, Ways, entry};
-use crate::math::{Bundle, LANES, Place, Ray, lanes, places};
-use crate::solid::{Crossing, Departure, Departures, Eight, Form, Kind, Scratch};
+use crate::lattice::{Candidate, Stream, StreamRays, entry};
+use crate::math::{LANES, Ray, RayIndex, RayPacket, lanes, places};
+use crate::solid::{Crossing, Departure, Departures, Eight, Kind, Scratch, WorldShape};
 use crate::stage::{Counts, Meter, Silent};
 
 use super::Fast;
 use super::memory::TileMemory;
-use super::nearest::Nearest;
-use super::shaft::{Shaft, Shone};
-use super::tint::Clarity;
+use super::packet_hits::PacketHits;
+use super::shadow_packet::{ShadowPacket, ShadowQuery};
+use super::transmittance::OpacityClass;
 
 /// No index of a primitive: there are fewer.
 const NONE: u32 = u32::MAX;
 
-/// Memory for rays without company.
+/// Memory for incoherent rays.
 #[derive(Debug, Default)]
 pub struct Apart {
     stream: Stream,
@@ -32,7 +32,7 @@ pub struct Apart {
 /// A ray of a stream.
 #[derive(Clone, Copy, Debug)]
 struct Alone {
-    at: Place,
+    at: RayIndex,
     ray: Ray,
     departure: Option<Departure>,
 }
@@ -43,7 +43,7 @@ struct Queue(Vec<Question>);
 
 #[derive(Clone, Copy, Debug)]
 struct Question {
-    meeting: Meeting,
+    meeting: Candidate,
     /// The primitive.
     index: u32,
 }
@@ -58,90 +58,90 @@ impl Apart {
 
     /// One more ray, that looks as far as `to`.
     #[inline(always)]
-    fn push(&mut self, at: Place, ray: Ray, departure: Option<Departure>, to: f64) {
+    fn push(&mut self, at: RayIndex, ray: Ray, departure: Option<Departure>, to: f64) {
         self.stream.push(&ray, to);
         self.leaves.push(departure.filter(|d| !d.inward).map_or(NONE, |d| d.primitive));
         self.rays.push(Alone { at, ray, departure });
     }
 }
 
-/// What rays without company are asked about.
+/// What rays without reordering are asked about.
 trait Asking {
     /// How far a crossing may be to matter.
-    fn to(&self, at: Place) -> f64;
+    fn to(&self, at: RayIndex) -> f64;
     /// A crossing with an object. Answers how far the ray still looks: below 0 where no farther at all.
-    fn meet(&mut self, at: Place, object: u32, crossing: &Crossing) -> f64;
+    fn meet(&mut self, at: RayIndex, object: u32, crossing: &Crossing) -> f64;
 }
 
 /// What rays meet first.
 struct First<'a> {
-    nearest: &'a mut [Nearest],
+    nearest: &'a mut [PacketHits],
     slack: f64,
 }
 
 impl Asking for First<'_> {
     #[inline]
-    fn to(&self, Place { bundle, lane }: Place) -> f64 {
-        self.nearest[bundle].t.0[lane] + self.slack
+    fn to(&self, RayIndex { packet, lane }: RayIndex) -> f64 {
+        self.nearest[packet].t.0[lane] + self.slack
     }
 
     #[inline]
-    fn meet(&mut self, Place { bundle, lane }: Place, object: u32, crossing: &Crossing) -> f64 {
-        self.nearest[bundle].offer_one(lane, object, crossing);
-        self.nearest[bundle].t.0[lane] + self.slack
+    fn meet(&mut self, RayIndex { packet, lane }: RayIndex, object: u32, crossing: &Crossing) -> f64 {
+        self.nearest[packet].offer_one(lane, object, crossing);
+        self.nearest[packet].t.0[lane] + self.slack
     }
 }
 
 /// What stands between surfaces and a light.
 struct Blocked<'a> {
-    shafts: &'a mut [Shaft],
-    lamp: &'a Shone<'a>,
+    shadow_packets: &'a mut [ShadowPacket],
+    lamp: &'a ShadowQuery<'a>,
     slack: f64,
 }
 
 impl Asking for Blocked<'_> {
     #[inline]
-    fn to(&self, Place { bundle, lane }: Place) -> f64 {
-        self.shafts[bundle].distance.0[lane]
+    fn to(&self, RayIndex { packet, lane }: RayIndex) -> f64 {
+        self.shadow_packets[packet].distance.0[lane]
     }
 
     #[inline]
-    fn meet(&mut self, Place { bundle, lane }: Place, object: u32, crossing: &Crossing) -> f64 {
-        let (shaft, bit) = (&mut self.shafts[bundle], 1 << lane);
-        let distance = shaft.distance.0[lane];
-        match self.lamp.clarity.get(object as usize).copied() {
-            _ if !shaft.blocks(lane, crossing) => {}
-            Some(Clarity::Clear | Clarity::Mixed) => {
+    fn meet(&mut self, RayIndex { packet, lane }: RayIndex, object: u32, crossing: &Crossing) -> f64 {
+        let (shadow_packet, bit) = (&mut self.shadow_packets[packet], 1 << lane);
+        let distance = shadow_packet.distance.0[lane];
+        match self.lamp.opacity.get(object as usize).copied() {
+            _ if !shadow_packet.blocks(lane, crossing) => {}
+            Some(OpacityClass::Clear | OpacityClass::Mixed) => {
                 let left = self.lamp.lets_through[crossing.primitive as usize];
                 let dark = self.lamp.dark_of(object, self.slack);
-                let clear = dark.is_none_or(|dark| entry(&shaft.rays.ray(lane), &dark).is_none());
-                shaft.glass(lane, clear, left);
+                let clear = dark.is_none_or(|dark| entry(&shadow_packet.rays.ray(lane), &dark).is_none());
+                shadow_packet.glass(lane, clear, left);
             }
-            _ => shaft.blocked |= bit,
+            _ => shadow_packet.blocked |= bit,
         }
-        if (shaft.blocked | shaft.unsure) & bit != 0 { -1.0 } else { distance + self.slack }
+        if (shadow_packet.blocked | shadow_packet.unsure) & bit != 0 { -1.0 } else { distance + self.slack }
     }
 }
 
 impl Fast<'_> {
-    /// The first hits of the rays of some bundles that have no company: those in [`Nearest::apart`].
+    /// The first hits of the rays of some packets that are incoherent: those in [`PacketHits::apart`].
     pub fn first_apart(
         &self,
-        bundles: &[Bundle],
+        packets: &[RayPacket],
         departures: Option<&[Departures]>,
-        nearest: &mut [Nearest],
+        nearest: &mut [PacketHits],
         memory: &mut TileMemory,
     ) {
         let TileMemory { apart, counts, .. } = memory;
         apart.clear();
-        for (k, (bundle, found)) in bundles.iter().zip(&mut *nearest).enumerate() {
+        for (k, (packet, found)) in packets.iter().zip(&mut *nearest).enumerate() {
             for at in places(k, found.apart) {
                 found.forget(at.lane);
                 if departures.is_some_and(|all| self.leaves_mesh(&all[k], at.lane)) {
                     found.unsure |= 1 << at.lane;
                 } else {
                     let departure = departures.map(|all| all[k].get(at.lane));
-                    apart.push(at, bundle.ray(at.lane), departure, f64::INFINITY);
+                    apart.push(at, packet.ray(at.lane), departure, f64::INFINITY);
                 }
             }
         }
@@ -160,47 +160,47 @@ impl Fast<'_> {
     #[inline]
     pub fn blocked_alone(
         &self,
-        shafts: &mut [Shaft],
+        shadow_packets: &mut [ShadowPacket],
         departures: &[Departures],
-        lamp: &Shone,
+        lamp: &ShadowQuery,
         memory: &mut TileMemory,
     ) {
-        shafts.iter_mut().for_each(Shaft::give_up);
-        self.blocked_apart(shafts, departures, lamp, memory);
+        shadow_packets.iter_mut().for_each(ShadowPacket::give_up);
+        self.blocked_apart(shadow_packets, departures, lamp, memory);
     }
 
-    /// Which of the rays towards a light that have no company, those in [`Shaft::apart`], are blocked, and what glass leaves
+    /// Which of the rays towards a light that have no reordering, those in [`ShadowPacket::apart`], are blocked, and what glass leaves
     /// of the light of the others.
     pub(super) fn blocked_apart(
         &self,
-        shafts: &mut [Shaft],
+        shadow_packets: &mut [ShadowPacket],
         departures: &[Departures],
-        lamp: &Shone,
+        lamp: &ShadowQuery,
         memory: &mut TileMemory,
     ) {
         let TileMemory { apart, counts, .. } = memory;
         apart.clear();
-        for (k, shaft) in shafts.iter_mut().enumerate() {
-            shaft.tint.forget(shaft.apart);
-            for at in places(k, std::mem::take(&mut shaft.apart)) {
+        for (k, shadow_packet) in shadow_packets.iter_mut().enumerate() {
+            shadow_packet.tint.forget(shadow_packet.apart);
+            for at in places(k, std::mem::take(&mut shadow_packet.apart)) {
                 if self.leaves_mesh(&departures[k], at.lane) {
-                    shaft.unsure |= 1 << at.lane;
+                    shadow_packet.unsure |= 1 << at.lane;
                 } else {
                     let (departure, to) =
-                        (departures[k].get(at.lane), shaft.distance.0[at.lane] + self.slack);
-                    apart.push(at, shaft.rays.ray(at.lane), Some(departure), to);
+                        (departures[k].get(at.lane), shadow_packet.distance.0[at.lane] + self.slack);
+                    apart.push(at, shadow_packet.rays.ray(at.lane), Some(departure), to);
                 }
             }
         }
-        let mut asking = Blocked { shafts, lamp, slack: self.slack };
+        let mut asking = Blocked { shadow_packets, lamp, slack: self.slack };
         self.ask_stream(apart, &mut asking, counts);
     }
 
-    /// Whether a ray leaves a mesh, which has many faces: of those nothing is noted for a bundle.
+    /// Whether a ray leaves a mesh, which has many faces: of those nothing is noted for a packet.
     #[inline]
     fn leaves_mesh(&self, departures: &Departures, lane: usize) -> bool {
         let primitive = departures.primitive.0[lane];
-        primitive >= 0.0 && matches!(self.assembly.primitives[primitive as usize].form, Form::Mesh(_))
+        primitive >= 0.0 && matches!(self.assembly.primitives[primitive as usize].form, WorldShape::Mesh(_))
     }
 
     /// Asks all rays of a stream.
@@ -208,12 +208,12 @@ impl Fast<'_> {
         let Apart { stream, rays, leaves, balls, tubes, eight, scratch } = apart;
         let mut visited = 0;
         let mut meter = Meter::new(Silent);
-        self.boxes.walk_stream(stream, &mut visited, &mut |met: &[Meeting], ways: &mut Ways| {
+        self.boxes.walk_stream(stream, &mut visited, &mut |met: &[Candidate], ways: &mut StreamRays| {
             for meeting in met {
                 if !ways.matters(meeting) {
                     continue;
                 }
-                let Meeting { ray: number, object, .. } = *meeting;
+                let Candidate { ray: number, object, .. } = *meeting;
                 let (kind, index) = self.assembly.kind(object);
                 if kind != Kind::Other {
                     // What is convex is not met again by a ray that leaves it.
@@ -251,7 +251,7 @@ impl Fast<'_> {
         rays: &[Alone],
         eight: &mut Eight,
         asking: &mut impl Asking,
-        ways: &mut Ways,
+        ways: &mut StreamRays,
     ) {
         let primitives = &self.assembly.primitives;
         for (lane, Question { meeting, index }) in questions.iter().enumerate() {

@@ -2,11 +2,11 @@
 
 use fearless_simd::Simd;
 
-use crate::lattice::{Child, Fan, Met, Node};
-use crate::math::{Bounds, Bundle, DVec3, Digits, Mask, Number, Rays, Row};
-use crate::solid::Form;
+use crate::lattice::{Child, FrustumHits, FrustumSoa, Node};
+use crate::math::{Bounds, DVec3, Mask, Number, RayPacket, Rays, Real, SimdRegister};
+use crate::solid::WorldShape;
 
-use super::thin::{Slabs, Thin};
+use super::packet_culler::{PacketCuller, Slabs};
 
 /// A node that is to be walked.
 #[derive(Clone, Copy, Debug)]
@@ -33,8 +33,8 @@ pub fn push_nearest_last<S: Simd>(
     simd: S,
     stack: &mut Vec<Waits>,
     node: &Node,
-    met: &Met<S>,
-    (fan, frustums): (&Fan, u16),
+    met: &FrustumHits<S>,
+    (frusta, frustums): (&FrustumSoa, u16),
 ) {
     let first = stack.len();
     let mut left = met.boxes & node.inner();
@@ -43,7 +43,7 @@ pub fn push_nearest_last<S: Simd>(
         left &= left - 1;
         let Some(Child::Node(index)) = node.child(slot) else { continue };
         let (lo, hi) = node.corners(slot);
-        let frustums = fan.meets(simd, lo, hi).frustums & frustums;
+        let frustums = frusta.meets(simd, lo, hi).frustums & frustums;
         if frustums == 0 {
             continue;
         }
@@ -57,34 +57,34 @@ pub fn push_nearest_last<S: Simd>(
     }
 }
 
-/// Those of some rays of a bundle that may meet a surface, as far as its own form says.
+/// Those of some rays of a packet that may meet a surface, as far as its own form says.
 pub fn asking<S: Simd>(
     simd: S,
-    thin: &mut Thin,
-    bundle: &Bundle,
-    form: &Form,
+    thin: &mut PacketCuller,
+    packet: &RayPacket,
+    form: &WorldShape,
     slack: f64,
     wanted: u64,
 ) -> u64 {
-    let Form::Tube(tube) = form else { return wanted };
+    let WorldShape::Tube(tube) = form else { return wanted };
     simd.vectorize(
         #[inline(always)]
-        || thin.beside(simd, bundle, &tube.bar(), slack, wanted),
+        || thin.beside(simd, packet, &tube.bar(), slack, wanted),
     )
 }
 
-/// Between which distances some rays of a bundle pass a box, all of them.
-pub fn reach<S: Simd>(simd: S, thin: &Thin, b: &Bounds, slack: f64, passing: u64) -> (f64, f64) {
+/// Between which distances some rays of a packet pass a box, all of them.
+pub fn reach<S: Simd>(simd: S, thin: &PacketCuller, b: &Bounds, slack: f64, passing: u64) -> (f64, f64) {
     simd.vectorize(
         #[inline(always)]
         || thin.reach(simd, &Slabs::around(simd, b.lo, b.hi, slack), passing),
     )
 }
 
-/// The box around the way of some rays of a bundle between two distances.
-pub fn bounds_between<S: Simd, T: Digits>(
+/// The box around the way of some rays of a packet between two distances.
+pub fn bounds_between<S: Simd, T: Real>(
     simd: S,
-    bundle: &Bundle<T>,
+    packet: &RayPacket<T>,
     rays: u64,
     from: f64,
     to: f64,
@@ -99,7 +99,7 @@ pub fn bounds_between<S: Simd, T: Digits>(
                     continue;
                 }
                 let asks = T::row_of(simd, rays, row);
-                let Rays { o, d } = bundle.load(simd, row);
+                let Rays { o, d } = packet.load(simd, row);
                 for axis in 0..3 {
                     let (o, d) = (o.along(axis), d.along(axis));
                     // The end may be no number, where that is infinitely far and the ray does not move: then it is the start.
@@ -117,7 +117,7 @@ pub fn bounds_between<S: Simd, T: Digits>(
     )
 }
 
-/// A corner of a box in all digits.
+/// A corner of a box in double precision.
 #[inline(always)]
 pub fn wide([x, y, z]: [f32; 3]) -> DVec3 {
     DVec3::new(f64::from(x), f64::from(y), f64::from(z))

@@ -329,7 +329,7 @@ fn triangulate(points: &[DVec3], polygon: &[u32], clipper: &mut EarClipper, mut 
     if let &[a, b, c] = polygon {
         return give([a, b, c]);
     }
-    let mut fan = |cycle: &[u32]| {
+    let mut frusta = |cycle: &[u32]| {
         for pair in cycle.windows(2).skip(1) {
             if cycle[0] != pair[0] && cycle[0] != pair[1] {
                 give([cycle[0], pair[0], pair[1]]);
@@ -337,10 +337,10 @@ fn triangulate(points: &[DVec3], polygon: &[u32], clipper: &mut EarClipper, mut 
         }
     };
     let flat = flattened(points, polygon);
-    // Of a face that is not convex, too, a fan is right by the parity rule: where its triangles overlap they
+    // Of a face that is not convex, too, a frusta is right by the parity rule: where its triangles overlap they
     // cancel. But every overlap costs each ray that passes it.
     let ears = if is_convex(&flat) { None } else { clipper.clip(&flat) };
-    let Some(ears) = ears else { return fan(polygon) };
+    let Some(ears) = ears else { return frusta(polygon) };
     // Ear clipping leaves out corners that lie on a straight line, and other faces may still end there. What
     // the triangles' edges and the polygon's do not share are closed ways along such lines.
     let mut rest = EdgeSet::default();
@@ -350,11 +350,11 @@ fn triangulate(points: &[DVec3], polygon: &[u32], clipper: &mut EarClipper, mut 
     for ear in ears.chunks_exact(3) {
         let [a, b, c] = [0, 1, 2].map(|i| polygon[ear[i] as usize]);
         if a != b && b != c && c != a {
-            fan(&[a, b, c]);
+            frusta(&[a, b, c]);
             rest.toggle_triangle([a, b, c]);
         }
     }
-    rest.cycles().iter().for_each(|cycle| fan(cycle));
+    rest.cycles().iter().for_each(|cycle| frusta(cycle));
 }
 
 /// The corners projected along the polygon's normal by Newell's method, within −1..=1.

@@ -33,7 +33,7 @@ pub fn six_volumes(mesh: &Mesh) -> f64 {
 const BOX: &str = "[[0,0,0],[2,0,0],[2,3,0],[0,3,0],[0,0,4],[2,0,4],[2,3,4],[0,3,4]]";
 
 #[test]
-fn convex_faces_are_fans() {
+fn convex_faces_are_frusta() {
     let mesh = mesh(BOX, "[[0,1,2,3],[7,6,5,4],[0,4,5,1],[1,5,6,2],[2,6,7,3],[3,7,4,0]]");
     assert_eq!((mesh.points.len(), mesh.triangles.len()), (8, 12));
     assert_eq!(six_volumes(&mesh), 6.0 * 24.0);
@@ -49,7 +49,7 @@ fn equal_points_are_merged_and_flat_faces_dropped() {
 
 #[test]
 fn faces_that_are_not_convex_are_cut() {
-    // An L of 3 squares, one high, whose inner corner no fan from its first corner would keep free.
+    // An L of 3 squares, one high, whose inner corner no frusta from its first corner would keep free.
     let outline = [[2, 0], [2, 1], [1, 1], [1, 2], [0, 2], [0, 0]];
     let point = |z: i32| outline.map(|[x, y]| format!("[{x},{y},{z}]")).join(",");
     let sides: Vec<String> =

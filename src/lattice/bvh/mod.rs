@@ -1,12 +1,12 @@
-//! A hierarchy of boxes, eight side by side: what single rays and beams of rays ask at once.
+//! A hierarchy of boxes, eight side by side: what single rays and frustums of rays ask at once.
 //!
 //! Lattice and tree cut space, and point to an object from every cell that it reaches into. Here the objects are
 //! parted instead: each has one place, and boxes may overlap. So nothing is tested twice, memory is known beforehand,
 //! and a node is asked by a few operations on eight numbers each.
 
+mod bounding_sphere;
 mod build;
-mod reach;
-mod round;
+mod build_primitive;
 mod split;
 mod stream;
 mod walk;
@@ -18,15 +18,15 @@ use crate::solid::Assembly;
 
 use super::planes::slack;
 
-use reach::Reach;
+use build_primitive::BuildPrimitive;
 
-pub use round::{ROOM, Round};
-pub use stream::{Meeting, Stream, Ways};
+pub use bounding_sphere::{BoundingSphere, ROOM};
+pub use stream::{Candidate, Stream, StreamRays};
 
 /// Children of a node: as many as the registers of most processors have numbers, of 32 bits each.
 pub const WIDE: usize = 8;
 
-/// How far the sides of boxes are moved outward, so that half the digits are enough to ask whether a ray meets them.
+/// How far the sides of boxes are moved outward, so that single precision are enough to ask whether a ray meets them.
 ///
 /// A ray starts within [`WORLD`](crate::solid::WORLD), 6, of the origin and a box ends within 2.01 of it on each axis, what
 /// may be [`slack`] with it. Rounding to 24 bits moves the start by at most 2⁻²², and the difference, which is below 16,
@@ -39,7 +39,7 @@ const INNER: u32 = 1 << 31;
 
 /// Eight boxes side by side, by axis, so that one operation asks all of them. The first [`Node::len`] slots are
 /// filled, ascending along the longest axis of the node; an empty one has `lo = ∞` and `hi = −∞`, which no ray and no
-/// beam meets.
+/// frustum meets.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct Node {
@@ -49,7 +49,7 @@ pub struct Node {
     children: [u32; WIDE],
     /// Bit `slot` is set where the child is a node.
     inner: u8,
-    /// Bit `slot` is set where the child is a ball ([`Round`]).
+    /// Bit `slot` is set where the child is a ball ([`BoundingSphere`]).
     round: u8,
     len: u8,
 }
@@ -57,7 +57,7 @@ pub struct Node {
 /// What stands in a slot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Child {
-    /// A node, by its index in [`Boxes::nodes`].
+    /// A node, by its index in [`Bvh8::nodes`].
     Node(u32),
     /// An object, by its index in the assembly.
     Object(u32),
@@ -70,14 +70,14 @@ impl Child {
     }
 }
 
-/// The largest number of half the digits that is not above `x`.
+/// The largest number of single precision that is not above `x`.
 #[inline(always)]
 fn lower(x: f64) -> f32 {
     let nearest = x as f32;
     if f64::from(nearest) > x { nearest.next_down() } else { nearest }
 }
 
-/// The smallest number of half the digits that is not below `x`.
+/// The smallest number of single precision that is not below `x`.
 #[inline(always)]
 fn upper(x: f64) -> f32 {
     -lower(-x)
@@ -139,7 +139,7 @@ impl Node {
         Bounds::new(DVec3::from_array(lo.map(f64::from)), DVec3::from_array(hi.map(f64::from)))
     }
 
-    fn push(&mut self, reach: &Reach, child: Child) {
+    fn push(&mut self, reach: &BuildPrimitive, child: Child) {
         let slot = self.len();
         for (axis, [lo, hi]) in self.sides.iter_mut().enumerate() {
             [lo[slot], hi[slot]] = reach.sides(axis);
@@ -160,27 +160,27 @@ impl Node {
 
 /// Boxes around boxes over a whole scene.
 #[derive(Clone, Debug)]
-pub struct Boxes {
+pub struct Bvh8 {
     /// The root is the first.
     nodes: Vec<Node>,
     /// What the processor can do.
     level: Level,
 }
 
-impl Boxes {
+impl Bvh8 {
     /// Parts the objects of an assembly. Their boxes are padded by [`slack`], so that no ray that meets an object by
     /// its own computation misses the object's box by rounding.
     pub fn new(assembly: &Assembly) -> Self {
         let margin = DVec3::splat(slack(assembly.off));
         let objects = &assembly.objects;
         Self::over(objects.len(), |object| {
-            let reach = Reach::new(&objects[object].bounds.padded(margin), object as u32);
-            if Round::is_in(&reach, assembly) { reach.round() } else { reach }
+            let reach = BuildPrimitive::new(&objects[object].bounds.padded(margin), object as u32);
+            if BoundingSphere::is_in(&reach, assembly) { reach.round() } else { reach }
         })
     }
 
     /// The hierarchy over the boxes of so many objects.
-    fn over(count: usize, reach: impl Fn(usize) -> Reach + Send + Sync) -> Self {
+    fn over(count: usize, reach: impl Fn(usize) -> BuildPrimitive + Send + Sync) -> Self {
         let level = Level::new();
         Self { nodes: build::built(level, count, reach), level }
     }

@@ -1,8 +1,8 @@
-//! The frustum around a bundle of rays: what it does not meet, none of the rays meets.
+//! The frustum around a packet of rays: what it does not meet, none of the rays meets.
 
 use fearless_simd::{Simd, SimdBase, SimdMask, f32x8, f64x8};
 
-use crate::math::{Bundle, Column, Columns, DVec3, Number, ROWS};
+use crate::math::{DVec3, LaneVector, Lanes, Number, ROWS, RayPacket};
 use crate::solid::WORLD;
 
 /// A ray within the world, from anywhere that it may start at, has left it after so much of its way: the diameter of
@@ -14,13 +14,13 @@ pub const WAY: f64 = 2.0 * WORLD;
 /// point itself, a product and a sum. Ten roundings, rounded up to 16 half-ulps.
 const ROUNDED: f64 = 8.0 * f64::EPSILON * (WORLD + WAY);
 
-/// What half the digits lose of a dot product with a plane's normal, as a share of what the normal's components add up
+/// What single precision lose of a dot product with a plane's normal, as a share of what the normal's components add up
 /// to: six products and five sums of rounded numbers, for points within 2.01 of the origin on each axis, and the offset:
 /// 14 roundings of numbers up to 2.01, rounded up to 32 · 2⁻²⁴. A difference with the place of a start, which is within
 /// [`WORLD`], takes 16 · 2⁻²⁴ more; but three products and two sums are all that is there before it.
 const LOST: f64 = 32.0 / 16_777_216.0;
 
-/// The least cosine between a ray and the beam's axis: past 78° off the slopes, and with them the planes, say little.
+/// The least cosine between a ray and the frustum's axis: past 78° off the slopes, and with them the planes, say little.
 const COHERENT: f64 = 0.2;
 
 /// A plane; points in front of it have `normal · p ≥ offset`.
@@ -51,7 +51,7 @@ impl Plane {
     }
 }
 
-/// How a bundle of rays spreads.
+/// How a packet of rays spreads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Spread {
     /// From one point, or in no order: planes through the outermost rays.
@@ -60,9 +60,9 @@ pub enum Spread {
     Together,
 }
 
-/// The space that a bundle of rays passes, bounded by planes.
+/// The space that a packet of rays passes, bounded by planes.
 #[derive(Clone, Copy, Debug)]
-pub struct Beam {
+pub struct Frustum {
     sides: [Plane; 4],
     axis: DVec3,
     /// Nothing that lies behind these along the axis is met.
@@ -72,9 +72,9 @@ pub struct Beam {
     start: f64,
 }
 
-/// Boxes that a beam meets, one bit for each, and how near each is at least to any ray's start.
+/// Boxes that a frustum meets, one bit for each, and how near each is at least to any ray's start.
 #[derive(Clone, Copy, Debug)]
-pub struct Met<S: Simd> {
+pub struct FrustumHits<S: Simd> {
     /// The first box is the lowest bit.
     pub boxes: u8,
     /// At least so far away, for each.
@@ -82,10 +82,10 @@ pub struct Met<S: Simd> {
 }
 
 /// Lights farther away than this are no apex for planes: what rounding makes of their place would be a thousandth of what
-/// half the digits lose ([`LOST`]).
+/// single precision lose ([`LOST`]).
 const NEAR: f64 = (1_u32 << 20) as f64;
 
-/// The axis of beams that run together, and two directions across it.
+/// The axis of frustums that run together, and two directions across it.
 #[derive(Clone, Copy, Debug)]
 pub struct Basis {
     axis: DVec3,
@@ -111,13 +111,13 @@ impl Basis {
         Self { axis, across: [u, axis.cross(u)] }
     }
 
-    /// One along the rays of some bundles.
-    fn along<'b>(bundles: impl Iterator<Item = &'b Bundle>) -> Self {
+    /// One along the rays of some packets.
+    fn along<'b>(packets: impl Iterator<Item = &'b RayPacket>) -> Self {
         let mut sum = DVec3::ZERO;
-        for bundle in bundles {
+        for packet in packets {
             // Corners and middle: enough for a direction in between.
             for lane in [0, 7, 27, 36, 56, 63] {
-                sum += bundle.d.get(lane);
+                sum += packet.d.get(lane);
             }
         }
         let axis = sum.normalize_or(DVec3::X);
@@ -129,13 +129,13 @@ impl Basis {
 impl Slopes {
     const NONE: Self = Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2], least: f64::INFINITY };
 
-    /// Those of a closed bundle.
+    /// Those of a closed packet.
     #[inline(always)]
-    fn of<S: Simd>(simd: S, bundle: &Bundle, basis: &Basis) -> Self {
+    fn of<S: Simd>(simd: S, packet: &RayPacket, basis: &Basis) -> Self {
         let infinite = f64x8::splat(simd, f64::INFINITY);
         let (mut low, mut high, mut least) = ([infinite; 2], [-infinite; 2], infinite);
         for row in 0..ROWS {
-            let d = bundle.d.load(simd, row);
+            let d = packet.d.load(simd, row);
             let w = d.dot_one(basis.axis);
             least = w.smaller(least);
             let inverse = w.same(1.0) / w;
@@ -198,28 +198,28 @@ fn through(point: DVec3, normals: [DVec3; 4]) -> [Plane; 4] {
     [plane(a), plane(b), plane(c), plane(d)]
 }
 
-/// The ways of rays to one point, as far as they matter to a beam.
+/// The ways of rays to one point, as far as they matter to a frustum.
 #[derive(Clone, Copy, Debug)]
-struct Ways {
+struct Extents {
     slopes: Slopes,
     /// Where the rays start along the axis.
     nearest: f64,
     farthest: f64,
 }
 
-impl Ways {
+impl Extents {
     const NONE: Self = Self { slopes: Slopes::NONE, nearest: f64::INFINITY, farthest: f64::NEG_INFINITY };
 
     #[inline(always)]
-    fn of<S: Simd>(simd: S, bundle: &Bundle, basis: &Basis) -> Self {
+    fn of<S: Simd>(simd: S, packet: &RayPacket, basis: &Basis) -> Self {
         let infinite = f64x8::splat(simd, f64::INFINITY);
         let (mut nearest, mut farthest) = (infinite, -infinite);
         for row in 0..ROWS {
-            let at = bundle.o.load(simd, row).dot_one(basis.axis);
+            let at = packet.o.load(simd, row).dot_one(basis.axis);
             nearest = at.smaller(nearest);
             farthest = at.larger(farthest);
         }
-        let slopes = Slopes::of(simd, bundle, basis);
+        let slopes = Slopes::of(simd, packet, basis);
         Self { slopes, nearest: lowest(nearest), farthest: highest(farthest) }
     }
 
@@ -231,10 +231,10 @@ impl Ways {
     }
 
     #[inline(always)]
-    fn beam(&self, basis: &Basis, apex: DVec3) -> Beam {
+    fn frustum(&self, basis: &Basis, apex: DVec3) -> Frustum {
         let axis = basis.axis;
         let (at, off) = (axis.dot(apex), margin_at(axis, apex));
-        Beam {
+        Frustum {
             sides: (self.slopes.normals(basis, Spread::Together))
                 .map_or([Plane::NOWHERE; 4], |normals| through(apex, normals)),
             axis,
@@ -246,8 +246,8 @@ impl Ways {
     }
 }
 
-impl Beam {
-    /// The beam of rays from one point, however far away, that lie between four of them. Those that come from far start
+impl Frustum {
+    /// The frustum of rays from one point, however far away, that lie between four of them. Those that come from far start
     /// nearer, after up to `moved` of their way. The sides run along those of `basis`, unless the rays go another way.
     pub fn between(o: DVec3, corners: [DVec3; 4], moved: f64, basis: &Basis) -> Self {
         let (mut basis, mut slopes) = (*basis, Slopes::between(&corners, basis));
@@ -267,56 +267,56 @@ impl Beam {
         Self { sides: through(o, normals), axis, first: at - far, last, start: at + moved + far }
     }
 
-    /// The beams around bundles that all go to one point, each with how far, and the beam around them all. There is none for
+    /// The frustums around packets that all go to one point, each with how far, and the frustum around them all. There is none for
     /// what is absent, or has no live ray.
     #[inline(always)]
     pub fn towards<'b, S: Simd>(
         simd: S,
-        bundles: &(impl Iterator<Item = Option<(&'b Bundle, &'b Column)>> + Clone),
+        packets: &(impl Iterator<Item = Option<(&'b RayPacket, &'b Lanes)>> + Clone),
         apex: DVec3,
-        beams: &mut Vec<Option<Self>>,
+        frustums: &mut Vec<Option<Self>>,
     ) -> Self {
-        beams.clear();
-        let live = || bundles.clone().map(|b| b.filter(|(bundle, _)| bundle.live != 0));
+        frustums.clear();
+        let live = || packets.clone().map(|b| b.filter(|(packet, _)| packet.live != 0));
         if apex.abs().max_element() > NEAR {
-            let far = live().flatten().map(|(bundle, distance)| (bundle, Some(distance)));
+            let far = live().flatten().map(|(packet, distance)| (packet, Some(distance)));
             let all = Self::around(simd, far, Spread::Together);
-            for bundle in live() {
-                beams.push(bundle.map(
+            for packet in live() {
+                frustums.push(packet.map(
                     #[inline(always)]
-                    |(bundle, distance)| {
-                        Self::around(simd, std::iter::once((bundle, Some(distance))), Spread::Together)
+                    |(packet, distance)| {
+                        Self::around(simd, std::iter::once((packet, Some(distance))), Spread::Together)
                     },
                 ));
             }
             return all;
         }
-        let basis = Basis::along(live().flatten().map(|(bundle, _)| bundle));
-        let mut all = Ways::NONE;
-        for bundle in live() {
-            let Some((bundle, _)) = bundle else {
-                beams.push(None);
+        let basis = Basis::along(live().flatten().map(|(packet, _)| packet));
+        let mut all = Extents::NONE;
+        for packet in live() {
+            let Some((packet, _)) = packet else {
+                frustums.push(None);
                 continue;
             };
-            let ways = Ways::of(simd, bundle, &basis);
+            let ways = Extents::of(simd, packet, &basis);
             all.join(&ways);
-            beams.push(Some(ways.beam(&basis, apex)));
+            frustums.push(Some(ways.frustum(&basis, apex)));
         }
-        all.beam(&basis, apex)
+        all.frustum(&basis, apex)
     }
 
-    /// The beam around the live rays of some bundles, as far as `reach` of each.
+    /// The frustum around the live rays of some packets, as far as `reach` of each.
     #[inline(always)]
     pub fn around<'b, S: Simd>(
         simd: S,
-        bundles: impl Iterator<Item = (&'b Bundle, Option<&'b Column>)> + Clone,
+        packets: impl Iterator<Item = (&'b RayPacket, Option<&'b Lanes>)> + Clone,
         spread: Spread,
     ) -> Self {
-        let live = || bundles.clone().filter(|(bundle, _)| bundle.live != 0);
-        let basis = Basis::along(live().map(|(bundle, _)| bundle));
+        let live = || packets.clone().filter(|(packet, _)| packet.live != 0);
+        let basis = Basis::along(live().map(|(packet, _)| packet));
         let mut slopes = Slopes::NONE;
-        for (bundle, _) in live() {
-            slopes.join(&Slopes::of(simd, bundle, &basis));
+        for (packet, _) in live() {
+            slopes.join(&Slopes::of(simd, packet, &basis));
         }
         let axis = basis.axis;
         let coherent = slopes.normals(&basis, spread);
@@ -324,9 +324,9 @@ impl Beam {
         let infinite = f64x8::splat(simd, f64::INFINITY);
         let mut offsets = [infinite; 4];
         let (mut first, mut last, mut start) = (infinite, -infinite, -infinite);
-        for (bundle, reach) in bundles.filter(|(bundle, _)| bundle.live != 0) {
+        for (packet, reach) in packets.filter(|(packet, _)| packet.live != 0) {
             for row in 0..ROWS {
-                let rays = bundle.load(simd, row);
+                let rays = packet.load(simd, row);
                 let mut way = f64x8::splat(simd, WAY);
                 if let Some(reach) = reach {
                     way = reach.load(simd, row).smaller(way);
@@ -364,9 +364,9 @@ impl Beam {
         ([side(a), side(b), side(c), side(d), (self.axis, self.first), (-self.axis, -self.last)], self.start)
     }
 
-    /// Which of eight boxes, by axis, the beam may meet. An empty one, whose sides are the wrong way round, is never met.
+    /// Which of eight boxes, by axis, the frustum may meet. An empty one, whose sides are the wrong way round, is never met.
     #[inline(always)]
-    pub fn meets_boxes<S: Simd>(&self, simd: S, lo: &[f32x8<S>; 3], hi: &[f32x8<S>; 3]) -> Met<S> {
+    pub fn meets_boxes<S: Simd>(&self, simd: S, lo: &[f32x8<S>; 3], hi: &[f32x8<S>; 3]) -> FrustumHits<S> {
         let mut met = lo[0].simd_le(hi[0]);
         for side in &self.sides {
             met &= !side.foremost(lo, hi).simd_lt(f32x8::splat(simd, side.before()));
@@ -377,7 +377,7 @@ impl Beam {
         met &= !farthest.simd_lt(f32x8::splat(simd, forward.before()))
             & !nearest.simd_lt(f32x8::splat(simd, backward.before()));
         let start = (self.start + lost(self.axis)) as f32;
-        Met { boxes: met.to_bitmask() as u8, near: -nearest - start }
+        FrustumHits { boxes: met.to_bitmask() as u8, near: -nearest - start }
     }
 }
 
@@ -393,7 +393,7 @@ fn highest<S: Simd>(x: f64x8<S>) -> f64 {
     x.reduce_max()
 }
 
-/// How far a plane is moved outward where it is compared with half the digits.
+/// How far a plane is moved outward where it is compared in single precision.
 #[inline(always)]
 pub(super) fn lost(normal: DVec3) -> f64 {
     LOST * normal.abs().element_sum()

@@ -1,39 +1,39 @@
-//! The frustums of a tile's bundles, sixteen side by side: which of them may meet one box.
+//! The frustums of a tile's packets, sixteen side by side: which of them may meet one box.
 
 use fearless_simd::{Simd, SimdBase, SimdFloat, SimdMask, f32x16};
 
-use super::beam::{Beam, lost};
+use super::frustum::{Frustum, lost};
 
-/// Frustums in a fan.
-pub const FAN: usize = 16;
+/// Frustums in a frusta.
+pub const FRUSTA: usize = 16;
 
 /// One plane of each frustum.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 struct Planes {
-    normal: [[f32; FAN]; 3],
-    offset: [f32; FAN],
+    normal: [[f32; FRUSTA]; 3],
+    offset: [f32; FRUSTA],
     /// The lengths of the normals, or more.
-    length: [f32; FAN],
+    length: [f32; FRUSTA],
 }
 
 /// Frustums side by side.
 #[derive(Clone, Debug)]
-pub struct Fan {
+pub struct FrustumSoa {
     planes: [Planes; 6],
     /// A point is no nearer to the start of any ray than what it lies behind the last plane, and this.
-    start: [f32; FAN],
+    start: [f32; FRUSTA],
     /// Which frustums are there, a bit for each.
     present: u16,
 }
 
-/// Which frustums of a fan may meet a box, a bit for each, and how near it is at least to the start of any ray of each.
+/// Which frustums of a frusta may meet a box, a bit for each, and how near it is at least to the start of any ray of each.
 #[derive(Clone, Copy, Debug)]
-pub struct FanMet {
+pub struct FrustaHits {
     /// The first is the lowest bit.
     pub frustums: u16,
     /// At least so far away, for each.
-    pub near: [f32; FAN],
+    pub near: [f32; FRUSTA],
 }
 
 impl Planes {
@@ -44,23 +44,24 @@ impl Planes {
     }
 }
 
-impl Default for Fan {
+impl Default for FrustumSoa {
     /// No frustum at all.
     fn default() -> Self {
-        let planes = Planes { normal: [[0.0; FAN]; 3], offset: [f32::INFINITY; FAN], length: [0.0; FAN] };
-        Self { planes: std::array::from_fn(|_| planes.clone()), start: [0.0; FAN], present: 0 }
+        let planes =
+            Planes { normal: [[0.0; FRUSTA]; 3], offset: [f32::INFINITY; FRUSTA], length: [0.0; FRUSTA] };
+        Self { planes: std::array::from_fn(|_| planes.clone()), start: [0.0; FRUSTA], present: 0 }
     }
 }
 
-impl Fan {
-    /// Sets the frustums, up to [`FAN`] of them; those that are absent, or left over, meet nothing.
+impl FrustumSoa {
+    /// Sets the frustums, up to [`FRUSTA`] of them; those that are absent, or left over, meet nothing.
     #[inline(always)]
-    pub fn set<S: Simd>(&mut self, simd: S, beams: &[Option<Beam>]) {
+    pub fn set<S: Simd>(&mut self, simd: S, frustums: &[Option<Frustum>]) {
         self.present = 0;
-        for (lane, beam) in beams.iter().enumerate().take(FAN) {
-            let Some(beam) = beam else { continue };
+        for (lane, frustum) in frustums.iter().enumerate().take(FRUSTA) {
+            let Some(frustum) = frustum else { continue };
             self.present |= 1 << lane;
-            let (planes, start) = beam.planes();
+            let (planes, start) = frustum.planes();
             let backward = planes[5].0;
             for (k, (normal, offset)) in planes.into_iter().enumerate() {
                 let to = &mut self.planes[k];
@@ -82,7 +83,7 @@ impl Fan {
 
     /// Which of the frustums may meet a box.
     #[inline(always)]
-    pub fn meets<S: Simd>(&self, simd: S, lo: [f32; 3], hi: [f32; 3]) -> FanMet {
+    pub fn meets<S: Simd>(&self, simd: S, lo: [f32; 3], hi: [f32; 3]) -> FrustaHits {
         let (lx, hx) = (f32x16::splat(simd, lo[0]), f32x16::splat(simd, hi[0]));
         let (ly, hy) = (f32x16::splat(simd, lo[1]), f32x16::splat(simd, hi[1]));
         let (lz, hz) = (f32x16::splat(simd, lo[2]), f32x16::splat(simd, hi[2]));
@@ -97,12 +98,12 @@ impl Fan {
             last = foremost;
         }
         let near = -last - f32x16::from_slice(simd, &self.start);
-        FanMet { frustums: met as u16, near: near.to_array() }
+        FrustaHits { frustums: met as u16, near: near.to_array() }
     }
 
     /// Which of the frustums may meet a ball. A dot product with a normal takes fewer roundings here than for a box.
     #[inline(always)]
-    pub fn meets_ball<S: Simd>(&self, simd: S, center: [f32; 3], radius: f32) -> FanMet {
+    pub fn meets_ball<S: Simd>(&self, simd: S, center: [f32; 3], radius: f32) -> FrustaHits {
         let [x, y, z] = center;
         let (x, y, z) = (f32x16::splat(simd, x), f32x16::splat(simd, y), f32x16::splat(simd, z));
         let radius = f32x16::splat(simd, radius);
@@ -116,6 +117,6 @@ impl Fan {
             last = foremost;
         }
         let near = -last - f32x16::from_slice(simd, &self.start);
-        FanMet { frustums: met as u16, near: near.to_array() }
+        FrustaHits { frustums: met as u16, near: near.to_array() }
     }
 }

@@ -6,7 +6,7 @@ use fearless_simd::{Simd, SimdBase, SimdMask, dispatch, f32x8};
 
 use crate::math::Ray;
 
-use super::{Boxes, INNER, Node, WIDE, lower, upper};
+use super::{Bvh8, INNER, Node, WIDE, lower, upper};
 
 /// Nodes that may wait in place: at most seven more wait for each node on the way down, and one or two mostly.
 pub(super) const WAITING: usize = 64;
@@ -62,9 +62,9 @@ struct Ahead {
     node: u32,
 }
 
-/// A ray in half the digits.
+/// A ray in single precision.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Way {
+pub(super) struct RayF32 {
     o: [f32; 3],
     /// 1 / d, and the largest number where that is larger.
     ///
@@ -77,7 +77,7 @@ pub(super) struct Way {
     from: f32,
 }
 
-impl Way {
+impl RayF32 {
     #[inline(always)]
     pub fn new(ray: &Ray, from: f64) -> Self {
         let Ray { o, d } = *ray;
@@ -91,16 +91,16 @@ impl Way {
 }
 
 /// A ray as the boxes are asked about it.
-pub(super) struct Asked<S: Simd> {
+pub(super) struct RaySimd<S: Simd> {
     o: [f32x8<S>; 3],
     inverse: [f32x8<S>; 3],
     first: [u32; 3],
     from: f32x8<S>,
 }
 
-impl<S: Simd> Asked<S> {
+impl<S: Simd> RaySimd<S> {
     #[inline(always)]
-    pub fn new(simd: S, way: &Way) -> Self {
+    pub fn new(simd: S, way: &RayF32) -> Self {
         // Not by `map`, nor by a closure, which are compiled by themselves, for any processor.
         let ([ox, oy, oz], [x, y, z]) = (way.o, way.inverse);
         Self {
@@ -133,7 +133,7 @@ impl<S: Simd> Asked<S> {
     }
 }
 
-/// 1 / d, where that is a number of half the digits.
+/// 1 / d, where that is a number of single precision.
 #[inline(always)]
 fn inverse(d: f64) -> f32 {
     if d == 0.0 { f32::MAX } else { (d.recip() as f32).clamp(f32::MIN, f32::MAX) }
@@ -147,7 +147,7 @@ pub(super) fn first_two(bits: u32) -> ([usize; 2], u32) {
     (slots, others & others.wrapping_sub(1))
 }
 
-impl Boxes {
+impl Bvh8 {
     /// Calls `visit` with each object whose box the ray meets between `from` and `to`, and where it enters that box, or
     /// before, until it breaks; of the nodes in a node the nearest first. `visit` returns how far the ray still matters:
     /// boxes that begin beyond that are not visited.
@@ -189,7 +189,7 @@ fn walked<S: Simd, B>(
     cells_visited: &mut u64,
     visit: &mut Visit<B>,
 ) -> Option<B> {
-    let asked = Asked::new(simd, &Way::new(ray, from));
+    let asked = RaySimd::new(simd, &RayF32::new(ray, from));
     let mut end = upper(to);
     let mut waiting = Waiting::new(Ahead { from: 0.0, node: 0 });
     let mut next = Ahead { from: lower(from), node: 0 };
@@ -250,7 +250,7 @@ fn any_walked<S: Simd>(
     cells_visited: &mut u64,
     visit: &mut dyn FnMut(u32) -> bool,
 ) -> bool {
-    let asked = Asked::new(simd, &Way::new(ray, 0.0));
+    let asked = RaySimd::new(simd, &RayF32::new(ray, 0.0));
     let end = f32x8::splat(simd, upper(to));
     let mut waiting = Waiting::new(0);
     let mut next = Some(0);

@@ -9,7 +9,7 @@ use crate::stage::{Counts, StageTimes};
 
 use super::{Frame, Request, Studio};
 
-/// What the rays from the eye met, by the digits in which they were asked.
+/// What the rays from the eye met, by the precision in which they were asked.
 #[derive(Debug, Default)]
 pub(super) struct Hits {
     single: OnceLock<Tiles>,
@@ -20,7 +20,7 @@ pub(super) struct Hits {
 type Tiles = Box<[OnceLock<TileHits>]>;
 
 impl Hits {
-    /// Those that were asked in so many digits, or room for them in as many tiles.
+    /// Those that were asked in this precision, or room for them in as many tiles.
     pub fn of(&self, precision: Precision, tiles: usize) -> &[OnceLock<TileHits>] {
         let kept = match precision {
             Precision::Single => &self.single,
@@ -32,7 +32,7 @@ impl Hits {
 
 /// What is left of the last picture.
 #[derive(Debug)]
-pub(super) struct Kept {
+pub(super) struct FrameCache {
     request: Request,
     /// All that was made of it; absent where the scene has another light since.
     frame: Option<Frame>,
@@ -56,7 +56,7 @@ impl Studio {
     /// nothing of them.
     pub(super) fn reused(&self, request: &Request) -> Reused {
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        let Some(Kept { request: last, frame, hits }) =
+        let Some(FrameCache { request: last, frame, hits }) =
             kept.as_mut().filter(|k| request.has_view_of(&k.request))
         else {
             return Reused::default();
@@ -79,7 +79,7 @@ impl Studio {
 
     /// Keeps a picture in place of the last one.
     pub(super) fn keep(&self, request: &Request, frame: &Frame, hits: Option<Hits>) {
-        let kept = Kept { request: request.clone(), frame: Some(frame.clone()), hits };
+        let kept = FrameCache { request: request.clone(), frame: Some(frame.clone()), hits };
         *self.kept.lock().unwrap_or_else(PoisonError::into_inner) = Some(kept);
     }
 
@@ -90,7 +90,7 @@ impl Studio {
     }
 }
 
-impl Kept {
+impl FrameCache {
     /// Forgets the picture's light, and not what its dots see.
     pub fn forget_light(&mut self) {
         self.frame = None;

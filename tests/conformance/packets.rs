@@ -1,22 +1,22 @@
-//! The fast engine's answers: rays in bundles, and those that are unsure one by one.
+//! The fast engine's answers: rays in packets, and those that are unsure one by one.
 
 use fearless_simd::dispatch;
 use ray13::frame::Frame;
-use ray13::math::{BUNDLE, Bundle, Column, DVec3, Ray, Size};
+use ray13::math::{DVec3, Lanes, PACKET, Ray, RayPacket, Size};
 use ray13::plan::{EngineChoice, Options, PrecisionChoice};
 use ray13::scene::{Camera, Primitive, Scene};
 use ray13::solid::{Departure, Departures};
 use ray13::stage::{Meter, Silent};
-use ray13::trace::{Engine, Fast, Hit, Nearest, Shaft, Shone, TileMemory};
+use ray13::trace::{Engine, Fast, Hit, PacketHits, ShadowPacket, ShadowQuery, TileMemory};
 
 use crate::engine::{Cut, ExactEngine, Found, Range, Start, Subject, drawn};
 
-/// Rays of a bundle here: one less than it can hold, since a whole one is taken for a block of dots, whose corners bound
+/// Rays of a packet here: one less than it can hold, since a whole one is taken for a block of dots, whose corners bound
 /// the rest.
-const RAYS: usize = BUNDLE - 1;
+const RAYS: usize = PACKET - 1;
 
-/// Bundles of a tile.
-const BUNDLES: usize = 16;
+/// Packets of a tile.
+const PACKETS: usize = 16;
 
 /// The fast engine, whatever the cut: it has boxes of its own.
 #[derive(Debug)]
@@ -31,30 +31,30 @@ impl FastEngine {
     fn first_of_tile(&self, rays: &[(Ray, Option<Departure>)], tile: &mut TileMemory) -> Vec<Option<Found>> {
         let engine = self.engine();
         let (mut memory, mut meter) = (engine.memory(), Meter::new(Silent));
-        let (mut bundles, mut from) = (Vec::new(), Vec::new());
+        let (mut packets, mut from) = (Vec::new(), Vec::new());
         for part in rays.chunks(RAYS) {
-            let (mut bundle, mut departures) = (Bundle::EMPTY, Departures::NONE);
+            let (mut packet, mut departures) = (RayPacket::EMPTY, Departures::NONE);
             for (lane, (ray, departure)) in part.iter().enumerate() {
-                bundle.set(lane, ray);
+                packet.set(lane, ray);
                 if let Some(departure) = departure {
                     departures.set(lane, departure);
                 }
             }
-            dispatch!(engine.level(), simd => bundle.close(simd));
-            bundles.push(bundle);
+            dispatch!(engine.level(), simd => packet.close(simd));
+            packets.push(packet);
             from.push(departures);
         }
         let leave = rays.iter().all(|(_, departure)| departure.is_some());
-        let mut ways = vec![[Column::filled(0.0); 2]; bundles.len()];
+        let mut ways = vec![[Lanes::filled(0.0); 2]; packets.len()];
         if !leave {
-            for (bundle, way) in bundles.iter_mut().zip(&mut ways) {
-                engine.approach(bundle, way);
+            for (packet, way) in packets.iter_mut().zip(&mut ways) {
+                engine.approach(packet, way);
             }
         }
-        let mut nearest = vec![Nearest::NOTHING; bundles.len()];
+        let mut nearest = vec![PacketHits::NOTHING; packets.len()];
         let from = leave.then_some(&from[..]);
-        engine.first_of(&bundles, from, &mut nearest, tile);
-        engine.first_apart(&bundles, from, &mut nearest, tile);
+        engine.first_of(&packets, from, &mut nearest, tile);
+        engine.first_apart(&packets, from, &mut nearest, tile);
         let mut answer = |(place, (ray, departure)): (usize, &(Ray, Option<Departure>))| {
             let (k, lane) = (place / RAYS, place % RAYS);
             // What the exact engine says of its error holds for the same bits.
@@ -70,7 +70,7 @@ impl FastEngine {
             t.is_finite().then(|| Hit {
                 t: far.0[lane] + (left.0[lane] + t),
                 error: alone.map_or(0.0, |hit| hit.error),
-                p: bundles[k].ray(lane).at(t),
+                p: packets[k].ray(lane).at(t),
                 object: met.object.0[lane] as u32,
                 primitive: met.primitive.0[lane] as u32,
                 surface: met.surface.0[lane] as u32,
@@ -82,7 +82,7 @@ impl FastEngine {
 
     fn first_of(&self, rays: &[(Ray, Option<Departure>)]) -> Vec<Option<Found>> {
         let mut tile = TileMemory::default();
-        rays.chunks(RAYS * BUNDLES).flat_map(|rays| self.first_of_tile(rays, &mut tile)).collect()
+        rays.chunks(RAYS * PACKETS).flat_map(|rays| self.first_of_tile(rays, &mut tile)).collect()
     }
 }
 
@@ -114,20 +114,20 @@ impl Subject for FastEngine {
         let mut tile = TileMemory::default();
         let mut blocked = |start: &Start, distance: f64| {
             let (ray, departure) = self.0.leaving(start);
-            let distance = distance / self.0.assembly.datum.unit;
-            let mut shaft = Shaft::EMPTY;
-            shaft.rays.set(0, &ray);
-            shaft.distance.0[0] = distance;
-            dispatch!(engine.level(), simd => shaft.close(simd));
+            let distance = distance / self.0.assembly.scene_frame.unit;
+            let mut shadow_packet = ShadowPacket::EMPTY;
+            shadow_packet.rays.set(0, &ray);
+            shadow_packet.distance.0[0] = distance;
+            dispatch!(engine.level(), simd => shadow_packet.close(simd));
             let mut departures = Departures::NONE;
             departures.set(0, &departure);
-            let mut shafts = [shaft];
-            let lamp = Shone { at: ray.at(distance), clarity: &[], dark: &[], lets_through: &[] };
-            engine.blocked_of(&mut shafts, &[departures], &lamp, &mut tile);
-            if shafts[0].unsure & 1 == 1 {
+            let mut shadow_packets = [shadow_packet];
+            let lamp = ShadowQuery { at: ray.at(distance), opacity: &[], dark: &[], lets_through: &[] };
+            engine.blocked_of(&mut shadow_packets, &[departures], &lamp, &mut tile);
+            if shadow_packets[0].unsure & 1 == 1 {
                 return engine.blocked(&ray, departure, distance, &mut memory, &mut meter);
             }
-            shafts[0].blocked & 1 == 1
+            shadow_packets[0].blocked & 1 == 1
         };
         starts.iter().map(|(start, distance)| blocked(start, *distance)).collect()
     }

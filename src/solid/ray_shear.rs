@@ -11,13 +11,13 @@ use robust::{Coord, orient2d};
 use crate::math::{Bounds, DVec3, Number, Ray, Rays};
 
 /// The plane across a ray: two axes of the world sheared along it.
-pub(super) struct Across<'a> {
+pub(super) struct RayShear<'a> {
     ray: &'a Ray,
     axes: [usize; 3],
     shear: [f64; 2],
 }
 
-impl<'a> Across<'a> {
+impl<'a> RayShear<'a> {
     pub fn new(ray: &'a Ray) -> Self {
         let size = ray.d.abs();
         let main = if size.x >= size.y && size.x >= size.z {

@@ -3,11 +3,11 @@
 
 use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
 
-use crate::math::{Bundle, Column, Columns, DVec3, ROWS, Size};
+use crate::math::{DVec3, LaneVector, Lanes, ROWS, RayPacket, Size};
 
 use super::block::{BLOCK, Block};
 use super::direction::all_settled;
-use super::lens::Lens;
+use super::pinhole::PinholeCamera;
 use super::tile::Tile;
 
 /// The corners of a block.
@@ -15,9 +15,9 @@ const CORNERS: usize = 4;
 
 /// The rays from the eye through the dots of one tile, one for each.
 #[derive(Clone, Copy, Debug)]
-pub struct Sight<'a> {
-    /// The lens that they pass.
-    pub lens: &'a Lens,
+pub struct TileCamera<'a> {
+    /// The pinhole camera that they pass.
+    pub pinhole: &'a PinholeCamera,
     /// The dots.
     pub tile: Tile,
     /// How far the rays pass from the middles of their dots, in dots.
@@ -28,26 +28,26 @@ pub struct Sight<'a> {
     pub way: f64,
 }
 
-impl Sight<'_> {
+impl TileCamera<'_> {
     /// How many blocks the tile has, in scan order: at most 16.
     pub fn blocks(&self) -> usize {
         let Size { width, height } = self.tile.size;
         (width.div_ceil(BLOCK) * height.div_ceil(BLOCK)) as usize
     }
 
-    /// One of its blocks, `number` below [`Sight::blocks`], with its corner counted in the tile.
+    /// One of its blocks, `number` below [`TileCamera::blocks`], with its corner counted in the tile.
     pub fn block(&self, number: usize) -> Block {
         let Size { width, height } = self.tile.size;
         let [i, j] = self.place(number);
         Block { corner: [i, j], size: Size::new(BLOCK.min(width - i), BLOCK.min(height - j)) }
     }
 
-    /// Sets a bundle's rays to those of a block.
-    pub fn rays(&self, number: usize, level: Level, bundle: &mut Bundle) {
+    /// Sets a packet's rays to those of a block.
+    pub fn rays(&self, number: usize, level: Level, packet: &mut RayPacket) {
         let [left, top] = self.tile.corner;
         let Block { corner: [i, j], size } = self.block(number);
         let block = Block { corner: [left + i, top + j], size };
-        block.rays(self.lens, self.off, self.eye, self.way, level, bundle);
+        block.rays(self.pinhole, self.off, self.eye, self.way, level, packet);
     }
 
     /// The directions at the corners of the whole tile: the first two are neighbours. All rays lie between them.
@@ -57,20 +57,20 @@ impl Sight<'_> {
         let (x, y) = (f64::from(last(width)), f64::from(last(height)));
         let [left, top] = self.tile.corner.map(|corner| f64::from(corner) + 0.5);
         [[0.0, 0.0], [x, 0.0], [0.0, y], [x, y]].map(|[i, j]| {
-            let d = self.lens.directions(left + i + self.off[0], top + j + self.off[1]);
+            let d = self.pinhole.directions(left + i + self.off[0], top + j + self.off[1]);
             let d = all_settled(d, self.way);
             DVec3::new(d.x, d.y, d.z)
         })
     }
 
-    /// The directions at the corners of each block, which may lie beyond the picture, in the order of [`Sight::ends`]: by
+    /// The directions at the corners of each block, which may lie beyond the picture, in the order of [`TileCamera::ends`]: by
     /// block four numbers of each column.
-    pub fn corners(&self, level: Level, corners: &mut [Column; 3]) {
+    pub fn corners(&self, level: Level, corners: &mut [Lanes; 3]) {
         dispatch!(level, simd => self.all_corners(simd, corners));
     }
 
     #[inline(always)]
-    fn all_corners<S: Simd>(&self, simd: S, corners: &mut [Column; 3]) {
+    fn all_corners<S: Simd>(&self, simd: S, corners: &mut [Lanes; 3]) {
         let last = f64::from(BLOCK - 1);
         let across = f64x8::load_array(simd, [0.0, last, 0.0, last, 0.0, last, 0.0, last]);
         let down = f64x8::load_array(simd, [0.0, 0.0, last, last, 0.0, 0.0, last, last]);
@@ -79,7 +79,7 @@ impl Sight<'_> {
             let [[i, j], [k, l]] = [self.place(2 * row), self.place(2 * row + 1)].map(|p| p.map(f64::from));
             let x = f64x8::load_array(simd, [i, i, i, i, k, k, k, k]) + across;
             let y = f64x8::load_array(simd, [j, j, j, j, l, l, l, l]) + down;
-            let d = self.lens.directions(x + left + self.off[0], y + top + self.off[1]);
+            let d = self.pinhole.directions(x + left + self.off[0], y + top + self.off[1]);
             corners.store(row, all_settled(d, self.way));
         }
     }
@@ -110,24 +110,24 @@ mod tests {
             zoom: 1.0,
         };
         let dots = Size::new(75, 43);
-        let lens = Lens::new(&camera, &Picture { dots, dot_aspect: 1.0 });
+        let pinhole = PinholeCamera::new(&camera, &Picture { dots, dot_aspect: 1.0 });
         for tile in tiles(dots) {
-            let sight = Sight { lens: &lens, tile, off: [0.2, -0.3], eye: camera.eye, way: 10.0 };
-            let mut corners = [Column::filled(0.0); 3];
+            let sight = TileCamera { pinhole: &pinhole, tile, off: [0.2, -0.3], eye: camera.eye, way: 10.0 };
+            let mut corners = [Lanes::filled(0.0); 3];
             sight.corners(Level::new(), &mut corners);
-            let mut bundle = Bundle::EMPTY;
+            let mut packet = RayPacket::EMPTY;
             let mut seen = vec![0; tile.size.area()];
             let on_screen = |d: DVec3| {
-                let depth = d.dot(lens.forward);
-                [d.dot(lens.right) / depth, -d.dot(lens.up) / depth]
+                let depth = d.dot(pinhole.forward);
+                [d.dot(pinhole.right) / depth, -d.dot(pinhole.up) / depth]
             };
             let ends = sight.ends().map(on_screen);
             for k in 0..sight.blocks() {
                 sight.block(k).rows(&tile, |_, dots| dots.for_each(|dot| seen[dot] += 1));
-                sight.rays(k, Level::new(), &mut bundle);
+                sight.rays(k, Level::new(), &mut packet);
                 let own: [_; CORNERS] = std::array::from_fn(|c| on_screen(corners.get(CORNERS * k + c)));
-                for lane in crate::math::lanes(bundle.live) {
-                    let at = on_screen(bundle.d.get(lane));
+                for lane in crate::math::lanes(packet.live) {
+                    let at = on_screen(packet.d.get(lane));
                     for axis in 0..2 {
                         for corners in [&ends, &own] {
                             let (from, to) = (corners[0][axis] - 1e-15, corners[3][axis] + 1e-15);
@@ -135,8 +135,8 @@ mod tests {
                         }
                     }
                 }
-                if bundle.live == u64::MAX {
-                    let whole = [0, 7, 56, 63].map(|lane| bundle.d.get(lane));
+                if packet.live == u64::MAX {
+                    let whole = [0, 7, 56, 63].map(|lane| packet.d.get(lane));
                     let own: [_; CORNERS] = std::array::from_fn(|c| corners.get(CORNERS * k + c));
                     for (a, b) in whole.into_iter().zip(own) {
                         assert!((a - b).length() < 1e-15);

@@ -7,7 +7,7 @@
 use std::sync::OnceLock;
 
 use crate::math::{Bounds, DVec3};
-use crate::solid::{Flat, Left, Primitive, Pruning, Remains};
+use crate::solid::{Classification, ExprView, Primitive, PrunedExpr, Pruning};
 
 /// An expression of fewer primitives is pruned as it is.
 pub const MANY: usize = 24;
@@ -20,17 +20,17 @@ const LEVELS: usize = 4;
 struct Level {
     side: usize,
     /// None where there is no surface: all is inside, or outside.
-    cells: Vec<OnceLock<Option<Remains>>>,
+    cells: Vec<OnceLock<Option<PrunedExpr>>>,
 }
 
 /// The cells of one object.
 #[derive(Debug)]
-pub struct Loose {
+pub struct LooseOctree {
     bounds: Bounds,
     levels: Vec<Level>,
 }
 
-impl Loose {
+impl LooseOctree {
     /// The cells of an object within `bounds`, none of which is made yet.
     pub fn new(bounds: Bounds) -> Self {
         let level = |depth: usize| {
@@ -42,7 +42,12 @@ impl Loose {
 
     /// What is left of `whole`, the object's expression, in a cell that holds the box `b`; `whole` itself where no cell
     /// does, and none where there is no surface in the cell.
-    pub fn around<'l>(&'l self, whole: Flat<'l>, primitives: &[Primitive], b: &Bounds) -> Option<Flat<'l>> {
+    pub fn around<'l>(
+        &'l self,
+        whole: ExprView<'l>,
+        primitives: &[Primitive],
+        b: &Bounds,
+    ) -> Option<ExprView<'l>> {
         let size = self.bounds.hi - self.bounds.lo;
         let (wide, middle) = (b.hi - b.lo, (b.center() - self.bounds.lo) / size);
         let mut best = whole;
@@ -60,11 +65,11 @@ impl Loose {
             }
             let [x, y, z] = place.to_array().map(|x| x as usize);
             let left = level.cells[(z * level.side + y) * level.side + x].get_or_init(|| {
-                let mut remains = Remains::default();
+                let mut remains = PrunedExpr::default();
                 let some = best.pruned(primitives, &cell, &mut Pruning::default(), &mut remains);
-                (some == Left::Some).then_some(remains)
+                (some == Classification::Some).then_some(remains)
             });
-            best = Flat::from(left.as_ref()?);
+            best = ExprView::from(left.as_ref()?);
         }
         Some(best)
     }

@@ -1,12 +1,12 @@
-//! The rays of a bundle in half the digits: which of them certainly miss a ball, a box or a bar, sixteen at a time.
+//! The rays of a packet in single precision: which of them certainly miss a ball, a box or a bar, sixteen at a time.
 //!
-//! Most rays of a bundle that are asked about a small solid miss it. They are told apart by numbers of 24 bits, with a
+//! Most rays of a packet that are asked about a small solid miss it. They are told apart by numbers of 24 bits, with a
 //! bound on what these lose, and only the others are computed in full.
 
 use fearless_simd::{Select, Simd, SimdBase, SimdMask, f32x16};
 
-use crate::lattice::{ROOM, Round};
-use crate::math::{BUNDLE, Bundle, DVec3};
+use crate::lattice::{BoundingSphere, ROOM};
+use crate::math::{DVec3, PACKET, RayPacket};
 use crate::solid::Bar;
 
 use super::walk::wide;
@@ -14,14 +14,14 @@ use super::walk::wide;
 /// Rays in a register.
 const WIDTH: usize = 16;
 
-/// Registers of rays in a bundle.
-const THIN_ROWS: usize = BUNDLE / WIDTH;
+/// Registers of rays in a packet.
+const THIN_ROWS: usize = PACKET / WIDTH;
 
 /// Half an ulp of a number near 1.
 const HALF_ULP: f64 = 1.0 / 16_777_216.0;
 
-/// What may be lost of the distance between a ray and a point, as a share of the way from the bundle's first ray to
-/// that point and of how far the bundle's rays start from each other: the start and the point are rounded (2 units of
+/// What may be lost of the distance between a ray and a point, as a share of the way from the packet's first ray to
+/// that point and of how far the packet's rays start from each other: the start and the point are rounded (2 units of
 /// 2⁻²⁴), their difference (1), the dot product and its share of the direction (each three products, two sums and a
 /// rounded direction: 2 · 6), the product and the sum that move the start (2), and the square (4) and its root (half of
 /// that): 24, rounded up to 32.
@@ -50,25 +50,25 @@ const STILL: f32 = 1.0 / (1_u128 << 100) as f32;
 /// Rays within the world start within this; what starts elsewhere, or nowhere, is asked in full.
 const WITHIN: f32 = 8.0;
 
-/// Rays of a bundle, seen from the start of its first.
+/// Rays of a packet, seen from the start of its first.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
-pub struct Thin {
-    o: [[f32; BUNDLE]; 3],
-    d: [[f32; BUNDLE]; 3],
+pub struct PacketCuller {
+    o: [[f32; PACKET]; 3],
+    d: [[f32; PACKET]; 3],
     /// Where they start, seen from the origin.
-    start: [[f32; BUNDLE]; 3],
+    start: [[f32; PACKET]; 3],
     /// The inverse of the direction, and the moment `o × d`.
-    inverse: [[f32; BUNDLE]; 3],
-    moment: [[f32; BUNDLE]; 3],
+    inverse: [[f32; PACKET]; 3],
+    moment: [[f32; PACKET]; 3],
     /// How far each looks.
-    limit: [f32; BUNDLE],
+    limit: [f32; PACKET],
     base: DVec3,
     /// How far the others start from there at most, added up over the axes.
     extent: f64,
     /// The rays that are to be asked in full, whatever they are asked about.
     odd: u64,
-    /// Whether these are the rays of a bundle, not yet forgotten; and whether what balls, boxes and bars ask for is known.
+    /// Whether these are the rays of a packet, not yet forgotten; and whether what balls, boxes and bars ask for is known.
     known: bool,
     points_known: bool,
     lines_known: bool,
@@ -91,15 +91,15 @@ impl<S: Simd> Slabs<S> {
     }
 }
 
-impl Thin {
+impl PacketCuller {
     /// No rays.
     pub const EMPTY: Self = Self {
-        o: [[0.0; BUNDLE]; 3],
-        d: [[0.0; BUNDLE]; 3],
-        start: [[0.0; BUNDLE]; 3],
-        inverse: [[0.0; BUNDLE]; 3],
-        moment: [[0.0; BUNDLE]; 3],
-        limit: [0.0; BUNDLE],
+        o: [[0.0; PACKET]; 3],
+        d: [[0.0; PACKET]; 3],
+        start: [[0.0; PACKET]; 3],
+        inverse: [[0.0; PACKET]; 3],
+        moment: [[0.0; PACKET]; 3],
+        limit: [0.0; PACKET],
         base: DVec3::ZERO,
         extent: 0.0,
         odd: 0,
@@ -119,31 +119,31 @@ impl Thin {
         self.known = false;
     }
 
-    /// The rays of a closed bundle, which look as far as they can.
+    /// The rays of a closed packet, which look as far as they can.
     #[inline(always)]
-    pub fn set(&mut self, bundle: &Bundle) {
+    pub fn set(&mut self, packet: &RayPacket) {
         self.known = true;
         (self.points_known, self.lines_known, self.moments_known) = (false, false, false);
-        self.limit = [f32::INFINITY; BUNDLE];
+        self.limit = [f32::INFINITY; PACKET];
         for axis in 0..3 {
-            for lane in 0..BUNDLE {
-                self.d[axis][lane] = bundle.d[axis].0[lane] as f32;
+            for lane in 0..PACKET {
+                self.d[axis][lane] = packet.d[axis].0[lane] as f32;
             }
         }
     }
 
     /// Makes the same rays known for what only balls and bars ask for.
     #[inline(always)]
-    pub fn set_points<S: Simd>(&mut self, simd: S, bundle: &Bundle) {
+    pub fn set_points<S: Simd>(&mut self, simd: S, packet: &RayPacket) {
         if std::mem::replace(&mut self.points_known, true) {
             return;
         }
         self.extent = 0.0;
         for axis in 0..3 {
-            let base = bundle.o[axis].0[0];
+            let base = packet.o[axis].0[0];
             self.base[axis] = base;
-            for lane in 0..BUNDLE {
-                self.o[axis][lane] = (bundle.o[axis].0[lane] - base) as f32;
+            for lane in 0..PACKET {
+                self.o[axis][lane] = (packet.o[axis].0[lane] - base) as f32;
             }
             let mut most = f32x16::splat(simd, 0.0);
             for row in 0..THIN_ROWS {
@@ -157,7 +157,7 @@ impl Thin {
     /// The rays look no farther than this, and what is lost of it.
     #[inline(always)]
     pub fn look(&mut self, limit: impl Fn(usize) -> f64) {
-        for lane in 0..BUNDLE {
+        for lane in 0..PACKET {
             // Rounded twice, by half an ulp.
             self.limit[lane] = limit(lane) as f32 * (1.0 + 2.0 * f32::EPSILON);
         }
@@ -165,14 +165,14 @@ impl Thin {
 
     /// Makes the same rays known for what only boxes ask for.
     #[inline(always)]
-    pub fn set_lines<S: Simd>(&mut self, simd: S, bundle: &Bundle) {
+    pub fn set_lines<S: Simd>(&mut self, simd: S, packet: &RayPacket) {
         if std::mem::replace(&mut self.lines_known, true) {
             return;
         }
         self.odd = 0;
         for axis in 0..3 {
-            for lane in 0..BUNDLE {
-                self.start[axis][lane] = bundle.o[axis].0[lane] as f32;
+            for lane in 0..PACKET {
+                self.start[axis][lane] = packet.o[axis].0[lane] as f32;
             }
         }
         let (one, still) = (f32x16::splat(simd, 1.0), f32x16::splat(simd, STILL));
@@ -190,11 +190,11 @@ impl Thin {
 
     /// Makes the same rays, which are known to balls and boxes, known for what only bars ask for.
     #[inline(always)]
-    fn set_moments<S: Simd>(&mut self, simd: S, bundle: &Bundle) {
+    fn set_moments<S: Simd>(&mut self, simd: S, packet: &RayPacket) {
         if std::mem::replace(&mut self.moments_known, true) {
             return;
         }
-        self.set_points(simd, bundle);
+        self.set_points(simd, packet);
         for row in 0..THIN_ROWS {
             let [o, d] = [
                 [row_of(simd, &self.o[0], row), row_of(simd, &self.o[1], row), row_of(simd, &self.o[2], row)],
@@ -212,7 +212,7 @@ impl Thin {
     /// others do not. And which certainly go into it ahead of their starts, and before the end of what they look at. The rays are
     /// [known](Self::set_points) as points.
     #[inline(always)]
-    pub fn ball<S: Simd>(&self, simd: S, round: &Round, slack: f64, wanted: u64) -> (u64, u64) {
+    pub fn ball<S: Simd>(&self, simd: S, round: &BoundingSphere, slack: f64, wanted: u64) -> (u64, u64) {
         let from_base = wide(round.center) - self.base;
         let lost = LOST * (from_base.abs().element_sum() + self.extent);
         let (outer, inner) = (f64::from(round.outer) + lost, f64::from(round.inner) - lost);
@@ -299,8 +299,15 @@ impl Thin {
     /// Those of some rays whose lines may come within a bar's radius of its axis, be it as long as it will; all others do
     /// not.
     #[inline(always)]
-    pub fn beside<S: Simd>(&mut self, simd: S, bundle: &Bundle, bar: &Bar, slack: f64, wanted: u64) -> u64 {
-        self.set_moments(simd, bundle);
+    pub fn beside<S: Simd>(
+        &mut self,
+        simd: S,
+        packet: &RayPacket,
+        bar: &Bar,
+        slack: f64,
+        wanted: u64,
+    ) -> u64 {
+        self.set_moments(simd, packet);
         let (from_base, along, radius) = (bar.middle - self.base, bar.along, bar.radius + slack);
         // The product of two lines, by their moments, is their distance times the sine of the angle between them.
         let moment = along.cross(from_base);
@@ -339,7 +346,7 @@ fn splats<S: Simd>(simd: S, v: DVec3) -> [f32x16<S>; 3] {
 
 /// Sixteen of a number of each ray.
 #[inline(always)]
-fn row_of<S: Simd>(simd: S, numbers: &[f32; BUNDLE], row: usize) -> f32x16<S> {
+fn row_of<S: Simd>(simd: S, numbers: &[f32; PACKET], row: usize) -> f32x16<S> {
     f32x16::from_slice(simd, &numbers[row * WIDTH..][..WIDTH])
 }
 
@@ -352,7 +359,7 @@ mod tests {
     use crate::math::Ray;
 
     fn point() -> impl Strategy<Value = DVec3> {
-        // Round numbers make rays along axes, and along the sides of boxes.
+        // BoundingSphere numbers make rays along axes, and along the sides of boxes.
         let coordinate = || prop_oneof![-2.0..2.0_f64, (-4..=4_i8).prop_map(|i| f64::from(i) / 2.0)];
         (coordinate(), coordinate(), coordinate()).prop_map(|(x, y, z)| DVec3::new(x, y, z))
     }
@@ -360,13 +367,13 @@ mod tests {
     proptest! {
         #[test]
         fn whoever_goes_through_a_point_of_a_solid_is_asked(
-            starts in prop::collection::vec((point(), point(), point(), 0..4_usize), BUNDLE),
+            starts in prop::collection::vec((point(), point(), point(), 0..4_usize), PACKET),
             (a, b) in (point(), point()),
             radius in 1e-6..0.1_f64,
         ) {
             let (lo, hi) = (a.min(b), a.max(b));
             let (middle, along) = (0.5 * a + 0.5 * b, (b - a).normalize_or_zero());
-            let mut bundle = Bundle::EMPTY;
+            let mut packet = RayPacket::EMPTY;
             let mut expected = [0_u64; 3];
             for (lane, &(o, to, free, kind)) in starts.iter().enumerate() {
                 let share = (to + 2.0) / 4.0;
@@ -377,31 +384,31 @@ mod tests {
                     2 => middle + free.normalize_or_zero() * (radius * share.y),
                     _ => to,
                 };
-                bundle.set(lane, &Ray::new(o, (target - o).normalize_or(DVec3::X)));
+                packet.set(lane, &Ray::new(o, (target - o).normalize_or(DVec3::X)));
                 if kind < 3 && target != o {
                     expected[kind] |= 1 << lane;
                 }
             }
             let bar = Bar { middle, along, radius };
             // As a box tells of a ball: its numbers are rounded.
-            let round = Round {
+            let round = BoundingSphere {
                 center: [middle.x as f32, middle.y as f32, middle.z as f32],
                 outer: (radius + ROOM) as f32,
                 inner: (radius - 2.0 * ROOM) as f32,
             };
             for level in [Level::new(), Level::baseline()] {
-                let mut thin = Thin::EMPTY;
+                let mut thin = PacketCuller::EMPTY;
                 let (asked, inside) = dispatch!(level, simd => {
-                    thin.set(&bundle);
-                    thin.set_points(simd, &bundle);
-                    thin.set_lines(simd, &bundle);
+                    thin.set(&packet);
+                    thin.set_points(simd, &packet);
+                    thin.set_lines(simd, &packet);
                     let slabs = Slabs::around(simd, lo, hi, 0.0);
                     let all = u64::MAX;
                     let (near, inside) = thin.ball(simd, &round, 0.0, all);
-                    ([thin.passing(simd, &slabs, all), thin.beside(simd, &bundle, &bar, 0.0, all), near], inside)
+                    ([thin.passing(simd, &slabs, all), thin.beside(simd, &packet, &bar, 0.0, all), near], inside)
                 });
                 for lane in crate::math::lanes(inside) {
-                    let Ray { o, d } = bundle.ray(lane);
+                    let Ray { o, d } = packet.ray(lane);
                     let to_middle = middle - o;
                     let t = to_middle.dot(d);
                     let depth = radius * radius - (to_middle - t * d).length_squared();
@@ -425,20 +432,20 @@ mod tests {
 
     #[test]
     fn a_ball_is_known_to_be_met_and_to_be_missed_but_for_its_rim() {
-        let mut bundle = Bundle::EMPTY;
-        for lane in 0..BUNDLE {
+        let mut packet = RayPacket::EMPTY;
+        for lane in 0..PACKET {
             let aim = DVec3::new((lane % 8) as f64 / 8.0, (lane / 8) as f64 / 8.0, 0.0);
-            bundle.set(
+            packet.set(
                 lane,
                 &Ray::new(DVec3::new(0.4, 0.4, -1.0), (aim - DVec3::new(0.4, 0.4, -1.0)).normalize()),
             );
         }
-        let round = Round { center: [0.5, 0.5, 0.0], outer: 0.3, inner: 0.3 - 4.0 * ROOM as f32 };
-        let mut thin = Thin::EMPTY;
+        let round = BoundingSphere { center: [0.5, 0.5, 0.0], outer: 0.3, inner: 0.3 - 4.0 * ROOM as f32 };
+        let mut thin = PacketCuller::EMPTY;
         let mut asked = |limit: f64| {
             dispatch!(Level::new(), simd => {
-                thin.set(&bundle);
-                    thin.set_points(simd, &bundle);
+                thin.set(&packet);
+                    thin.set_points(simd, &packet);
                 thin.look(|_| limit);
                 thin.ball(simd, &round, 0.0, u64::MAX)
             })
@@ -453,18 +460,18 @@ mod tests {
 
     #[test]
     fn most_rays_miss_what_is_small_or_lies_behind_what_they_met() {
-        let mut bundle = Bundle::EMPTY;
-        for lane in 0..BUNDLE {
+        let mut packet = RayPacket::EMPTY;
+        for lane in 0..PACKET {
             let aim = DVec3::new((lane % 8) as f64 / 8.0, (lane / 8) as f64 / 8.0, 1.0);
-            bundle.set(lane, &Ray::new(DVec3::new(0.4, 0.4, -1.0), (aim - DVec3::Z).normalize_or(DVec3::Z)));
+            packet.set(lane, &Ray::new(DVec3::new(0.4, 0.4, -1.0), (aim - DVec3::Z).normalize_or(DVec3::Z)));
         }
         let (lo, hi) = (DVec3::new(0.6, 0.4, -1.1), DVec3::new(0.7, 0.5, -0.9));
-        let mut thin = Thin::EMPTY;
+        let mut thin = PacketCuller::EMPTY;
         let mut asked = |limit: f64| {
             dispatch!(Level::new(), simd => {
-                thin.set(&bundle);
-                    thin.set_points(simd, &bundle);
-                thin.set_lines(simd, &bundle);
+                thin.set(&packet);
+                    thin.set_points(simd, &packet);
+                thin.set_lines(simd, &packet);
                 thin.look(|_| limit);
                 thin.passing(simd, &Slabs::around(simd, lo, hi, 0.0), u64::MAX).count_ones()
             })
@@ -472,12 +479,12 @@ mod tests {
         assert!((1..32).contains(&asked(f64::INFINITY)));
         assert_eq!(asked(0.19), 0);
         // What is no number is asked in full.
-        bundle.d[0].0[5] = f64::NAN;
-        let mut thin = Thin::EMPTY;
+        packet.d[0].0[5] = f64::NAN;
+        let mut thin = PacketCuller::EMPTY;
         let asked = dispatch!(Level::new(), simd => {
-            thin.set(&bundle);
-                    thin.set_points(simd, &bundle);
-            thin.set_lines(simd, &bundle);
+            thin.set(&packet);
+                    thin.set_points(simd, &packet);
+            thin.set_lines(simd, &packet);
             thin.passing(simd, &Slabs::around(simd, lo, hi, 0.0), u64::MAX)
         });
         assert_eq!(asked >> 5 & 1, 1);

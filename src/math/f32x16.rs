@@ -4,18 +4,18 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdMask, f32x16, mask32x16};
 
-use super::digits::{Row, Wide};
 use super::number::{Mask, Number};
+use super::real::{SimdReal, SimdRegister};
 
 /// Numbers of 24 bits; what they are computed with is rounded to that first.
 #[derive(Clone, Copy, Debug)]
-pub struct Singles<S: Simd>(f32x16<S>);
+pub struct F32x16<S: Simd>(f32x16<S>);
 
 /// Answers to a question about each.
 #[derive(Clone, Copy, Debug)]
-pub struct SingleAnswers<S: Simd>(mask32x16<S>);
+pub struct F32x16Mask<S: Simd>(mask32x16<S>);
 
-impl<S: Simd> Neg for Singles<S> {
+impl<S: Simd> Neg for F32x16<S> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -25,14 +25,14 @@ impl<S: Simd> Neg for Singles<S> {
 
 macro_rules! operators {
     ($($trait:ident $name:ident $op:tt;)*) => {$(
-        impl<S: Simd> $trait for Singles<S> {
+        impl<S: Simd> $trait for F32x16<S> {
             type Output = Self;
             #[inline(always)]
             fn $name(self, other: Self) -> Self {
                 Self(self.0 $op other.0)
             }
         }
-        impl<S: Simd> $trait<f64> for Singles<S> {
+        impl<S: Simd> $trait<f64> for F32x16<S> {
             type Output = Self;
             #[inline(always)]
             fn $name(self, other: f64) -> Self {
@@ -48,11 +48,11 @@ operators! {
     Div div /;
 }
 
-impl<S: Simd> Number for Singles<S> {
-    type Mask = SingleAnswers<S>;
+impl<S: Simd> Number for F32x16<S> {
+    type Mask = F32x16Mask<S>;
 
-    const COARSER: f64 = <f32 as super::Digits>::COARSER;
-    const DECIDES: bool = <f32 as super::Digits>::DECIDES;
+    const COARSER: f64 = <f32 as super::Real>::COARSER;
+    const DECIDES: bool = <f32 as super::Real>::DECIDES;
     const LEAST: f64 = f32::MIN_POSITIVE as f64;
 
     #[inline(always)]
@@ -76,29 +76,29 @@ impl<S: Simd> Number for Singles<S> {
         Self(self.0.mul_add_precise(factor.0, term.0))
     }
     #[inline(always)]
-    fn is_below(self, other: Self) -> SingleAnswers<S> {
-        SingleAnswers(self.0.simd_lt(other.0))
+    fn is_below(self, other: Self) -> F32x16Mask<S> {
+        F32x16Mask(self.0.simd_lt(other.0))
     }
     #[inline(always)]
-    fn is_at_most(self, other: Self) -> SingleAnswers<S> {
-        SingleAnswers(self.0.simd_le(other.0))
+    fn is_at_most(self, other: Self) -> F32x16Mask<S> {
+        F32x16Mask(self.0.simd_le(other.0))
     }
     #[inline(always)]
-    fn is_above(self, other: Self) -> SingleAnswers<S> {
-        SingleAnswers(self.0.simd_gt(other.0))
+    fn is_above(self, other: Self) -> F32x16Mask<S> {
+        F32x16Mask(self.0.simd_gt(other.0))
     }
     #[inline(always)]
-    fn is_at_least(self, other: Self) -> SingleAnswers<S> {
-        SingleAnswers(self.0.simd_ge(other.0))
+    fn is_at_least(self, other: Self) -> F32x16Mask<S> {
+        F32x16Mask(self.0.simd_ge(other.0))
     }
     #[inline(always)]
-    fn is_equal(self, other: Self) -> SingleAnswers<S> {
-        SingleAnswers(self.0.simd_eq(other.0))
+    fn is_equal(self, other: Self) -> F32x16Mask<S> {
+        F32x16Mask(self.0.simd_eq(other.0))
     }
 }
 
-impl<S: Simd> Row for Singles<S> {
-    type Digits = f32;
+impl<S: Simd> SimdRegister for F32x16<S> {
+    type Real = f32;
 
     #[inline(always)]
     fn put_into(self, row: &mut [f32]) {
@@ -114,7 +114,7 @@ impl<S: Simd> Row for Singles<S> {
     }
 }
 
-impl<S: Simd> Wide<S> for Singles<S> {
+impl<S: Simd> SimdReal<S> for F32x16<S> {
     #[inline(always)]
     fn all(simd: S, x: f64) -> Self {
         Self(f32x16::splat(simd, x as f32))
@@ -124,15 +124,15 @@ impl<S: Simd> Wide<S> for Singles<S> {
         Self(f32x16::from_slice(simd, row))
     }
     #[inline(always)]
-    fn answers(simd: S, bits: u64) -> SingleAnswers<S> {
-        SingleAnswers(mask32x16::from_bitmask(simd, bits))
+    fn answers(simd: S, bits: u64) -> F32x16Mask<S> {
+        F32x16Mask(mask32x16::from_bitmask(simd, bits))
     }
 }
 
-impl<S: Simd> Mask<Singles<S>> for SingleAnswers<S> {
+impl<S: Simd> Mask<F32x16<S>> for F32x16Mask<S> {
     #[inline(always)]
-    fn choose(self, yes: Singles<S>, no: Singles<S>) -> Singles<S> {
-        Singles(self.0.select(yes.0, no.0))
+    fn choose(self, yes: F32x16<S>, no: F32x16<S>) -> F32x16<S> {
+        F32x16(self.0.select(yes.0, no.0))
     }
     #[inline(always)]
     fn any(self) -> bool {
@@ -144,7 +144,7 @@ impl<S: Simd> Mask<Singles<S>> for SingleAnswers<S> {
     }
 }
 
-impl<S: Simd> BitAnd for SingleAnswers<S> {
+impl<S: Simd> BitAnd for F32x16Mask<S> {
     type Output = Self;
     #[inline(always)]
     fn bitand(self, other: Self) -> Self {
@@ -152,7 +152,7 @@ impl<S: Simd> BitAnd for SingleAnswers<S> {
     }
 }
 
-impl<S: Simd> BitOr for SingleAnswers<S> {
+impl<S: Simd> BitOr for F32x16Mask<S> {
     type Output = Self;
     #[inline(always)]
     fn bitor(self, other: Self) -> Self {
@@ -160,7 +160,7 @@ impl<S: Simd> BitOr for SingleAnswers<S> {
     }
 }
 
-impl<S: Simd> Not for SingleAnswers<S> {
+impl<S: Simd> Not for F32x16Mask<S> {
     type Output = Self;
     #[inline(always)]
     fn not(self) -> Self {

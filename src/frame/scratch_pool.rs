@@ -5,9 +5,9 @@ use std::sync::{Mutex, PoisonError};
 
 /// What workers have given back, of any type.
 #[derive(Debug, Default)]
-pub(super) struct Spare(Mutex<Vec<Box<dyn Any + Send>>>);
+pub(super) struct ScratchPool(Mutex<Vec<Box<dyn Any + Send>>>);
 
-impl Spare {
+impl ScratchPool {
     /// Memory of this type that was given back, or new.
     pub fn take<T: Any + Send + Default>(&self) -> T {
         let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
@@ -27,7 +27,7 @@ mod tests {
 
     #[test]
     fn what_was_given_back_is_taken_again_by_its_type() {
-        let spare = Spare::default();
+        let spare = ScratchPool::default();
         spare.give_back(vec![7_u8]);
         assert!(spare.take::<Vec<u16>>().is_empty());
         assert_eq!(spare.take::<Vec<u8>>(), vec![7_u8]);

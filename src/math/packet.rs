@@ -2,78 +2,78 @@
 
 use fearless_simd::{Simd, SimdBase, SimdMask, mask64x8};
 
-use super::digits::{Answers, Digits, Row, Wide};
 use super::number::{LANES, Mask};
+use super::real::{Real, RealMask, SimdReal, SimdRegister};
 use super::vector::{Rays, Vector};
 use super::{DVec3, Ray};
 
-/// How many rays a bundle has at most: one bit of a word for each, and one register of numbers for each eighth.
-pub const BUNDLE: usize = 64;
+/// How many rays a packet has at most: one bit of a word for each, and one register of numbers for each eighth.
+pub const PACKET: usize = 64;
 
-/// Registers of numbers in a bundle.
-pub const ROWS: usize = BUNDLE / LANES;
+/// Registers of numbers in a packet.
+pub const ROWS: usize = PACKET / LANES;
 
 /// The most numbers of a row.
 const MOST_LANES: usize = 2 * LANES;
 
-/// One number of each ray of a bundle.
+/// One number of each ray of a packet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
-pub struct Column<T = f64>(pub [T; BUNDLE]);
+pub struct Lanes<T = f64>(pub [T; PACKET]);
 
 /// Rays side by side.
 #[derive(Clone, Debug)]
-pub struct Bundle<T = f64> {
+pub struct RayPacket<T = f64> {
     /// Where they start, by axis.
-    pub o: [Column<T>; 3],
+    pub o: [Lanes<T>; 3],
     /// Where they go, by axis.
-    pub d: [Column<T>; 3],
+    pub d: [Lanes<T>; 3],
     /// Which are there, the first the lowest bit. The numbers of the others are those of one that is.
     pub live: u64,
 }
 
-impl<T: Copy> Column<T> {
+impl<T: Copy> Lanes<T> {
     /// The same for all.
     #[inline]
     pub const fn filled(x: T) -> Self {
-        Self([x; BUNDLE])
+        Self([x; PACKET])
     }
 }
 
-impl<T: Digits> Column<T> {
-    /// Those of row `row`, below [`Digits::ROWS`], in a register.
+impl<T: Real> Lanes<T> {
+    /// Those of row `row`, below [`Real::ROWS`], in a register.
     #[inline(always)]
-    pub fn load<S: Simd>(&self, simd: S, row: usize) -> T::Wide<S> {
-        T::Wide::<S>::of_row(simd, &self.0[row * T::LANES..][..T::LANES])
+    pub fn load<S: Simd>(&self, simd: S, row: usize) -> T::SimdReal<S> {
+        T::SimdReal::<S>::of_row(simd, &self.0[row * T::LANES..][..T::LANES])
     }
 
     /// The numbers of a row of `U`, below `U::ROWS`, each rounded to the nearest `U`.
     #[inline(always)]
-    pub fn load_nearest<U: Digits, S: Simd>(&self, simd: S, row: usize) -> U::Wide<S> {
+    pub fn load_nearest<U: Real, S: Simd>(&self, simd: S, row: usize) -> U::SimdReal<S> {
         let mut numbers = [U::ZERO; MOST_LANES];
         let own = &self.0[row * U::LANES..][..U::LANES];
         for (to, from) in numbers.iter_mut().zip(own) {
             *to = U::nearest((*from).into());
         }
-        U::Wide::<S>::of_row(simd, &numbers[..U::LANES])
+        U::SimdReal::<S>::of_row(simd, &numbers[..U::LANES])
     }
 
     /// Sets a row of them.
     #[inline(always)]
-    pub fn store(&mut self, row: usize, x: impl Row<Digits = T>) {
+    pub fn store(&mut self, row: usize, x: impl SimdRegister<Real = T>) {
         x.put_into(&mut self.0[row * T::LANES..][..T::LANES]);
     }
 
     /// Sets some of a row.
     #[inline(always)]
-    pub fn put<S: Simd>(&mut self, simd: S, row: usize, which: Answers<T, S>, x: T::Wide<S>) {
+    pub fn put<S: Simd>(&mut self, simd: S, row: usize, which: RealMask<T, S>, x: T::SimdReal<S>) {
         self.store(row, which.choose(x, self.load(simd, row)));
     }
 
     /// Gives those whose bit is not among `kept` the number of another, `from`.
     #[inline(always)]
     pub fn fill_rest<S: Simd>(&mut self, simd: S, kept: u64, from: usize) {
-        let x = T::Wide::<S>::all(simd, self.0[from].into());
+        let x = T::SimdReal::<S>::all(simd, self.0[from].into());
         for row in 0..T::ROWS {
             if T::has_any(!kept, row) {
                 self.put(simd, row, T::row_of(simd, !kept, row), x);
@@ -83,14 +83,14 @@ impl<T: Digits> Column<T> {
 
     /// Sets each to the nearest of another's.
     #[inline(always)]
-    pub fn set_nearest<U: Digits>(&mut self, other: &Column<U>) {
+    pub fn set_nearest<U: Real>(&mut self, other: &Lanes<U>) {
         for (to, from) in self.0.iter_mut().zip(&other.0) {
             *to = T::nearest((*from).into());
         }
     }
 }
 
-impl Column {
+impl Lanes {
     /// Eight of them: those of row `row`, below [`ROWS`].
     #[inline(always)]
     pub fn row(&self, row: usize) -> [f64; LANES] {
@@ -110,16 +110,16 @@ impl Column {
     }
 }
 
-/// A ray among bundles.
+/// A ray among packets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Place {
-    /// The number of its bundle.
-    pub bundle: usize,
-    /// Its place there, below [`BUNDLE`].
+pub struct RayIndex {
+    /// The number of its packet.
+    pub packet: usize,
+    /// Its place there, below [`PACKET`].
     pub lane: usize,
 }
 
-/// The rays of a bundle whose bits are set, the lowest first.
+/// The rays of a packet whose bits are set, the lowest first.
 #[inline(always)]
 pub fn lanes(mut bits: u64) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
@@ -130,39 +130,39 @@ pub fn lanes(mut bits: u64) -> impl Iterator<Item = usize> {
     })
 }
 
-/// The places of the rays of a bundle whose bits are set.
+/// The places of the rays of a packet whose bits are set.
 #[inline(always)]
-pub fn places(bundle: usize, bits: u64) -> impl Iterator<Item = Place> {
-    lanes(bits).map(move |lane| Place { bundle, lane })
+pub fn places(packet: usize, bits: u64) -> impl Iterator<Item = RayIndex> {
+    lanes(bits).map(move |lane| RayIndex { packet, lane })
 }
 
-/// The answers of a row, below [`ROWS`], out of a bit for each ray of a bundle.
+/// The answers of a row, below [`ROWS`], out of a bit for each ray of a packet.
 #[inline(always)]
 pub fn row_of<S: Simd>(simd: S, bits: u64, row: usize) -> mask64x8<S> {
     mask64x8::from_bitmask(simd, bits >> (row * LANES) & 0xFF)
 }
 
-/// A vector of each ray of a bundle.
-pub trait Columns<T: Digits> {
-    /// Those of row `row`, below [`Digits::ROWS`].
-    fn load<S: Simd>(&self, simd: S, row: usize) -> Vector<T::Wide<S>>;
+/// A vector of each ray of a packet.
+pub trait LaneVector<T: Real> {
+    /// Those of row `row`, below [`Real::ROWS`].
+    fn load<S: Simd>(&self, simd: S, row: usize) -> Vector<T::SimdReal<S>>;
     /// Sets a row of them.
-    fn store(&mut self, row: usize, v: Vector<impl Row<Digits = T>>);
+    fn store(&mut self, row: usize, v: Vector<impl SimdRegister<Real = T>>);
     /// One of them.
     fn get(&self, lane: usize) -> DVec3;
     /// Sets one of them.
     fn set(&mut self, lane: usize, v: DVec3);
 }
 
-impl<T: Digits> Columns<T> for [Column<T>; 3] {
+impl<T: Real> LaneVector<T> for [Lanes<T>; 3] {
     #[inline(always)]
-    fn load<S: Simd>(&self, simd: S, row: usize) -> Vector<T::Wide<S>> {
+    fn load<S: Simd>(&self, simd: S, row: usize) -> Vector<T::SimdReal<S>> {
         let [x, y, z] = self;
         Vector { x: x.load(simd, row), y: y.load(simd, row), z: z.load(simd, row) }
     }
 
     #[inline(always)]
-    fn store(&mut self, row: usize, v: Vector<impl Row<Digits = T>>) {
+    fn store(&mut self, row: usize, v: Vector<impl SimdRegister<Real = T>>) {
         self[0].store(row, v.x);
         self[1].store(row, v.y);
         self[2].store(row, v.z);
@@ -182,14 +182,13 @@ impl<T: Digits> Columns<T> for [Column<T>; 3] {
     }
 }
 
-impl<T: Digits> Bundle<T> {
+impl<T: Real> RayPacket<T> {
     /// No rays.
-    pub const EMPTY: Self =
-        Self { o: [Column::filled(T::ZERO); 3], d: [Column::filled(T::ZERO); 3], live: 0 };
+    pub const EMPTY: Self = Self { o: [Lanes::filled(T::ZERO); 3], d: [Lanes::filled(T::ZERO); 3], live: 0 };
 
-    /// The rays of row `row`, below [`Digits::ROWS`].
+    /// The rays of row `row`, below [`Real::ROWS`].
     #[inline(always)]
-    pub fn load<S: Simd>(&self, simd: S, row: usize) -> Rays<T::Wide<S>> {
+    pub fn load<S: Simd>(&self, simd: S, row: usize) -> Rays<T::SimdReal<S>> {
         Rays { o: self.o.load(simd, row), d: self.d.load(simd, row) }
     }
 
@@ -220,9 +219,9 @@ impl<T: Digits> Bundle<T> {
         }
     }
 
-    /// Sets each ray to the nearest of another bundle's.
+    /// Sets each ray to the nearest of another packet's.
     #[inline(always)]
-    pub fn set_nearest<U: Digits>(&mut self, other: &Bundle<U>) {
+    pub fn set_nearest<U: Real>(&mut self, other: &RayPacket<U>) {
         for axis in 0..3 {
             self.o[axis].set_nearest(&other.o[axis]);
             self.d[axis].set_nearest(&other.d[axis]);

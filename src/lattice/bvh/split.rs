@@ -7,7 +7,7 @@ use fearless_simd::{Level, Simd, SimdBase, dispatch, f32x4};
 use rayon::prelude::*;
 
 use super::WIDE;
-use super::reach::{About, Reach};
+use super::build_primitive::{About, BuildPrimitive};
 
 /// Up to this many objects centres are binned along every axis, past it along the axis where they reach farthest: of
 /// very many that is the best nearly always.
@@ -28,7 +28,12 @@ const STRETCH: usize = 8192;
 
 /// Orders a range of two boxes or more so that the first `n` are one part and the others the other; returns `n`, at
 /// least 1 and less than all, and what is known of both.
-pub fn parted(level: Level, items: &mut [Reach], about: &About, depth: u32) -> (usize, About, About) {
+pub fn parted(
+    level: Level,
+    items: &mut [BuildPrimitive],
+    about: &About,
+    depth: u32,
+) -> (usize, About, About) {
     let split = if depth < DEEPEST { cheapest(level, items, about) } else { None };
     if let Some(split) = split {
         let (middle, lower, upper) = split.parted(level, items);
@@ -37,7 +42,7 @@ pub fn parted(level: Level, items: &mut [Reach], about: &About, depth: u32) -> (
         }
     }
     let middle = items.len() / 2;
-    let all = |items: &[Reach]| dispatch!(level, simd => About::all(simd, items));
+    let all = |items: &[BuildPrimitive]| dispatch!(level, simd => About::all(simd, items));
     (middle, all(&items[..middle]), all(&items[middle..]))
 }
 
@@ -69,7 +74,7 @@ impl Scale {
     }
 
     #[inline(always)]
-    fn bin(&self, item: &Reach) -> usize {
+    fn bin(&self, item: &BuildPrimitive) -> usize {
         match self.key {
             Key::Center(axis) => self.bin_along(axis, item),
             // Bins by powers of four, from the longest down.
@@ -87,7 +92,7 @@ impl Scale {
     }
 
     #[inline(always)]
-    fn bin_along(&self, axis: usize, item: &Reach) -> usize {
+    fn bin_along(&self, axis: usize, item: &BuildPrimitive) -> usize {
         self.whole((item.center(axis) - self.low) * self.per_bin)
     }
 
@@ -108,7 +113,7 @@ struct Split {
 
 impl Split {
     /// Brings the lower part of a range before the upper, and tells how many it has and about both.
-    fn parted(&self, level: Level, items: &mut [Reach]) -> (usize, About, About) {
+    fn parted(&self, level: Level, items: &mut [BuildPrimitive]) -> (usize, About, About) {
         if items.len() <= STRETCH {
             return dispatch!(level, simd => self.parted_at_once(simd, items));
         }
@@ -127,7 +132,7 @@ impl Split {
     }
 
     #[inline(always)]
-    fn parted_at_once<S: Simd>(&self, simd: S, items: &mut [Reach]) -> (usize, About, About) {
+    fn parted_at_once<S: Simd>(&self, simd: S, items: &mut [BuildPrimitive]) -> (usize, About, About) {
         let scale = &self.scale;
         // Each key by itself, so that it is not asked for in the loop.
         let middle = match scale.key {
@@ -139,7 +144,7 @@ impl Split {
     }
 
     #[inline(always)]
-    fn moved(&self, items: &mut [Reach], bin: impl Fn(&Reach) -> usize) -> usize {
+    fn moved(&self, items: &mut [BuildPrimitive], bin: impl Fn(&BuildPrimitive) -> usize) -> usize {
         // Without a branch, which no processor could foretell.
         let mut middle = 0;
         for place in 0..items.len() {
@@ -153,7 +158,7 @@ impl Split {
 
 /// Brings all lower parts before all upper ones, where each stretch begins with its lower part, of `lows` boxes. What
 /// stands on the wrong side of the middle is exchanged in the order in which it stands there.
-fn exchange(items: &mut [Reach], middle: usize, lows: &[usize]) {
+fn exchange(items: &mut [BuildPrimitive], middle: usize, lows: &[usize]) {
     let (left, right) = items.split_at_mut(middle);
     // The stretch in which the middle is.
     let (cut, before) = (middle / STRETCH, middle % STRETCH);
@@ -167,7 +172,7 @@ fn exchange(items: &mut [Reach], middle: usize, lows: &[usize]) {
         right.chunks_mut(STRETCH).zip(lows.iter().skip(cut + 1)).map(|(items, &low)| &mut items[..low]),
     );
     let mut pairs = Vec::with_capacity(2 * lows.len());
-    let (mut a, mut b): (&mut [Reach], &mut [Reach]) = (&mut [], &mut []);
+    let (mut a, mut b): (&mut [BuildPrimitive], &mut [BuildPrimitive]) = (&mut [], &mut []);
     loop {
         while a.is_empty() {
             let Some(next) = high.next() else { break };
@@ -192,15 +197,15 @@ fn exchange(items: &mut [Reach], middle: usize, lows: &[usize]) {
 /// The bins of one key, filled.
 #[derive(Clone, Copy)]
 struct Bins {
-    reach: [Reach; BINS],
+    reach: [BuildPrimitive; BINS],
     count: [u32; BINS],
 }
 
 impl Bins {
-    const NOTHING: Self = Self { reach: [Reach::NOTHING; BINS], count: [0; BINS] };
+    const NOTHING: Self = Self { reach: [BuildPrimitive::NOTHING; BINS], count: [0; BINS] };
 
     #[inline(always)]
-    fn add<S: Simd>(&mut self, simd: S, bin: usize, reach: &Reach, count: u32) {
+    fn add<S: Simd>(&mut self, simd: S, bin: usize, reach: &BuildPrimitive, count: u32) {
         // So that no check is left.
         let bin = bin % BINS;
         self.reach[bin].join(simd, reach);
@@ -208,7 +213,7 @@ impl Bins {
     }
 
     #[inline(always)]
-    fn fill<S: Simd>(&mut self, simd: S, scale: &Scale, items: &[Reach]) {
+    fn fill<S: Simd>(&mut self, simd: S, scale: &Scale, items: &[BuildPrimitive]) {
         match scale.key {
             Key::Center(axis) => {
                 for item in items {
@@ -232,8 +237,8 @@ impl Bins {
     }
 
     /// The bins of a range that may be long.
-    fn of(level: Level, scale: &Scale, items: &[Reach]) -> Self {
-        let one = |items: &[Reach]| {
+    fn of(level: Level, scale: &Scale, items: &[BuildPrimitive]) -> Self {
+        let one = |items: &[BuildPrimitive]| {
             let mut bins = Self::NOTHING;
             dispatch!(level, simd => bins.fill(simd, scale, items));
             bins
@@ -251,7 +256,7 @@ impl Bins {
     #[inline(always)]
     fn swept<S: Simd>(&self, simd: S, last: usize) -> Option<(f64, usize)> {
         let mut above = [f64::INFINITY; BINS];
-        let (mut reach, mut count) = (Reach::NOTHING, 0);
+        let (mut reach, mut count) = (BuildPrimitive::NOTHING, 0);
         for place in (1..=last).rev() {
             if self.count[place] > 0 {
                 reach.join(simd, &self.reach[place]);
@@ -259,7 +264,7 @@ impl Bins {
             }
             above[place] = if count > 0 { cost(&reach, count) } else { f64::INFINITY };
         }
-        let (mut reach, mut count) = (Reach::NOTHING, 0);
+        let (mut reach, mut count) = (BuildPrimitive::NOTHING, 0);
         let mut best = None;
         let mut least = f64::INFINITY;
         for place in 0..last {
@@ -280,12 +285,12 @@ impl Bins {
 
 /// A part's full nodes times its area.
 #[inline(always)]
-fn cost(reach: &Reach, count: u32) -> f64 {
+fn cost(reach: &BuildPrimitive, count: u32) -> f64 {
     f64::from(count.div_ceil(WIDE as u32)) * reach.area()
 }
 
 /// The split of the least cost; `None` where no key tells the boxes apart.
-fn cheapest(level: Level, items: &[Reach], about: &About) -> Option<Split> {
+fn cheapest(level: Level, items: &[BuildPrimitive], about: &About) -> Option<Split> {
     // Few objects need few bins: there is hardly more than one to a bin.
     let last = (items.len() / 2).min(BINS) - 1;
     let by_center = if items.len() <= EVERY_AXIS {
@@ -311,7 +316,12 @@ fn cheapest(level: Level, items: &[Reach], about: &About) -> Option<Split> {
 
 /// The cheapest split of few boxes by their centres, and its cost.
 #[inline(always)]
-fn by_every_axis<S: Simd>(simd: S, items: &[Reach], about: &About, last: usize) -> Option<(f64, Split)> {
+fn by_every_axis<S: Simd>(
+    simd: S,
+    items: &[BuildPrimitive],
+    about: &About,
+    last: usize,
+) -> Option<(f64, Split)> {
     let [x, y, z] =
         [Scale::along(0, about, last), Scale::along(1, about, last), Scale::along(2, about, last)];
     let low = f32x4::from_slice(simd, &[x.low, y.low, z.low, 0.0]);

@@ -7,7 +7,7 @@
 use fearless_simd::{Level, dispatch};
 use rayon::prelude::*;
 
-use super::reach::{About, Reach};
+use super::build_primitive::{About, BuildPrimitive};
 use super::split::parted;
 use super::{Child, Node, WIDE};
 
@@ -20,7 +20,7 @@ const SETTLED: usize = 4096;
 
 /// The nodes over the boxes of `count` objects; the root is the first. Neither the number of threads nor the level
 /// changes anything about them.
-pub fn built(level: Level, count: usize, reach: impl Fn(usize) -> Reach + Send + Sync) -> Vec<Node> {
+pub fn built(level: Level, count: usize, reach: impl Fn(usize) -> BuildPrimitive + Send + Sync) -> Vec<Node> {
     let mut items = Vec::new();
     (0..count).into_par_iter().with_min_len(SETTLED).map(reach).collect_into_vec(&mut items);
     let mut nodes = Vec::new();
@@ -39,7 +39,7 @@ pub fn built(level: Level, count: usize, reach: impl Fn(usize) -> Reach + Send +
 
 /// A part of the objects.
 struct Grown<'a> {
-    reach: Reach,
+    reach: BuildPrimitive,
     /// The area of the nodes that it takes where it may fill up to 1, 2, … slots.
     cost: [f64; WIDE],
     /// How many of so many slots its first half fills; 0 where it is not opened.
@@ -49,14 +49,14 @@ struct Grown<'a> {
 
 enum Kind<'a> {
     /// A few objects.
-    Few(&'a [Reach]),
+    Few(&'a [BuildPrimitive]),
     Halves(Box<[Grown<'a>; 2]>),
     /// Nodes already, the root first.
     Settled(Vec<Node>),
 }
 
 /// Parts a range of boxes, one at least.
-fn grown<'a>(level: Level, items: &'a mut [Reach], about: &About, depth: u32) -> Grown<'a> {
+fn grown<'a>(level: Level, items: &'a mut [BuildPrimitive], about: &About, depth: u32) -> Grown<'a> {
     let count = items.len();
     if count <= FEW {
         let whole = about.reach.area();
@@ -74,7 +74,7 @@ fn grown<'a>(level: Level, items: &'a mut [Reach], about: &About, depth: u32) ->
 }
 
 /// The same; a part of up to [`SETTLED`] objects is nodes at once.
-fn settled<'a>(level: Level, items: &'a mut [Reach], about: &About, depth: u32) -> Grown<'a> {
+fn settled<'a>(level: Level, items: &'a mut [BuildPrimitive], about: &About, depth: u32) -> Grown<'a> {
     let count = items.len();
     let part = grown(level, items, about, depth);
     if !(WIDE + 1..=SETTLED).contains(&count) {
@@ -87,7 +87,7 @@ fn settled<'a>(level: Level, items: &'a mut [Reach], about: &About, depth: u32) 
 }
 
 /// Two halves as one part, with the cheapest way to share any number of slots.
-fn joined<'a>(reach: Reach, low: Grown<'a>, high: Grown<'a>) -> Grown<'a> {
+fn joined<'a>(reach: BuildPrimitive, low: Grown<'a>, high: Grown<'a>) -> Grown<'a> {
     let mut cost = [0.0; WIDE];
     let mut first = [0; WIDE];
     for slots in (2..=WIDE).rev() {
@@ -120,7 +120,7 @@ enum Filling<'a> {
 
 #[derive(Clone, Copy)]
 struct Slot<'a> {
-    reach: Reach,
+    reach: BuildPrimitive,
     filling: Filling<'a>,
 }
 
@@ -131,7 +131,7 @@ struct Slots<'a> {
 }
 
 impl<'a> Slots<'a> {
-    fn push(&mut self, reach: Reach, filling: Filling<'a>) {
+    fn push(&mut self, reach: BuildPrimitive, filling: Filling<'a>) {
         self.filled[self.len] = Some(Slot { reach, filling });
         self.len += 1;
     }

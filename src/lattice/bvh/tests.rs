@@ -29,8 +29,8 @@ pub(super) fn cloud(n: usize, size: f64) -> Vec<Bounds> {
     (0..n).map(|_| one()).collect()
 }
 
-pub(super) fn over(boxes: &[Bounds]) -> Boxes {
-    Boxes::over(boxes.len(), |object| Reach::new(&boxes[object], object as u32))
+pub(super) fn over(boxes: &[Bounds]) -> Bvh8 {
+    Bvh8::over(boxes.len(), |object| BuildPrimitive::new(&boxes[object], object as u32))
 }
 
 /// How far a side of a box within 0..1 may stand outside what it was made around: [`MARGIN`], and a rounding.
@@ -44,8 +44,8 @@ fn fits(own: &Bounds, held: &Bounds) -> bool {
 }
 
 /// Checks that every box has one place, and every node's box holds its children; returns the depth.
-fn checked(of: &Boxes, boxes: &[Bounds]) -> usize {
-    fn visit(of: &Boxes, index: u32, seen: &mut [u32], boxes: &[Bounds]) -> (Bounds, usize) {
+fn checked(of: &Bvh8, boxes: &[Bounds]) -> usize {
+    fn visit(of: &Bvh8, index: u32, seen: &mut [u32], boxes: &[Bounds]) -> (Bounds, usize) {
         let node = &of.nodes()[index as usize];
         let (mut all, mut depth) = (Bounds::EMPTY, 0);
         for slot in 0..WIDE {
@@ -164,7 +164,7 @@ fn what_can_not_be_told_apart_is_halved() {
 }
 
 /// What a walk visits that looks for all objects.
-fn visited(of: &Boxes, ray: &Ray, to: f64) -> Vec<(u32, f64)> {
+fn visited(of: &Bvh8, ray: &Ray, to: f64) -> Vec<(u32, f64)> {
     let mut all = Vec::new();
     let visit = |object: u32, from: f64| -> ControlFlow<(), f64> {
         all.push((object, from));
@@ -215,8 +215,8 @@ const PAD: f64 = 1e-13;
 fn rays_visit_every_box_that_they_meet_once() {
     for size in [0.0, 0.01, 0.3] {
         let boxes = cloud(2000, size);
-        let of = Boxes::over(boxes.len(), |object| {
-            Reach::new(&boxes[object].padded(DVec3::splat(PAD)), object as u32)
+        let of = Bvh8::over(boxes.len(), |object| {
+            BuildPrimitive::new(&boxes[object].padded(DVec3::splat(PAD)), object as u32)
         });
         let mut met = 0;
         for ray in rays(&boxes) {
@@ -275,7 +275,7 @@ fn in_the_way_of_a_light_is_what_a_walk_visits() {
 fn every_processor_visits_the_same() {
     let boxes = cloud(3000, 0.05);
     let best = over(&boxes);
-    let baseline = Boxes { level: Level::baseline(), ..best.clone() };
+    let baseline = Bvh8 { level: Level::baseline(), ..best.clone() };
     for ray in rays(&boxes) {
         assert_eq!(visited(&best, &ray, f64::INFINITY), visited(&baseline, &ray, f64::INFINITY), "{ray:?}");
     }

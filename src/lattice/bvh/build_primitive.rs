@@ -18,16 +18,16 @@ const OBJECT: usize = 7;
 /// Marks the number of an object whose box tells what ball it is.
 const ROUND: u32 = 1 << 31;
 
-/// A box as a node holds it, in half the digits, and as how far it reaches: along −x, −y and −z, its longest edge, and
+/// A box as a node holds it, in single precision, and as how far it reaches: along −x, −y and −z, its longest edge, and
 /// along x, y and z. Two are joined by the larger of each, the longest edge too: that of a joined one is the longest of
 /// any box in it.
 ///
 /// The last number is an object's, by its bits, where the box is one's own; else it says nothing.
 #[derive(Clone, Copy)]
 #[repr(C, align(32))]
-pub struct Reach([f32; 8]);
+pub struct BuildPrimitive([f32; 8]);
 
-impl Reach {
+impl BuildPrimitive {
     pub const NOTHING: Self = Self([f32::NEG_INFINITY; 8]);
 
     /// The box of an object, moved outward by [`MARGIN`].
@@ -45,7 +45,7 @@ impl Reach {
         self.0[OBJECT].to_bits() & !ROUND
     }
 
-    /// The box of a ball that it tells ([`Round`](super::Round)).
+    /// The box of a ball that it tells ([`BoundingSphere`](super::Round)).
     pub fn round(mut self) -> Self {
         self.0[OBJECT] = f32::from_bits(self.object() | ROUND);
         self
@@ -133,7 +133,7 @@ fn larger<S: Simd>(own: f32x8<S>, other: f32x8<S>) -> f32x8<S> {
 /// What is known of a range of boxes.
 #[derive(Clone, Copy)]
 pub struct About {
-    pub reach: Reach,
+    pub reach: BuildPrimitive,
     /// The least of twice their centres, by axis; the last number says nothing.
     low: [f32; 4],
     /// The largest.
@@ -142,12 +142,12 @@ pub struct About {
 
 impl About {
     pub const NOTHING: Self =
-        Self { reach: Reach::NOTHING, low: [f32::INFINITY; 4], high: [f32::NEG_INFINITY; 4] };
+        Self { reach: BuildPrimitive::NOTHING, low: [f32::INFINITY; 4], high: [f32::NEG_INFINITY; 4] };
 
     /// What is known of all these.
     #[inline(always)]
-    pub fn all<S: Simd>(simd: S, items: &[Reach]) -> Self {
-        let mut reach = Reach::NOTHING.load(simd);
+    pub fn all<S: Simd>(simd: S, items: &[BuildPrimitive]) -> Self {
+        let mut reach = BuildPrimitive::NOTHING.load(simd);
         let mut low = f32x4::splat(simd, f32::INFINITY);
         let mut high = f32x4::splat(simd, f32::NEG_INFINITY);
         for item in items {
@@ -156,7 +156,7 @@ impl About {
             low = centers.simd_lt(low).select(centers, low);
             high = centers.simd_gt(high).select(centers, high);
         }
-        let mut about = Self { reach: Reach::store(reach), ..Self::NOTHING };
+        let mut about = Self { reach: BuildPrimitive::store(reach), ..Self::NOTHING };
         low.store_slice(&mut about.low);
         high.store_slice(&mut about.high);
         about

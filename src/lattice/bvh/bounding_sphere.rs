@@ -1,14 +1,14 @@
 //! Boxes of balls: what a box tells of the ball in it, without a look at the ball.
 
 use crate::math::DVec3;
-use crate::solid::{Assembly, Body, Form};
+use crate::solid::{Assembly, Body, WorldShape};
 
-use super::reach::Reach;
+use super::build_primitive::BuildPrimitive;
 use super::{MARGIN, Node};
 
 /// Two balls about one point: a solid ball lies between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Round {
+pub struct BoundingSphere {
     /// Their middle.
     pub center: [f32; 3],
     /// The radius of the one that holds the ball, with the [`ROOM`] around it.
@@ -17,11 +17,11 @@ pub struct Round {
     pub inner: f32,
 }
 
-/// What lies deeper in the inner ball of a [`Round`] than this, or so far outside its outer one, does so for every
+/// What lies deeper in the inner ball of a [`BoundingSphere`] than this, or so far outside its outer one, does so for every
 /// computation of crossings too: the errors of the ball are less.
 pub const ROOM: f64 = MARGIN;
 
-impl Round {
+impl BoundingSphere {
     /// The two balls of a box.
     #[inline(always)]
     fn of(lo: [f32; 3], hi: [f32; 3]) -> Self {
@@ -38,7 +38,7 @@ impl Round {
     }
 
     /// Whether the box of an object tells that it is a ball, and which.
-    pub(super) fn is_in(reach: &Reach, assembly: &Assembly) -> bool {
+    pub(super) fn is_in(reach: &BuildPrimitive, assembly: &Assembly) -> bool {
         let (lo, hi) = reach.corners();
         Self::of(lo, hi).holds(assembly, reach.object())
     }
@@ -46,7 +46,7 @@ impl Round {
     /// Whether an object is a ball between the two, and its errors are small enough.
     fn holds(&self, assembly: &Assembly, object: u32) -> bool {
         let Body::Single(index) = assembly.objects[object as usize].body else { return false };
-        let Form::Ball(ball) = &assembly.primitives[index as usize].form else { return false };
+        let WorldShape::Ball(ball) = &assembly.primitives[index as usize].form else { return false };
         let off_center = DVec3::from_array(self.center.map(f64::from)).distance(ball.center);
         let error = ball.most_error::<f64>() * (1.0 + assembly.off / ball.off());
         error <= ROOM
@@ -56,14 +56,14 @@ impl Round {
 }
 
 impl Node {
-    /// What the box of a slot tells of the ball in it, where there is one between the two of [`Round`].
+    /// What the box of a slot tells of the ball in it, where there is one between the two of [`BoundingSphere`].
     #[inline(always)]
-    pub fn ball(&self, slot: usize) -> Option<Round> {
+    pub fn ball(&self, slot: usize) -> Option<BoundingSphere> {
         (self.round >> slot & 1 == 1).then(
             #[inline(always)]
             || {
                 let (lo, hi) = self.corners(slot);
-                Round::of(lo, hi)
+                BoundingSphere::of(lo, hi)
             },
         )
     }
@@ -71,7 +71,7 @@ impl Node {
 
 #[cfg(test)]
 mod tests {
-    use crate::lattice::{Boxes, Child};
+    use crate::lattice::{Bvh8, Child};
     use crate::scene::{ReadOptions, read};
     use crate::solid::Assembly;
 
@@ -82,7 +82,7 @@ mod tests {
             translate([0, 0, 7]) cylinder(1, 1, 1);";
         let assembly =
             Assembly::new(&read("balls", text.as_bytes(), &ReadOptions::default()).unwrap()).unwrap();
-        let boxes = Boxes::new(&assembly);
+        let boxes = Bvh8::new(&assembly);
         let [root] = boxes.nodes() else { panic!("few objects fill one node") };
         let mut round = [false; 6];
         for slot in 0..root.len() {

@@ -3,38 +3,38 @@
 
 use fearless_simd::{Level, Simd};
 
-use crate::lattice::{Basis, Beam, FAN, Fan, Spread};
-use crate::math::{Bundle, Column, Columns, Digits, Number};
+use crate::lattice::{Basis, FRUSTA, Frustum, FrustumSoa, Spread};
+use crate::math::{LaneVector, Lanes, Number, RayPacket, Real};
 use crate::solid::{Departures, Starts};
-use crate::view::Sight;
+use crate::view::TileCamera;
 
 use super::super::exact::most_moved;
 
-/// A bundle, and the surfaces that its rays leave: none from the eye. In the digits in which it is asked, and with all.
+/// A packet, and the surfaces that its rays leave: none from the eye. In the precision in which it is asked, and in double.
 #[derive(Clone, Copy)]
-pub(super) struct Outset<'a, T = f64> {
-    pub rays: &'a Bundle<T>,
+pub(super) struct PacketSource<'a, T = f64> {
+    pub rays: &'a RayPacket<T>,
     pub departures: Option<&'a Departures<T>>,
-    pub full_rays: &'a Bundle,
+    pub full_rays: &'a RayPacket,
     pub full_departures: Option<&'a Departures>,
 }
 
-impl<'a> Outset<'a> {
-    /// One with all digits.
-    pub fn new(rays: &'a Bundle, departures: Option<&'a Departures>) -> Self {
+impl<'a> PacketSource<'a> {
+    /// One in double precision.
+    pub fn new(rays: &'a RayPacket, departures: Option<&'a Departures>) -> Self {
         Self { rays, departures, full_rays: rays, full_departures: departures }
     }
 }
 
-impl<'a, T: Digits> Outset<'a, T> {
-    /// The same with all digits.
-    pub fn full(&self) -> Outset<'a> {
-        Outset::new(self.full_rays, self.full_departures)
+impl<'a, T: Real> PacketSource<'a, T> {
+    /// The same in double precision.
+    pub fn full(&self) -> PacketSource<'a> {
+        PacketSource::new(self.full_rays, self.full_departures)
     }
 
     /// The surfaces that the rays of a row start on, as seen from a primitive.
     #[inline(always)]
-    pub fn starts<S: Simd>(&self, simd: S, row: usize, primitive: T::Wide<S>) -> Starts<T::Wide<S>> {
+    pub fn starts<S: Simd>(&self, simd: S, row: usize, primitive: T::SimdReal<S>) -> Starts<T::SimdReal<S>> {
         let no = T::row_of(simd, 0, row);
         let Some(departures) = self.departures else { return Starts { here: no, inward: no, off: None } };
         Starts {
@@ -45,81 +45,92 @@ impl<'a, T: Digits> Outset<'a, T> {
     }
 }
 
-/// The bundles of a tile, up to [`FAN`] of them.
-pub(super) enum Outsets<'a> {
-    /// Bundles that are [closed](Bundle::close), and the surfaces that the rays of each leave.
-    Made { bundles: &'a [Bundle], departures: Option<&'a [Departures]> },
+/// The packets of a tile, up to [`FRUSTA`] of them.
+pub(super) enum PacketSources<'a> {
+    /// Packets that are [closed](RayPacket::close), and the surfaces that the rays of each leave.
+    Made { packets: &'a [RayPacket], departures: Option<&'a [Departures]> },
     /// The blocks of a tile. `make` makes the rays of one.
-    Seen { sight: &'a Sight<'a>, bundles: &'a mut [Bundle], make: &'a mut dyn FnMut(usize, &mut Bundle) },
+    PrimaryHit {
+        sight: &'a TileCamera<'a>,
+        packets: &'a mut [RayPacket],
+        make: &'a mut dyn FnMut(usize, &mut RayPacket),
+    },
 }
 
-impl Outsets<'_> {
-    /// Whether none of a bundle's rays looks for anything. Of those that are still to be made some does.
+impl PacketSources<'_> {
+    /// Whether none of a packet's rays looks for anything. Of those that are still to be made some does.
     pub fn is_blind(&self, k: usize) -> bool {
-        matches!(self, Self::Made { bundles, .. } if bundles[k].live == 0)
+        matches!(self, Self::Made { packets, .. } if packets[k].live == 0)
     }
 
-    /// Makes what is to be made of a bundle.
+    /// Makes what is to be made of a packet.
     pub fn make(&mut self, k: usize) {
-        if let Self::Seen { bundles, make, .. } = self {
-            make(k, &mut bundles[k]);
+        if let Self::PrimaryHit { packets, make, .. } = self {
+            make(k, &mut packets[k]);
         }
     }
 
     /// One of them, which was made.
     #[inline(always)]
-    pub fn get(&self, k: usize) -> Outset<'_> {
+    pub fn get(&self, k: usize) -> PacketSource<'_> {
         match self {
-            Self::Made { bundles, departures } => Outset::new(&bundles[k], departures.map(|all| &all[k])),
-            Self::Seen { bundles, .. } => Outset::new(&bundles[k], None),
+            Self::Made { packets, departures } => {
+                PacketSource::new(&packets[k], departures.map(|all| &all[k]))
+            }
+            Self::PrimaryHit { packets, .. } => PacketSource::new(&packets[k], None),
         }
     }
 
     /// The frustum around them all.
     #[inline(always)]
-    pub fn whole<S: Simd>(&self, simd: S) -> Beam {
+    pub fn whole<S: Simd>(&self, simd: S) -> Frustum {
         match self {
-            Self::Made { bundles, .. } => around(simd, bundles),
-            Self::Seen { sight, .. } => {
+            Self::Made { packets, .. } => around(simd, packets),
+            Self::PrimaryHit { sight, .. } => {
                 let ends = sight.ends();
-                Beam::between(sight.eye, ends, most_moved(sight.eye, &ends), &Basis::of_corners(ends))
+                Frustum::between(sight.eye, ends, most_moved(sight.eye, &ends), &Basis::of_corners(ends))
             }
         }
     }
 
-    /// Sets `fan` to the frustums of each.
+    /// Sets `frusta` to the frustums of each.
     #[inline(always)]
-    pub fn spread<S: Simd>(&self, simd: S, level: Level, (beams, fan): (&mut Vec<Option<Beam>>, &mut Fan)) {
-        beams.clear();
+    pub fn spread<S: Simd>(
+        &self,
+        simd: S,
+        level: Level,
+        (frustums, frusta): (&mut Vec<Option<Frustum>>, &mut FrustumSoa),
+    ) {
+        frustums.clear();
         match self {
-            Self::Made { bundles, .. } => {
+            Self::Made { packets, .. } => {
                 // Not by `map`, whose closure is compiled by itself, for any processor.
-                for bundle in *bundles {
-                    beams.push(Some(around(simd, std::slice::from_ref(bundle))));
+                for packet in *packets {
+                    frustums.push(Some(around(simd, std::slice::from_ref(packet))));
                 }
             }
-            Self::Seen { sight, .. } => {
+            Self::PrimaryHit { sight, .. } => {
                 // The sides of all blocks run along those of the tile.
                 let ends = sight.ends();
                 let basis = Basis::of_corners(ends);
                 // Rays of one tile differ little in how far they are moved.
                 let moved = most_moved(sight.eye, &ends);
-                let mut corners = [Column::filled(0.0); 3];
+                let mut corners = [Lanes::filled(0.0); 3];
                 sight.corners(level, &mut corners);
-                for k in 0..sight.blocks().min(FAN) {
+                for k in 0..sight.blocks().min(FRUSTA) {
                     let ends = [0, 1, 2, 3].map(|corner| corners.get(4 * k + corner));
-                    beams.push(Some(Beam::between(sight.eye, ends, moved, &basis)));
+                    frustums.push(Some(Frustum::between(sight.eye, ends, moved, &basis)));
                 }
             }
         }
-        fan.set(simd, beams);
+        frusta.set(simd, frustums);
     }
 }
 
 /// The frustum around rays of any kind.
 #[inline(always)]
-fn around<S: Simd>(simd: S, bundles: &[Bundle]) -> Beam {
-    Beam::around(simd, bundles.iter().map(|bundle| (bundle, None)), Spread::Apart)
+fn around<S: Simd>(simd: S, packets: &[RayPacket]) -> Frustum {
+    Frustum::around(simd, packets.iter().map(|packet| (packet, None)), Spread::Apart)
 }
 
 #[cfg(test)]
@@ -131,7 +142,7 @@ mod tests {
     use super::*;
     use crate::math::{DVec3, ROWS, Size, lanes};
     use crate::scene::{Camera, FieldSpan};
-    use crate::view::{Lens, Picture, tiles};
+    use crate::view::{Picture, PinholeCamera, tiles};
 
     fn direction() -> impl Strategy<Value = DVec3> {
         let coordinate = || prop_oneof![-1.0..1.0_f64, (-1..=1_i8).prop_map(f64::from)];
@@ -158,30 +169,30 @@ mod tests {
                 name: None, eye, target: look * 0.3, up, field: [field; 2], span: FieldSpan::Edges, zoom: 1.0,
             };
             prop_assume!(eye.distance(camera.target) > 1e-3);
-            let lens = Lens::new(&camera, &Picture { dots: Size::new(width, height), dot_aspect: 1.0 });
+            let pinhole = PinholeCamera::new(&camera, &Picture { dots: Size::new(width, height), dot_aspect: 1.0 });
             let all = tiles(Size::new(width, height));
             let tile = all[pick % all.len()];
-            let sight = Sight { lens: &lens, tile, off: [off.0, off.1], eye, way: distance + 4.0 };
-            let mut bundles = vec![Bundle::EMPTY; sight.blocks()];
+            let sight = TileCamera { pinhole: &pinhole, tile, off: [off.0, off.1], eye, way: distance + 4.0 };
+            let mut packets = vec![RayPacket::EMPTY; sight.blocks()];
             let level = Level::new();
-            for (k, bundle) in bundles.iter_mut().enumerate() {
-                sight.rays(k, level, bundle);
+            for (k, packet) in packets.iter_mut().enumerate() {
+                sight.rays(k, level, packet);
                 dispatch!(level, simd => for row in 0..ROWS {
-                    let (near, _) = all_moved_nearer(&bundle.load(simd, row));
-                    bundle.o.store(row, near.o);
+                    let (near, _) = all_moved_nearer(&packet.load(simd, row));
+                    packet.o.store(row, near.o);
                 });
             }
-            let mut unmade = bundles.clone();
-            let mut make = |_: usize, _: &mut Bundle| {};
-            let outsets = Outsets::Seen { sight: &sight, bundles: &mut unmade, make: &mut make };
-            let (mut beams, mut fan) = (Vec::new(), Fan::default());
+            let mut unmade = packets.clone();
+            let mut make = |_: usize, _: &mut RayPacket| {};
+            let sources = PacketSources::PrimaryHit { sight: &sight, packets: &mut unmade, make: &mut make };
+            let (mut frustums, mut frusta) = (Vec::new(), FrustumSoa::default());
             let whole = dispatch!(level, simd => {
-                outsets.spread(simd, level, (&mut beams, &mut fan));
-                outsets.whole(simd)
+                sources.spread(simd, level, (&mut frustums, &mut frusta));
+                sources.whole(simd)
             });
-            for (k, bundle) in bundles.iter().enumerate() {
-                for lane in lanes(bundle.live) {
-                    let ray = bundle.ray(lane);
+            for (k, packet) in packets.iter().enumerate() {
+                for lane in lanes(packet.live) {
+                    let ray = packet.ray(lane);
                     for t in [0.0, 0.3, 2.0, 3.5, 5.0, 8.0] {
                         let p = ray.at(t);
                         if p.abs().max_element() > 2.0 {
@@ -198,11 +209,11 @@ mod tests {
                         });
                         prop_assert_eq!(met & 1, 1, "block {} lane {} at {}", k, lane, t);
                         prop_assert!(f64::from(near) <= t, "{} {}", near, t);
-                        let met = dispatch!(level, simd => fan.meets(simd, lo, hi));
+                        let met = dispatch!(level, simd => frusta.meets(simd, lo, hi));
                         prop_assert_eq!(met.frustums >> k & 1, 1, "block {} lane {} at {}", k, lane, t);
                         prop_assert!(f64::from(met.near[k]) <= t, "{} {}", met.near[k], t);
                         let center = [p.x, p.y, p.z].map(|x| x as f32);
-                        let met = dispatch!(level, simd => fan.meets_ball(simd, center, 1e-6));
+                        let met = dispatch!(level, simd => frusta.meets_ball(simd, center, 1e-6));
                         prop_assert_eq!(met.frustums >> k & 1, 1, "block {} lane {} at {}", k, lane, t);
                         prop_assert!(f64::from(met.near[k]) <= t, "{} {}", met.near[k], t);
                     }

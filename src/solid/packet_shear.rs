@@ -1,24 +1,24 @@
-//! The planes across the rays of a bundle: what [`super::across`] decides for one ray, for eight at a time.
+//! The planes across the rays of a packet: what [`super::ray_shear`] decides for one ray, for eight at a time.
 //!
 //! The same places and the same areas are computed in the same order. Where rounding could have made the sign of an area
 //! there is no answer: that ray is to be asked alone, of the exact predicate.
 
 use fearless_simd::{Simd, SimdMask, f64x8, mask64x8};
 
-use crate::math::{Bounds, Bundle, Column, DVec3, LANES, Mask, Number, ROWS};
+use crate::math::{Bounds, DVec3, LANES, Lanes, Mask, Number, ROWS, RayPacket};
 
 /// An area that is a difference of two products has the sign of its rounded value where that is larger than this share
 /// of their sum: three roundings of half an ulp (Ozaki et al.: Simple floating-point filters for the two-dimensional
 /// orientation problem, BIT 2016). The bound of the `robust` crate is no larger.
 const ROUNDED: f64 = 1.5 * f64::EPSILON;
 
-/// The planes across the rays of a bundle: two axes of the world, sheared along each ray.
+/// The planes across the rays of a packet: two axes of the world, sheared along each ray.
 #[derive(Clone, Debug)]
-pub struct Sheared {
+pub struct PacketShear {
     /// By axis, which of the rays go farthest along it: one bit for each ray, in one of the three.
     main: [u64; 3],
     /// How far each goes along the next two axes for a step along its main one.
-    shear: [Column; 2],
+    shear: [Lanes; 2],
 }
 
 /// The planes across the rays of a row that go farthest along axis `MAIN`.
@@ -37,23 +37,23 @@ pub(super) struct Around<S: Simd> {
     pub unsure: mask64x8<S>,
 }
 
-impl Sheared {
-    /// Of a bundle that was not looked at yet.
-    pub const UNKNOWN: Self = Self { main: [0; 3], shear: [Column::filled(0.0), Column::filled(0.0)] };
+impl PacketShear {
+    /// Of a packet that was not looked at yet.
+    pub const UNKNOWN: Self = Self { main: [0; 3], shear: [Lanes::filled(0.0), Lanes::filled(0.0)] };
 
-    /// Another bundle follows.
+    /// Another packet follows.
     pub fn forget(&mut self) {
         self.main = [0; 3];
     }
 
     /// Computes them, where that was not done before.
     #[inline(always)]
-    pub(super) fn know<S: Simd>(&mut self, simd: S, bundle: &Bundle) {
+    pub(super) fn know<S: Simd>(&mut self, simd: S, packet: &RayPacket) {
         if self.main != [0; 3] {
             return;
         }
         for row in 0..ROWS {
-            let d = bundle.load(simd, row).d;
+            let d = packet.load(simd, row).d;
             let size = d.magnitude();
             // The same axis of several that are equally long as for one ray.
             let x = size.x.is_at_least(size.y) & size.x.is_at_least(size.z);
@@ -74,15 +74,15 @@ impl Sheared {
         self.main[axis]
     }
 
-    /// Eight of them; those of the bundle's rays that go farthest along another axis mean nothing.
+    /// Eight of them; those of the packet's rays that go farthest along another axis mean nothing.
     #[inline(always)]
     pub(super) fn row<S: Simd, const MAIN: usize>(
         &self,
         simd: S,
-        bundle: &Bundle,
+        packet: &RayPacket,
         row: usize,
     ) -> Row<S, MAIN> {
-        let [main, first, second] = [&bundle.o[MAIN], &bundle.o[(MAIN + 1) % 3], &bundle.o[(MAIN + 2) % 3]];
+        let [main, first, second] = [&packet.o[MAIN], &packet.o[(MAIN + 1) % 3], &packet.o[(MAIN + 2) % 3]];
         Row {
             o: [main.load(simd, row), first.load(simd, row), second.load(simd, row)],
             shear: [self.shear[0].load(simd, row), self.shear[1].load(simd, row)],
@@ -101,7 +101,7 @@ impl<S: Simd, const MAIN: usize> Row<S, MAIN> {
         [x, y]
     }
 
-    /// Adds a stretch of an outline: `Across::crosses_odd` for eight.
+    /// Adds a stretch of an outline: `RayShear::crosses_odd` for eight.
     #[inline(always)]
     pub fn add(&self, around: &mut Around<S>, corners: &[DVec3]) {
         let Some((first, rest)) = corners.split_first() else { return };
@@ -124,7 +124,7 @@ impl<S: Simd, const MAIN: usize> Row<S, MAIN> {
         }
     }
 
-    /// Whether edges between points of a box can lie to the right of any of the lines: `Across::may_cross` for eight.
+    /// Whether edges between points of a box can lie to the right of any of the lines: `RayShear::may_cross` for eight.
     #[inline(always)]
     pub fn may_cross(&self, b: &Bounds) -> bool {
         let (lo, hi) = (b.lo.to_array(), b.hi.to_array());

@@ -1,22 +1,22 @@
-//! How many digits the numbers of a bundle have: those of `f64`, or those of `f32`, of which a register holds twice as many.
+//! The precision of the numbers of a packet: that of `f64`, or that of `f32`, of which a register holds twice as many.
 
 use std::fmt::Debug;
 
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 
-use super::bundle::BUNDLE;
+use super::f32x16::F32x16;
 use super::number::{LANES, Mask, Number};
-use super::single::Singles;
+use super::packet::PACKET;
 
-/// A number of a ray in a bundle.
-pub trait Digits: Copy + Debug + Default + Into<f64> + Send + Sync + 'static {
+/// A number of a ray in a packet.
+pub trait Real: Copy + Debug + Default + Into<f64> + Send + Sync + 'static {
     /// As many as a register holds, of 512 bits.
-    type Wide<S: Simd>: Wide<S> + Row<Digits = Self>;
+    type SimdReal<S: Simd>: SimdReal<S> + SimdRegister<Real = Self>;
 
     /// How many rays are computed side by side.
     const LANES: usize;
-    /// Registers of numbers in a bundle.
-    const ROWS: usize = BUNDLE / Self::LANES;
+    /// Registers of numbers in a packet.
+    const ROWS: usize = PACKET / Self::LANES;
     /// A bit for each ray of the first row.
     const ROW: u64 = (1 << Self::LANES) - 1;
     /// How many times as much is lost by a rounding as of an `f64`. Maps, starts and directions come rounded once from `f64`; the rest
@@ -34,19 +34,19 @@ pub trait Digits: Copy + Debug + Default + Into<f64> + Send + Sync + 'static {
 
     /// The same number for all rays of a row.
     #[inline(always)]
-    fn all<S: Simd>(simd: S, x: f64) -> Self::Wide<S> {
-        Self::Wide::<S>::all(simd, x)
+    fn all<S: Simd>(simd: S, x: f64) -> Self::SimdReal<S> {
+        Self::SimdReal::<S>::all(simd, x)
     }
 
-    /// The answers of a row, below [`Digits::ROWS`], out of a bit for each ray of a bundle.
+    /// The answers of a row, below [`Real::ROWS`], out of a bit for each ray of a packet.
     #[inline(always)]
-    fn row_of<S: Simd>(simd: S, bits: u64, row: usize) -> Answers<Self, S> {
-        Self::Wide::<S>::answers(simd, bits >> (row * Self::LANES) & Self::ROW)
+    fn row_of<S: Simd>(simd: S, bits: u64, row: usize) -> RealMask<Self, S> {
+        Self::SimdReal::<S>::answers(simd, bits >> (row * Self::LANES) & Self::ROW)
     }
 
-    /// A bit for each ray of a bundle, out of the answers of a row.
+    /// A bit for each ray of a packet, out of the answers of a row.
     #[inline(always)]
-    fn bits_of<M: Mask<Self::Wide<S>>, S: Simd>(_: S, answers: M, row: usize) -> u64 {
+    fn bits_of<M: Mask<Self::SimdReal<S>>, S: Simd>(_: S, answers: M, row: usize) -> u64 {
         answers.bits() << (row * Self::LANES)
     }
 
@@ -58,15 +58,15 @@ pub trait Digits: Copy + Debug + Default + Into<f64> + Send + Sync + 'static {
 }
 
 /// Answers to a question about the rays of a row.
-pub type Answers<T, S> = <<T as Digits>::Wide<S> as Number>::Mask;
+pub type RealMask<T, S> = <<T as Real>::SimdReal<S> as Number>::Mask;
 
 /// Numbers that fill a row.
-pub trait Row {
+pub trait SimdRegister {
     /// One of them.
-    type Digits;
+    type Real;
 
     /// Puts them into a row, all of it.
-    fn put_into(self, row: &mut [Self::Digits]);
+    fn put_into(self, row: &mut [Self::Real]);
     /// The least; none may be not-a-number.
     fn least(self) -> f64;
     /// The greatest; none may be not-a-number.
@@ -74,17 +74,17 @@ pub trait Row {
 }
 
 /// The numbers of a row, in a register.
-pub trait Wide<S: Simd>: Number + Row {
+pub trait SimdReal<S: Simd>: Number + SimdRegister {
     /// The same for all.
     fn all(simd: S, x: f64) -> Self;
     /// Those of a row, all of it.
-    fn of_row(simd: S, row: &[Self::Digits]) -> Self;
+    fn of_row(simd: S, row: &[Self::Real]) -> Self;
     /// Answers out of a bit for each.
     fn answers(simd: S, bits: u64) -> Self::Mask;
 }
 
-impl Digits for f64 {
-    type Wide<S: Simd> = f64x8<S>;
+impl Real for f64 {
+    type SimdReal<S: Simd> = f64x8<S>;
 
     const LANES: usize = LANES;
     const COARSER: f64 = 1.0;
@@ -98,8 +98,8 @@ impl Digits for f64 {
     }
 }
 
-impl Digits for f32 {
-    type Wide<S: Simd> = Singles<S>;
+impl Real for f32 {
+    type SimdReal<S: Simd> = F32x16<S>;
 
     const LANES: usize = 2 * LANES;
     const COARSER: f64 = (Self::EPSILON as f64) / f64::EPSILON;
@@ -113,8 +113,8 @@ impl Digits for f32 {
     }
 }
 
-impl<S: Simd> Row for f64x8<S> {
-    type Digits = f64;
+impl<S: Simd> SimdRegister for f64x8<S> {
+    type Real = f64;
 
     #[inline(always)]
     fn put_into(self, row: &mut [f64]) {
@@ -130,7 +130,7 @@ impl<S: Simd> Row for f64x8<S> {
     }
 }
 
-impl<S: Simd> Wide<S> for f64x8<S> {
+impl<S: Simd> SimdReal<S> for f64x8<S> {
     #[inline(always)]
     fn all(simd: S, x: f64) -> Self {
         Self::splat(simd, x)

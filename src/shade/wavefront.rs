@@ -4,20 +4,20 @@ use std::ops::Range;
 
 use fearless_simd::{Level, dispatch};
 
-use crate::math::{BUNDLE, Bundle, Column, Columns, LANES, Place};
+use crate::math::{LANES, LaneVector, Lanes, PACKET, RayIndex, RayPacket};
 use crate::solid::{Departure, Departures};
-use crate::trace::{Hit, Nearest};
+use crate::trace::{Hit, PacketHits};
 
 use super::channel::Channel;
-use super::media::List;
-use super::path::Sent;
-use super::surface::Met;
+use super::media::MediumStack;
+use super::path::PathState;
+use super::surface::SurfaceInteraction;
 use super::surfaces::Surfaces;
 
 /// A ray that is sent on.
 #[derive(Clone, Debug)]
-pub(super) struct Leg {
-    pub sent: Sent,
+pub(super) struct QueuedRay {
+    pub sent: PathState,
     pub departure: Departure,
 }
 
@@ -25,7 +25,7 @@ pub(super) struct Leg {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Arrival {
     /// The ray of the generation before that met the surface.
-    pub at: Place,
+    pub at: RayIndex,
     /// The share of the light that the surface sends back.
     pub share: f64,
     /// The leg, by its number among those of its kind; `None` for a ray that is not followed.
@@ -34,55 +34,55 @@ pub(super) struct Arrival {
 
 /// Mirror rays, or Snell rays.
 #[derive(Debug, Default)]
-pub(super) struct Legs {
-    pub rays: Vec<Leg>,
+pub(super) struct RayQueue {
+    pub rays: Vec<QueuedRay>,
     pub arrivals: Vec<Arrival>,
-    /// The number of their first bundle.
+    /// The number of their first packet.
     first: usize,
 }
 
 /// The rays of one generation, and what they met.
 #[derive(Debug)]
-pub(super) struct Wave<C> {
+pub(super) struct Wavefront<C> {
     /// 0 for rays from the eye.
     pub generation: u32,
     /// The glass that rays from the eye start in.
-    pub inside: List,
-    pub rays: Vec<Bundle>,
+    pub inside: MediumStack,
+    pub rays: Vec<RayPacket>,
     /// The way from the eye to where each ray starts, in two parts that are to be added to a distance, the second first.
-    pub before: Vec<[Column; 2]>,
+    pub before: Vec<[Lanes; 2]>,
     /// The surfaces that they leave; nothing says so of rays from the eye.
     pub from: Vec<Departures>,
-    pub nearest: Vec<Nearest>,
+    pub nearest: Vec<PacketHits>,
     pub surfaces: Vec<Surfaces>,
     /// The surfaces that were met, for rays that leave them to the sides that these came from.
     pub departures: Vec<Departures>,
-    /// The light that arrives along each ray, whole as soon as that is known: a column for each part, bundle by bundle.
-    pub light: Vec<Column>,
+    /// The light that arrives along each ray, whole as soon as that is known: a column for each part, packet by packet.
+    pub light: Vec<Lanes>,
     /// The rays whose light is known already, a bit for each.
     pub known: Vec<u64>,
     /// The mirror rays of this generation, and its Snell rays; none in the first.
-    pub kinds: [Legs; 2],
+    pub kinds: [RayQueue; 2],
     /// Whether its rays run so far apart that those towards the lamps are better asked one by one.
     pub apart: bool,
     parts: std::marker::PhantomData<C>,
 }
 
-impl Legs {
-    /// Their bundles.
+impl RayQueue {
+    /// Their packets.
     #[inline]
-    pub fn bundles(&self) -> Range<usize> {
-        self.first..self.first + self.rays.len().div_ceil(BUNDLE)
+    pub fn packets(&self) -> Range<usize> {
+        self.first..self.first + self.rays.len().div_ceil(PACKET)
     }
 
     /// The place of a leg.
     #[inline]
-    pub fn place(&self, leg: usize) -> Place {
-        Place { bundle: self.first + leg / BUNDLE, lane: leg % BUNDLE }
+    pub fn place(&self, leg: usize) -> RayIndex {
+        RayIndex { packet: self.first + leg / PACKET, lane: leg % PACKET }
     }
 }
 
-impl<C> Wave<C> {
+impl<C> Wavefront<C> {
     /// No rays yet.
     pub fn new(generation: u32) -> Self {
         Self {
@@ -103,15 +103,15 @@ impl<C> Wave<C> {
     }
 }
 
-impl<C: Channel> Wave<C> {
-    /// Room for what its bundles meet; there may be more.
+impl<C: Channel> Wavefront<C> {
+    /// Room for what its packets meet; there may be more.
     pub fn make_room(&mut self) {
         let count = self.rays.len();
         if self.nearest.len() < count {
-            self.nearest.resize(count, Nearest::NOTHING);
+            self.nearest.resize(count, PacketHits::NOTHING);
             self.surfaces.resize(count, Surfaces::NONE);
             self.departures.resize(count, Departures::NONE);
-            self.light.resize(count * C::PARTS, Column::filled(0.0));
+            self.light.resize(count * C::PARTS, Lanes::filled(0.0));
         }
         self.apart = false;
         self.known.clear();
@@ -133,43 +133,43 @@ impl<C: Channel> Wave<C> {
         self.kinds.iter().map(|kind| kind.rays.len()).sum()
     }
 
-    /// Puts the rays that were sent on into bundles, each kind into its own.
-    pub fn bundle_legs(&mut self, level: Level) {
+    /// Puts the rays that were sent on into packets, each kind into its own.
+    pub fn packet_legs(&mut self, level: Level) {
         let mut k = 0;
         for kind in &mut self.kinds {
             kind.first = k;
-            k = kind.bundles().end;
+            k = kind.packets().end;
         }
-        self.rays.resize(k, Bundle::EMPTY);
+        self.rays.resize(k, RayPacket::EMPTY);
         if self.from.len() < k {
-            self.before.resize(k, [Column::filled(0.0); 2]);
+            self.before.resize(k, [Lanes::filled(0.0); 2]);
             self.from.resize(k, Departures::NONE);
         }
         for kind in &self.kinds {
-            for (k, legs) in kind.bundles().zip(kind.rays.chunks(BUNDLE)) {
-                let (bundle, [before, _], from) = (&mut self.rays[k], &mut self.before[k], &mut self.from[k]);
-                bundle.live = 0;
+            for (k, legs) in kind.packets().zip(kind.rays.chunks(PACKET)) {
+                let (packet, [before, _], from) = (&mut self.rays[k], &mut self.before[k], &mut self.from[k]);
+                packet.live = 0;
                 for (lane, leg) in legs.iter().enumerate() {
-                    bundle.set(lane, &leg.sent.ray);
+                    packet.set(lane, &leg.sent.ray);
                     before.0[lane] = leg.sent.travelled;
                     from.set(lane, &leg.departure);
                 }
-                dispatch!(level, simd => bundle.close(simd));
+                dispatch!(level, simd => packet.close(simd));
             }
         }
     }
 
-    /// The light of a bundle, a column for each part.
+    /// The light of a packet, a column for each part.
     #[inline]
-    pub fn light_mut(&mut self, bundle: usize) -> &mut [Column] {
-        &mut self.light[bundle * C::PARTS..][..C::PARTS]
+    pub fn light_mut(&mut self, packet: usize) -> &mut [Lanes] {
+        &mut self.light[packet * C::PARTS..][..C::PARTS]
     }
 
     /// The light that arrives along one ray.
     #[inline]
-    pub fn light(&self, at: Place) -> C {
+    pub fn light(&self, at: RayIndex) -> C {
         let mut parts = [0.0; 3];
-        for (part, column) in self.light[at.bundle * C::PARTS..][..C::PARTS].iter().enumerate() {
+        for (part, column) in self.light[at.packet * C::PARTS..][..C::PARTS].iter().enumerate() {
             parts[part] = column.0[at.lane];
         }
         C::from_parts(parts)
@@ -177,14 +177,14 @@ impl<C: Channel> Wave<C> {
 
     /// The light that arrives along the rays of a row.
     #[inline]
-    pub fn row_of_light(&self, bundle: usize, row: usize) -> [C; LANES] {
-        C::row(&self.light[bundle * C::PARTS..][..C::PARTS], row)
+    pub fn row_of_light(&self, packet: usize, row: usize) -> [C; LANES] {
+        C::row(&self.light[packet * C::PARTS..][..C::PARTS], row)
     }
 
     /// Sets it.
     #[inline]
-    pub fn set_light(&mut self, at: Place, light: C) {
-        for (part, column) in self.light_mut(at.bundle).iter_mut().enumerate() {
+    pub fn set_light(&mut self, at: RayIndex, light: C) {
+        for (part, column) in self.light_mut(at.packet).iter_mut().enumerate() {
             column.0[at.lane] = light.part(part);
         }
     }
@@ -198,36 +198,36 @@ impl<C: Channel> Wave<C> {
 
     /// The share of one ray's light that reaches the eye, and the glass that it starts in.
     #[inline]
-    pub fn standing(&self, at: Place) -> (f64, &List) {
-        self.leg(at).map_or((1.0, &self.inside), |Leg { sent, .. }| (sent.weight, &sent.inside))
+    pub fn standing(&self, at: RayIndex) -> (f64, &MediumStack) {
+        self.leg(at).map_or((1.0, &self.inside), |QueuedRay { sent, .. }| (sent.weight, &sent.inside))
     }
 
     /// The ray as it was sent on; none from the eye.
     #[inline]
-    fn leg(&self, at: Place) -> Option<&Leg> {
+    fn leg(&self, at: RayIndex) -> Option<&QueuedRay> {
         let [mirror, snell] = &self.kinds;
-        let kind = if at.bundle < snell.first { mirror } else { snell };
-        kind.rays.get((at.bundle - kind.first) * BUNDLE + at.lane)
+        let kind = if at.packet < snell.first { mirror } else { snell };
+        kind.rays.get((at.packet - kind.first) * PACKET + at.lane)
     }
 
     /// The surface that one ray met, for a ray that leaves it to the side that the other came from.
     #[inline]
-    pub fn departure(&self, at: Place) -> Departure {
-        let surface = self.nearest[at.bundle].surface.0[at.lane] as u32;
-        Departure { surface, ..self.departures[at.bundle].get(at.lane) }
+    pub fn departure(&self, at: RayIndex) -> Departure {
+        let surface = self.nearest[at.packet].surface.0[at.lane] as u32;
+        Departure { surface, ..self.departures[at.packet].get(at.lane) }
     }
 
-    /// Which rays of a bundle met something, a bit for each.
+    /// Which rays of a packet met something, a bit for each.
     #[inline]
-    pub fn found(&self, bundle: usize) -> u64 {
-        self.surfaces[bundle].hits | self.known[bundle]
+    pub fn found(&self, packet: usize) -> u64 {
+        self.surfaces[packet].hits | self.known[packet]
     }
 
     /// What one ray met; the distance is that from the eye.
     #[inline]
-    pub fn met(&self, at: Place) -> Met {
-        let Place { bundle, lane } = at;
-        let (nearest, surfaces) = (&self.nearest[bundle], &self.surfaces[bundle]);
+    pub fn met(&self, at: RayIndex) -> SurfaceInteraction {
+        let RayIndex { packet, lane } = at;
+        let (nearest, surfaces) = (&self.nearest[packet], &self.surfaces[packet]);
         let p = surfaces.p.get(lane);
         let hit = Hit {
             t: surfaces.way.0[lane],
@@ -238,6 +238,6 @@ impl<C: Channel> Wave<C> {
             surface: nearest.surface.0[lane] as u32,
             entering: nearest.entering >> lane & 1 == 1,
         };
-        Met { hit, p, normal: surfaces.normal.get(lane) }
+        SurfaceInteraction { hit, p, normal: surfaces.normal.get(lane) }
     }
 }

@@ -25,7 +25,7 @@ impl Picture {
 
 /// A camera and a picture, made ready to give rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Lens {
+pub struct PinholeCamera {
     /// The viewpoint.
     pub eye: DVec3,
     /// Along the line of sight, length 1.
@@ -41,8 +41,8 @@ pub struct Lens {
     dots: Size,
 }
 
-impl Lens {
-    /// The lens of a camera for a picture. The camera's field is contained: the other angle widens until dots
+impl PinholeCamera {
+    /// The pinhole camera of a camera for a picture. The camera's field is contained: the other angle widens until dots
     /// are as wide as high on the screen.
     pub fn new(camera: &Camera, picture: &Picture) -> Self {
         let sight = camera.target - camera.eye;
@@ -80,7 +80,7 @@ impl Lens {
         Ray::new(self.eye, DVec3::new(d.x, d.y, d.z))
     }
 
-    /// The directions, of length 1, through one point of the picture or through several, as for [`Lens::ray`].
+    /// The directions, of length 1, through one point of the picture or through several, as for [`PinholeCamera::ray`].
     #[inline(always)]
     pub fn directions<N: Number>(&self, x: N, y: N) -> Vector<N> {
         self.upward(self.across(x), self.height(y))
@@ -179,29 +179,32 @@ mod tests {
     #[test]
     fn the_field_is_contained_and_dots_are_square() {
         let wide = Picture { dots: Size::new(200, 50), dot_aspect: 1.0 };
-        let lens = Lens::new(&camera([40.0, 25.0]), &wide);
-        assert!((lens.field()[1] - 25.0).abs() < 1e-12 && lens.field()[0] > 40.0);
-        assert!((lens.tangents[0] / 200.0 - lens.tangents[1] / 50.0).abs() < 1e-15);
+        let pinhole = PinholeCamera::new(&camera([40.0, 25.0]), &wide);
+        assert!((pinhole.field()[1] - 25.0).abs() < 1e-12 && pinhole.field()[0] > 40.0);
+        assert!((pinhole.tangents[0] / 200.0 - pinhole.tangents[1] / 50.0).abs() < 1e-15);
         let tall = Picture { dots: Size::new(50, 200), dot_aspect: 1.0 };
-        let lens = Lens::new(&camera([40.0, 25.0]), &tall);
-        assert!((lens.field()[0] - 40.0).abs() < 1e-12 && lens.field()[1] > 25.0);
+        let pinhole = PinholeCamera::new(&camera([40.0, 25.0]), &tall);
+        assert!((pinhole.field()[0] - 40.0).abs() < 1e-12 && pinhole.field()[1] > 25.0);
     }
 
     #[test]
     fn the_middle_looks_forward_and_x_goes_right() {
-        let lens = Lens::new(&camera([40.0, 25.0]), &Picture { dots: Size::new(160, 100), dot_aspect: 1.0 });
-        assert_eq!(lens.ray(80.0, 50.0).d, DVec3::Y);
-        assert!(lens.ray(160.0, 50.0).d.x > 0.0);
-        assert!(lens.ray(80.0, 0.0).d.z > 0.0);
+        let pinhole = PinholeCamera::new(
+            &camera([40.0, 25.0]),
+            &Picture { dots: Size::new(160, 100), dot_aspect: 1.0 },
+        );
+        assert_eq!(pinhole.ray(80.0, 50.0).d, DVec3::Y);
+        assert!(pinhole.ray(160.0, 50.0).d.x > 0.0);
+        assert!(pinhole.ray(80.0, 0.0).d.z > 0.0);
     }
 
     #[test]
     fn an_angle_between_centers_is_that_of_the_outermost_dots() {
         let across = Camera { span: FieldSpan::Centers, ..camera([45.0, 45.0]) };
         for dots in [Size::new(513, 513), Size::new(2, 2), Size::new(1, 1)] {
-            let lens = Lens::new(&across, &Picture { dots, dot_aspect: 1.0 });
-            let [first, last] = [0.5, f64::from(dots.width) - 0.5].map(|x| lens.ray(x, 0.5).d);
-            let tangent = |d: DVec3| d.dot(lens.right) / d.dot(lens.forward);
+            let pinhole = PinholeCamera::new(&across, &Picture { dots, dot_aspect: 1.0 });
+            let [first, last] = [0.5, f64::from(dots.width) - 0.5].map(|x| pinhole.ray(x, 0.5).d);
+            let tangent = |d: DVec3| d.dot(pinhole.right) / d.dot(pinhole.forward);
             let expected = if dots.width > 1 { libm::tan(22.5_f64.to_radians()) } else { 0.0 };
             assert!((tangent(first) + expected).abs() < 1e-15, "{dots:?}");
             assert!((tangent(last) - expected).abs() < 1e-15, "{dots:?}");
@@ -211,8 +214,8 @@ mod tests {
     #[test]
     fn zoom_divides_both_tangents() {
         let picture = Picture { dots: Size::new(160, 100), dot_aspect: 1.0 };
-        let plain = Lens::new(&camera([40.0, 25.0]), &picture);
-        let near = Lens::new(&Camera { zoom: 2.0, ..camera([40.0, 25.0]) }, &picture);
+        let plain = PinholeCamera::new(&camera([40.0, 25.0]), &picture);
+        let near = PinholeCamera::new(&Camera { zoom: 2.0, ..camera([40.0, 25.0]) }, &picture);
         assert_eq!(plain.tangents.map(|t| t / 2.0), near.tangents);
     }
 
@@ -226,7 +229,7 @@ mod tests {
                 let picture = Picture { dots: Size::new(16, 10), dot_aspect: 1.0 };
                 let up = sight / sight.abs().max_element() + off * DVec3::new(0.9, -0.4, 0.1);
                 let camera = Camera { eye: DVec3::ZERO, target: sight, up, ..camera([40.0, 25.0]) };
-                let Lens { forward, right, up, .. } = Lens::new(&camera, &picture);
+                let PinholeCamera { forward, right, up, .. } = PinholeCamera::new(&camera, &picture);
                 for (a, b) in [(forward, right), (right, up), (up, forward)] {
                     assert!(a.dot(b).abs() < 1e-15 && (a.length() - 1.0).abs() < 1e-15, "{off} {sight}");
                 }
@@ -237,8 +240,8 @@ mod tests {
     #[test]
     fn lights_that_move_with_the_eye_have_a_place_at_any_distance() {
         let far = Camera { eye: DVec3::MAX, ..camera([40.0, 25.0]) };
-        let lens = Lens::new(&far, &Picture { dots: Size::new(16, 10), dot_aspect: 1.0 });
-        assert!(lens.place(DVec3::new(-0.6, 0.8, 3.0)).is_finite());
+        let pinhole = PinholeCamera::new(&far, &Picture { dots: Size::new(16, 10), dot_aspect: 1.0 });
+        assert!(pinhole.place(DVec3::new(-0.6, 0.8, 3.0)).is_finite());
     }
 
     // A zoom of 1e-200 overflowed the square of a ray's direction, which came out as 0.
@@ -246,9 +249,9 @@ mod tests {
     fn rays_have_a_direction_at_any_zoom() {
         for zoom in [5e-324, 1e-200, 1.0, 1e200, f64::MAX] {
             let picture = Picture { dots: Size::new(32_768, 1), dot_aspect: 1.0 };
-            let lens = Lens::new(&Camera { zoom, ..camera([40.0, 25.0]) }, &picture);
+            let pinhole = PinholeCamera::new(&Camera { zoom, ..camera([40.0, 25.0]) }, &picture);
             for (x, y) in [(0.0, 0.0), (0.5, 0.5), (32_768.0, 1.0)] {
-                assert!((lens.ray(x, y).d.length() - 1.0).abs() < 1e-15, "{zoom} {x} {y}");
+                assert!((pinhole.ray(x, y).d.length() - 1.0).abs() < 1e-15, "{zoom} {x} {y}");
             }
         }
     }

@@ -1,13 +1,13 @@
-//! The spans of a bundle in the primitives that it was asked about: each is computed once, however many slices of the
+//! The spans of a packet in the primitives that it was asked about: each is computed once, however many slices of the
 //! way, and expressions in them, name the primitive.
 
 use fearless_simd::Simd;
 
-use crate::math::{Bundle, Column, Digits, Mask, Number, Rays};
+use crate::math::{Lanes, Mask, Number, RayPacket, Rays, Real};
 
-use super::crossing::Reach;
+use super::crossing::TRange;
 use super::crossings::Departures;
-use super::primitive::Form;
+use super::primitive::WorldShape;
 use super::span::{Ends, Spans};
 
 /// Calls `$rows($simd, $args…, spans)` with the spans of a convex form, compiled for each form by itself and for the SIMD
@@ -18,7 +18,7 @@ macro_rules! with_spans {
     };
     (@each $simd:expr, $form:expr, $rows:ident, $args:tt, $($kind:ident),*) => {
         match $form {
-            $($crate::solid::Form::$kind(solid) => with_spans!(@one $simd, $rows, $args, solid),)*
+            $($crate::solid::WorldShape::$kind(solid) => with_spans!(@one $simd, $rows, $args, solid),)*
             _ => {}
         }
     };
@@ -33,10 +33,10 @@ pub(crate) use with_spans;
 
 /// One end of the spans in one primitive.
 #[derive(Clone, Debug)]
-pub(super) struct Side<T> {
-    pub t: Column<T>,
-    pub error: Column<T>,
-    pub surface: Column<T>,
+pub(super) struct SpanEnds<T> {
+    pub t: Lanes<T>,
+    pub error: Lanes<T>,
+    pub surface: Lanes<T>,
     /// The rays that are yet to cross here.
     pub ahead: u64,
     /// The rays that cross here in the place that is looked at.
@@ -45,30 +45,30 @@ pub(super) struct Side<T> {
 
 /// The spans in one primitive.
 #[derive(Clone, Debug)]
-pub(super) struct KnownSpans<T> {
+pub(super) struct CachedSpans<T> {
     primitive: u32,
-    /// How far its crossings may be off: [`Form::off`]; and the share of that which is our own rounding.
+    /// How far its crossings may be off: [`WorldShape::off`]; and the share of that which is our own rounding.
     pub off: f64,
     pub seeming: f64,
-    /// Which rays have one; and which may have one, as far as more digits might say.
+    /// Which rays have one; and which may have one, as far as double precision might say.
     any: u64,
     doubtful: u64,
-    pub enter: Side<T>,
-    pub leave: Side<T>,
+    pub enter: SpanEnds<T>,
+    pub leave: SpanEnds<T>,
 }
 
-impl<T: Digits> Side<T> {
+impl<T: Real> SpanEnds<T> {
     const NONE: Self = Self {
-        t: Column::filled(T::ZERO),
-        error: Column::filled(T::ZERO),
-        surface: Column::filled(T::ZERO),
+        t: Lanes::filled(T::ZERO),
+        error: Lanes::filled(T::ZERO),
+        surface: Lanes::filled(T::ZERO),
         ahead: 0,
         now: 0,
     };
 
     /// Those of a row.
     #[inline(always)]
-    pub fn row<S: Simd>(&self, simd: S, row: usize) -> Ends<T::Wide<S>> {
+    pub fn row<S: Simd>(&self, simd: S, row: usize) -> Ends<T::SimdReal<S>> {
         Ends {
             t: self.t.load(simd, row),
             error: self.error.load(simd, row),
@@ -77,33 +77,33 @@ impl<T: Digits> Side<T> {
     }
 }
 
-impl<T: Digits> KnownSpans<T> {
+impl<T: Real> CachedSpans<T> {
     const NONE: Self = Self {
         primitive: 0,
         off: 0.0,
         seeming: 0.0,
         any: 0,
         doubtful: 0,
-        enter: Side::NONE,
-        leave: Side::NONE,
+        enter: SpanEnds::NONE,
+        leave: SpanEnds::NONE,
     };
 
     /// The two ends.
     #[inline(always)]
-    pub fn sides(&self) -> [&Side<T>; 2] {
+    pub fn sides(&self) -> [&SpanEnds<T>; 2] {
         [&self.enter, &self.leave]
     }
 
     /// The two ends.
     #[inline(always)]
-    pub fn sides_mut(&mut self) -> [&mut Side<T>; 2] {
+    pub fn sides_mut(&mut self) -> [&mut SpanEnds<T>; 2] {
         [&mut self.enter, &mut self.leave]
     }
 
     /// Looks ahead at the spans of some rays that can matter within `reach`. Far outside it only the state inside it
     /// matters: none for a span that ends before it or starts behind it.
     #[inline(always)]
-    fn look<S: Simd>(&mut self, simd: S, wanted: u64, reach: Reach) -> u64 {
+    fn look<S: Simd>(&mut self, simd: S, wanted: u64, reach: TRange) -> u64 {
         let mut ahead = 0;
         let rays = wanted & self.any;
         let (from, to) = (T::all(simd, reach.from), T::all(simd, reach.to));
@@ -123,22 +123,22 @@ impl<T: Digits> KnownSpans<T> {
     }
 }
 
-/// What is known of one bundle.
+/// What is known of one packet.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Known<T> {
+pub(super) struct SpanCache<T> {
     /// Those that are in use come first.
-    spans: Vec<KnownSpans<T>>,
+    spans: Vec<CachedSpans<T>>,
     count: usize,
 }
 
-impl<T: Digits> Known<T> {
-    /// Forgets all: another bundle follows.
+impl<T: Real> SpanCache<T> {
+    /// Forgets all: another packet follows.
     pub fn clear(&mut self) {
         self.count = 0;
     }
 
     /// All spans, by their places.
-    pub fn spans(&mut self) -> &mut [KnownSpans<T>] {
+    pub fn spans(&mut self) -> &mut [CachedSpans<T>] {
         &mut self.spans[..self.count]
     }
 
@@ -147,22 +147,22 @@ impl<T: Digits> Known<T> {
     pub fn look<S: Simd>(
         &mut self,
         simd: S,
-        (bundle, departures): (&Bundle<T>, Option<&Departures<T>>),
-        (primitive, form): (u32, &Form),
+        (packet, departures): (&RayPacket<T>, Option<&Departures<T>>),
+        (primitive, form): (u32, &WorldShape),
         wanted: u64,
-        reach: Reach,
+        reach: TRange,
     ) -> (u32, [u64; 2]) {
         let known = self.spans[..self.count].iter().position(|known| known.primitive == primitive);
         let place = known.unwrap_or_else(|| {
             if self.count == self.spans.len() {
-                self.spans.push(KnownSpans::NONE);
+                self.spans.push(CachedSpans::NONE);
             }
             self.count += 1;
             let known = &mut self.spans[self.count - 1];
             (known.primitive, known.any, known.doubtful) = (primitive, 0, 0);
             (known.off, known.seeming) = (form.off() * T::COARSER, form.seeming());
             let here = departures.map_or((0, 0), |d| d.here(simd, primitive));
-            with_spans!(simd, form, learn, (bundle, wanted, here), known);
+            with_spans!(simd, form, learn, (packet, wanted, here), known);
             self.count - 1
         });
         let spans = &mut self.spans[place];
@@ -175,17 +175,17 @@ impl<T: Digits> Known<T> {
 }
 
 #[inline(always)]
-fn learn<S: Simd, T: Digits>(
+fn learn<S: Simd, T: Real>(
     simd: S,
-    (bundle, wanted, (here, inward)): (&Bundle<T>, u64, (u64, u64)),
-    known: &mut KnownSpans<T>,
-    spans: impl Fn(&Rays<T::Wide<S>>) -> Spans<T::Wide<S>>,
+    (packet, wanted, (here, inward)): (&RayPacket<T>, u64, (u64, u64)),
+    known: &mut CachedSpans<T>,
+    spans: impl Fn(&Rays<T::SimdReal<S>>) -> Spans<T::SimdReal<S>>,
 ) {
     for row in 0..T::ROWS {
         if !T::has_any(wanted, row) {
             continue;
         }
-        let mut spans = spans(&bundle.load(simd, row));
+        let mut spans = spans(&packet.load(simd, row));
         let any = spans.any & !T::row_of(simd, here & !inward, row);
         if !T::DECIDES {
             known.doubtful |= T::bits_of(simd, spans.may & !spans.any, row);

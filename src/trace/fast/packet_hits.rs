@@ -1,8 +1,8 @@
-//! The nearest hits of a bundle, as far as they are known.
+//! The nearest hits of a packet, as far as they are known.
 
 use fearless_simd::Simd;
 
-use crate::math::{Answers, Bundle, Column, Digits, Mask, Number, Row};
+use crate::math::{Lanes, Mask, Number, RayPacket, Real, RealMask, SimdRegister};
 use crate::solid::Crossing;
 
 use super::super::Hit;
@@ -11,45 +11,45 @@ use super::super::Hit;
 /// solids may be off.
 const FLUSH: f64 = 4.0;
 
-/// What each ray of a bundle met first.
+/// What each ray of a packet met first.
 #[derive(Clone, Debug)]
-pub struct Nearest<T = f64> {
+pub struct PacketHits<T = f64> {
     /// Where; infinite where nothing was met.
-    pub t: Column<T>,
+    pub t: Lanes<T>,
     /// How far that may be off.
-    pub error: Column<T>,
+    pub error: Lanes<T>,
     /// Where it met what comes next, another object's surface; of numbers that do not decide, where that is at least.
-    pub second: Column<T>,
+    pub second: Lanes<T>,
     /// The object, by its index in the assembly.
-    pub object: Column<T>,
+    pub object: Lanes<T>,
     /// The primitive, by its index in the assembly.
-    pub primitive: Column<T>,
+    pub primitive: Lanes<T>,
     /// The face of the primitive.
-    pub surface: Column<T>,
+    pub surface: Lanes<T>,
     /// Which rays go into the object there, a bit for each.
     pub entering: u64,
     /// Which rays are to be asked one by one.
     pub unsure: u64,
-    /// Which rays have no company, and are to be asked in a stream.
+    /// Which rays have no reordering, and are to be asked in a stream.
     pub apart: u64,
 }
 
-impl<T: Digits> Default for Nearest<T> {
+impl<T: Real> Default for PacketHits<T> {
     #[inline]
     fn default() -> Self {
         Self::NOTHING
     }
 }
 
-impl<T: Digits> Nearest<T> {
+impl<T: Real> PacketHits<T> {
     /// Nothing was met yet.
     pub const NOTHING: Self = Self {
-        t: Column::filled(T::INFINITY),
-        error: Column::filled(T::ZERO),
-        second: Column::filled(T::INFINITY),
-        object: Column::filled(T::ZERO),
-        primitive: Column::filled(T::ZERO),
-        surface: Column::filled(T::ZERO),
+        t: Lanes::filled(T::INFINITY),
+        error: Lanes::filled(T::ZERO),
+        second: Lanes::filled(T::INFINITY),
+        object: Lanes::filled(T::ZERO),
+        primitive: Lanes::filled(T::ZERO),
+        surface: Lanes::filled(T::ZERO),
         entering: 0,
         unsure: 0,
         apart: 0,
@@ -58,8 +58,8 @@ impl<T: Digits> Nearest<T> {
     /// Forgets all.
     #[inline(always)]
     pub fn clear(&mut self) {
-        self.t = Column::filled(T::INFINITY);
-        self.second = Column::filled(T::INFINITY);
+        self.t = Lanes::filled(T::INFINITY);
+        self.second = Lanes::filled(T::INFINITY);
         self.forget_rays();
     }
 
@@ -70,7 +70,7 @@ impl<T: Digits> Nearest<T> {
     }
 }
 
-impl Nearest {
+impl PacketHits {
     /// Forgets what one ray met.
     #[inline]
     pub(super) fn forget(&mut self, lane: usize) {
@@ -109,7 +109,7 @@ impl Nearest {
 
     /// Sets what all met to the nearest of others' numbers.
     #[inline(always)]
-    pub(super) fn set_nearest<T: Digits>(&mut self, other: &Nearest<T>) {
+    pub(super) fn set_nearest<T: Real>(&mut self, other: &PacketHits<T>) {
         self.t.set_nearest(&other.t);
         self.error.set_nearest(&other.error);
         self.object.set_nearest(&other.object);
@@ -119,10 +119,10 @@ impl Nearest {
     }
 }
 
-impl<T: Digits> Nearest<T> {
+impl<T: Real> PacketHits<T> {
     /// Crossings of some rays of a row with an object.
     #[inline(always)]
-    pub fn offer<S: Simd>(&mut self, simd: S, row: usize, met: &Offer<T, S>) {
+    pub fn offer<S: Simd>(&mut self, simd: S, row: usize, met: &HitCandidate<T, S>) {
         let (best, second) = (self.t.load(simd, row), self.second.load(simd, row));
         let t = met.any.choose(met.t, T::all(simd, f64::INFINITY));
         let nearer = t.is_below(best);
@@ -144,10 +144,10 @@ impl<T: Digits> Nearest<T> {
         self.entering = self.entering & !nearer | entering & nearer;
     }
 
-    /// Up to where something may be in one place with what the rays of a row met first. With all digits that is said by how far
-    /// solids may be off; with fewer also by the slope at which it was met, as what is flush with it is.
+    /// Up to where something may be in one place with what the rays of a row met first. In double precision that is said by how far
+    /// solids may be off; in single also by the slope at which it was met, as what is flush with it is.
     #[inline(always)]
-    fn reach<S: Simd>(&self, simd: S, row: usize) -> T::Wide<S> {
+    fn reach<S: Simd>(&self, simd: S, row: usize) -> T::SimdReal<S> {
         let t = self.t.load(simd, row);
         if T::DECIDES { t } else { t + self.error.load(simd, row) * FLUSH }
     }
@@ -172,13 +172,13 @@ impl<T: Digits> Nearest<T> {
 
     /// The greatest distance at which any of the rays may still meet something.
     #[inline(always)]
-    pub fn farthest<S: Simd>(&self, simd: S, bundle: &Bundle<T>) -> f64 {
+    pub fn farthest<S: Simd>(&self, simd: S, packet: &RayPacket<T>) -> f64 {
         // Nobody knows what those met that are not there: what they leave is not set.
         let nowhere = T::all(simd, f64::NEG_INFINITY);
         let mut most = nowhere;
         for row in 0..T::ROWS {
-            if bundle.has_live(row) {
-                let t = T::row_of(simd, bundle.live, row).choose(self.reach(simd, row), nowhere);
+            if packet.has_live(row) {
+                let t = T::row_of(simd, packet.live, row).choose(self.reach(simd, row), nowhere);
                 most = t.larger(most);
             }
         }
@@ -188,19 +188,19 @@ impl<T: Digits> Nearest<T> {
 
 /// Crossings of a row with one object.
 #[derive(Clone, Copy)]
-pub struct Offer<T: Digits, S: Simd> {
+pub struct HitCandidate<T: Real, S: Simd> {
     /// Which rays have one.
-    pub any: Answers<T, S>,
+    pub any: RealMask<T, S>,
     /// Where.
-    pub t: T::Wide<S>,
+    pub t: T::SimdReal<S>,
     /// How far that may be off.
-    pub error: T::Wide<S>,
+    pub error: T::SimdReal<S>,
     /// Whether the ray goes into the object there.
-    pub entering: Answers<T, S>,
+    pub entering: RealMask<T, S>,
     /// The object.
     pub object: u32,
     /// The primitive.
-    pub primitive: T::Wide<S>,
+    pub primitive: T::SimdReal<S>,
     /// The face.
-    pub surface: T::Wide<S>,
+    pub surface: T::SimdReal<S>,
 }

@@ -1,4 +1,4 @@
-//! Rays without company through the hierarchy, many on their way at once.
+//! Rays without reordering through the hierarchy, many on their way at once.
 //!
 //! A single ray waits: for the node that it asks next, and for the processor, which can not guess what it meets. So each
 //! of many takes one step in its turn, and what one waits for the others do meanwhile.
@@ -7,15 +7,15 @@ use fearless_simd::{Simd, SimdBase, dispatch, f32x8};
 
 use crate::math::Ray;
 
-use super::walk::{Asked, WAITING, Way, first_two};
-use super::{Boxes, INNER, Node, WIDE, upper};
+use super::walk::{RayF32, RaySimd, WAITING, first_two};
+use super::{Bvh8, INNER, Node, WIDE, upper};
 
 /// Rays that are on their way at once: what waits for them has room in the nearest memory.
 const ABREAST: usize = 24;
 
 /// A ray and an object whose box it meets.
 #[derive(Clone, Copy, Debug)]
-pub struct Meeting {
+pub struct Candidate {
     /// By its number among the rays.
     pub ray: u32,
     /// By its index in the assembly.
@@ -26,18 +26,18 @@ pub struct Meeting {
 
 /// The rays, and how far each still looks.
 #[derive(Debug, Default)]
-pub struct Ways {
-    ways: Vec<Way>,
+pub struct StreamRays {
+    ways: Vec<RayF32>,
     ends: Vec<f32>,
 }
 
 /// Rays, and the memory of their walk, used again for the next.
 #[derive(Debug, Default)]
 pub struct Stream {
-    ways: Ways,
+    ways: StreamRays,
     walkers: Vec<Walker>,
     steps: Steps,
-    met: Vec<Meeting>,
+    met: Vec<Candidate>,
 }
 
 /// One of those that are on their way.
@@ -136,7 +136,7 @@ impl Waiting {
     }
 }
 
-impl Ways {
+impl StreamRays {
     /// How many rays there are.
     #[inline]
     pub fn len(&self) -> usize {
@@ -157,7 +157,7 @@ impl Ways {
 
     /// Whether a meeting still matters.
     #[inline]
-    pub fn matters(&self, meeting: &Meeting) -> bool {
+    pub fn matters(&self, meeting: &Candidate) -> bool {
         meeting.near <= self.ends[meeting.ray as usize]
     }
 }
@@ -173,26 +173,26 @@ impl Stream {
     /// One more ray, that looks as far as `to`.
     #[inline(always)]
     pub fn push(&mut self, ray: &Ray, to: f64) {
-        self.ways.ways.push(Way::new(ray, 0.0));
+        self.ways.ways.push(RayF32::new(ray, 0.0));
         self.ways.ends.push(upper(to));
     }
 
     /// The rays.
     #[inline]
-    pub fn ways(&self) -> &Ways {
+    pub fn ways(&self) -> &StreamRays {
         &self.ways
     }
 }
 
-impl Boxes {
+impl Bvh8 {
     /// Calls `visit` again and again with some rays and the objects whose boxes they meet, each pair once, of one ray the
-    /// nearer nodes first; at last with none. `visit` says by [`Ways::look`] how far a ray still matters.
+    /// nearer nodes first; at last with none. `visit` says by [`StreamRays::look`] how far a ray still matters.
     #[inline]
     pub fn walk_stream(
         &self,
         stream: &mut Stream,
         cells_visited: &mut u64,
-        visit: &mut dyn FnMut(&[Meeting], &mut Ways),
+        visit: &mut dyn FnMut(&[Candidate], &mut StreamRays),
     ) {
         dispatch!(self.level, simd => walked(simd, &self.nodes, stream, cells_visited, visit));
     }
@@ -204,7 +204,7 @@ fn walked<S: Simd>(
     nodes: &[Node],
     Stream { ways, walkers, steps, met }: &mut Stream,
     cells_visited: &mut u64,
-    visit: &mut dyn FnMut(&[Meeting], &mut Ways),
+    visit: &mut dyn FnMut(&[Candidate], &mut StreamRays),
 ) {
     let rays = ways.len() as u32;
     let mut started = rays.min(ABREAST as u32);
@@ -215,14 +215,14 @@ fn walked<S: Simd>(
     for (ray, walker) in walkers.iter_mut().enumerate().take(active) {
         (walker.ray, walker.node) = (ray as u32, 0);
     }
-    met.resize(ABREAST * WIDE, Meeting { ray: 0, object: 0, near: 0.0 });
+    met.resize(ABREAST * WIDE, Candidate { ray: 0, object: 0, near: 0.0 });
     while active != 0 {
         *cells_visited += active as u64;
         // All nodes are asked before anything depends on an answer, so that none waits for the memory of another.
         for (k, Walker { ray, node, .. }) in walkers[..active].iter().enumerate() {
             let (way, end) = (&ways.ways[*ray as usize], ways.ends[*ray as usize]);
             let here = &nodes[*node as usize];
-            let (enter, met) = Asked::new(simd, way).meets(simd, here, f32x8::splat(simd, end));
+            let (enter, met) = RaySimd::new(simd, way).meets(simd, here, f32x8::splat(simd, end));
             enter.store_slice(&mut steps.enter[k]);
             steps.met[k] = met;
         }
@@ -238,13 +238,13 @@ fn walked<S: Simd>(
             let (slots, mut rest) = first_two(objects);
             let place = &mut met[count..count + WIDE];
             for (to, slot) in place.iter_mut().zip(slots) {
-                *to = Meeting { ray: *ray, object: here.children[slot], near: enter[slot] };
+                *to = Candidate { ray: *ray, object: here.children[slot], near: enter[slot] };
             }
             let mut next = 2;
             while rest != 0 {
                 let slot = rest.trailing_zeros() as usize % WIDE;
                 rest &= rest - 1;
-                place[next % WIDE] = Meeting { ray: *ray, object: here.children[slot], near: enter[slot] };
+                place[next % WIDE] = Candidate { ray: *ray, object: here.children[slot], near: enter[slot] };
                 next += 1;
             }
             count += objects.count_ones() as usize;

@@ -73,6 +73,8 @@ pub mod output;
 
 pub mod frame;
 
+pub mod trade;
+
 #[cfg(feature = "widget")]
 pub mod widget;
 

@@ -1,6 +1,6 @@
 //! How long pictures take.
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -10,6 +10,7 @@ use serde_json::{Value, json};
 use crate::app::Encoder;
 use crate::frame::{Frame, Request, Studio, Wants};
 use crate::math::DVec3;
+use crate::trade::{Effort, Timing, peak_memory};
 use crate::widget::Picture;
 
 use super::arguments::BenchArguments;
@@ -17,10 +18,6 @@ use super::error::CliError;
 use super::picture::Unsized;
 use super::write::print;
 use super::{effects, input, stats};
-
-/// Frames are drawn until both are reached: enough for a median, long enough for a clock.
-const FRAMES: usize = 5;
-const LONG_ENOUGH: Duration = Duration::from_millis(600);
 
 /// The turn between two frames whose difference is sent, in degrees: a press of an arrow key.
 const TURN: f64 = 5.0;
@@ -37,28 +34,16 @@ pub fn run(arguments: &BenchArguments) -> Result<(), CliError> {
     let wants = if arguments.picture.dots.is_some() { Wants::LIGHT } else { Wants::CELLS };
     let request = arguments.picture.request(&studio, arguments.picture.look(None), wants, Unsized::Screen)?;
 
-    let mut frame = studio.draw(&request);
-    let mut times = Vec::new();
-    let start = Instant::now();
-    while times.len() < FRAMES || start.elapsed() < LONG_ENOUGH {
-        // The studio draws the next into its memory.
-        drop(frame);
-        frame = studio.draw_anew(&request);
-        times.push(frame.total);
-    }
-    times.sort_unstable();
-    let (least, median) = (times[0], times[times.len() / 2]);
+    let timing = Timing::new(&studio, &request, Effort::default());
     let sent = Sent::new(&studio, &Request { wants: Wants::CELLS, ..request });
 
-    let mut figures = stats::figures(&frame, &studio.built());
-    let counts = &frame.counts;
-    let rays = counts.rays();
+    let mut figures = stats::figures(&timing.frame, &studio.built());
     let mut put = |key: &str, value: Value| figures.insert(key.to_owned(), value);
-    put("frames", json!(times.len()));
-    put("frame_ms_min", json!(stats::ms(least)));
-    put("frame_ms_median", json!(stats::ms(median)));
+    put("frames", json!(timing.times().len()));
+    put("frame_ms_min", json!(stats::ms(timing.least())));
+    put("frame_ms_median", json!(stats::ms(timing.median())));
     put("read_ms", json!(stats::ms(read)));
-    put("rays_per_second", json!((rays as f64 / median.as_secs_f64()).round()));
+    put("rays_per_second", json!(timing.rays_per_second().round()));
     put("bytes_first_frame", json!(sent.first));
     put("bytes_per_frame", json!(sent.next));
     put("peak_rss_bytes", json!(peak_memory()));
@@ -111,12 +96,4 @@ fn bytes_between(before: &Buffer, after: &Buffer) -> usize {
     let mut encoder = Encoder::default();
     encoder.turn(before, after);
     encoder.len()
-}
-
-/// The most memory that the process has held, where the system tells.
-fn peak_memory() -> Option<u64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
-    let kilobytes: u64 = line.split_whitespace().nth(1)?.parse().ok()?;
-    Some(kilobytes * 1024)
 }

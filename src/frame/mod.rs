@@ -1,6 +1,7 @@
 //! All stages in order: a request in, a finished frame out, with what each stage counted.
 
 mod blocks;
+mod compare;
 mod draw;
 mod explain;
 mod frame_cache;
@@ -13,6 +14,7 @@ mod sample;
 mod scratch_pool;
 mod studio;
 
+pub use compare::{Comparison, OtherDots};
 pub use nothing::NothingInView;
 pub use request::{Frame, Request, Space, Wants};
 pub use studio::{Built, Studio};

@@ -44,7 +44,7 @@ pub fn lightness_in_single<const N: usize>(light: [f64; N]) -> [f32; N] {
         let (low, high) = ((near[k] - AWAY) as f32, (near[k] + AWAY) as f32);
         let is_root = light[k] > FOOT_LIGHT;
         found[k] = if is_root { low } else { (FOOT_SLOPE * light[k]) as f32 };
-        is_doubtful |= is_root & (low != high);
+        is_doubtful |= is_root && low != high;
     }
     if is_doubtful { lightnesses(light).map(|lightness| lightness as f32) } else { found }
 }

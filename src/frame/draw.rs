@@ -10,7 +10,7 @@ use crate::lattice::Structure;
 use crate::math::{Bounds, DVec3, Grid};
 use crate::plan::{Channels, EngineChoice, Plan, Precision};
 use crate::shade::{Channel, Shader, TileHits};
-use crate::stage::{Counts, Meter, Progress, Silent, Stage, StageTimes, Stopwatch, Task};
+use crate::stage::{Counts, Meter, Progress, Stage, StageTimes, Task, Watch};
 use crate::trace::{Exact, Fast};
 use crate::view::{Picture, PinholeCamera, TILE, Tile, tiles};
 
@@ -199,15 +199,10 @@ impl<C: Channel> Work<C> for Whole<'_> {
             let mut worker = taken.unwrap_or_else(|| Box::new((tracer.memory(), TileDots::new(wants))));
             let (memory, dots) = &mut *worker;
             dots.fit(&tile);
-            let measured = if is_timed(&tile) {
-                let mut meter = Meter::new(Stopwatch::start(Stage::Ray));
-                tracer.tile(&tile, memory, dots, &mut meter);
-                (meter.counts, meter.probe.stop())
-            } else {
-                let mut meter = Meter::new(Silent);
-                tracer.tile(&tile, memory, dots, &mut meter);
-                (meter.counts, StageTimes::default())
-            };
+            let watch = if is_timed(&tile) { Watch::timed(Stage::Ray) } else { Watch::Silent };
+            let mut meter = Meter::new(watch);
+            tracer.tile(&tile, memory, dots, &mut meter);
+            let measured = (meter.counts, meter.probe.stop());
             bands[(tile.corner[1] / TILE) as usize].take(size.width, &tile, dots);
             idle().push(worker);
             progress.advance(1);

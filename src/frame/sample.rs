@@ -11,7 +11,7 @@ use crate::lattice::Structure;
 use crate::math::{DVec3, Grid, Size};
 use crate::plan::{Channels, Plan, Sample};
 use crate::shade::Channel;
-use crate::stage::{Meter, Silent, Stage, Stopwatch};
+use crate::stage::{Meter, Stage, Watch};
 use crate::view::{PinholeCamera, TILE, Tile, tiles};
 
 use super::draw::{Viewed, Work, composed, shared_out};
@@ -81,7 +81,7 @@ impl<C: Channel> Work<C> for Sampling<'_> {
                 break;
             }
             dots.fit(&tile);
-            let mut meter = Meter::new(Stopwatch::start(Stage::Ray));
+            let mut meter = Meter::new(Watch::timed(Stage::Ray));
             tracer.tile(&tile, &mut memory, &mut dots, &mut meter);
             let shares = meter.probe.stop();
             sample.counts += meter.counts;
@@ -91,7 +91,7 @@ impl<C: Channel> Work<C> for Sampling<'_> {
                     break;
                 }
                 let start = Instant::now();
-                tracer.tile(&tile, &mut memory, &mut dots, &mut Meter::new(Silent));
+                tracer.tile(&tile, &mut memory, &mut dots, &mut Meter::new(Watch::Silent));
                 least = least.min(start.elapsed());
             }
             sample.times += shared_out(&shares, least);

@@ -210,6 +210,40 @@ impl Probe for Stopwatch {
     }
 }
 
+/// A probe that is chosen while the program runs: what is traced is compiled once for both.
+#[derive(Clone, Copy, Debug, Default)]
+pub enum Watch {
+    /// [`Silent`].
+    #[default]
+    Silent,
+    /// [`Stopwatch`].
+    Timed(Stopwatch),
+}
+
+impl Watch {
+    /// A stopwatch that starts in `stage`.
+    pub fn timed(stage: Stage) -> Self {
+        Self::Timed(Stopwatch::start(stage))
+    }
+
+    /// The time of each stage since the start; none where nothing was timed.
+    pub fn stop(self) -> StageTimes {
+        match self {
+            Self::Silent => StageTimes::default(),
+            Self::Timed(watch) => watch.stop(),
+        }
+    }
+}
+
+impl Probe for Watch {
+    #[inline]
+    fn at(&mut self, stage: Stage) {
+        if let Self::Timed(watch) = self {
+            watch.at(stage);
+        }
+    }
+}
+
 /// Counts and a probe, carried along by whoever traces.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Meter<P> {

@@ -45,6 +45,10 @@ pub enum Command {
     Bench(BenchArguments),
     /// Say what a picture requires, stage by stage, what that is expected to cost, and why the rest is left out
     Plan(PlanArguments),
+    /// Compare two pictures: exit code 0 where they are the same, 1 where they differ
+    Diff(DiffArguments),
+    /// Keep the picture of each view of a scene beside it, or compare it with what was kept
+    Snapshot(SnapshotArguments),
     /// Read and validate a scene only
     Check(SceneArguments),
     /// List the embedded scenes, or print one
@@ -97,6 +101,47 @@ pub struct RenderArguments {
     /// Say on standard error what was counted and how long it took
     #[arg(long, value_enum)]
     pub stats: Option<StatsFormat>,
+}
+
+#[derive(Clone, Debug, Args)]
+pub struct DiffArguments {
+    /// The picture before: a .levels file as render --format levels writes it, or a scene
+    pub before: String,
+    /// The picture after. A scene has the dots of the .levels file that it is compared with, in characters' cells where
+    /// they fit
+    pub after: String,
+    /// Dots may differ by so many of the 13 levels
+    #[arg(long, value_name = "LEVELS", value_parser = clap::value_parser!(u8).range(0..=12), default_value = "0")]
+    pub tolerance: u8,
+    /// Leave out what OpenSCAD can show and ray13 can not
+    #[arg(long)]
+    pub skip_unsupported: bool,
+    /// Memory that the scene may take, as in 500MiB or 2GiB [default: half of the machine's]
+    #[arg(long, value_name = "BYTES", value_parser = values::bytes)]
+    pub memory: Option<u64>,
+    #[command(flatten)]
+    pub picture: PictureArguments,
+}
+
+#[derive(Clone, Debug, Args)]
+pub struct SnapshotArguments {
+    /// Scenes; the picture of each of their views is kept beside them, as part.levels or part.VIEW.levels
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<String>,
+    /// Keep what has changed and what is new
+    #[arg(long)]
+    pub update: bool,
+    /// Dots may differ by so many of the 13 levels
+    #[arg(long, value_name = "LEVELS", value_parser = clap::value_parser!(u8).range(0..=12), default_value = "0")]
+    pub tolerance: u8,
+    /// Leave out what OpenSCAD can show and ray13 can not
+    #[arg(long)]
+    pub skip_unsupported: bool,
+    /// Memory that a scene may take, as in 500MiB or 2GiB [default: half of the machine's]
+    #[arg(long, value_name = "BYTES", value_parser = values::bytes)]
+    pub memory: Option<u64>,
+    #[command(flatten)]
+    pub picture: PictureArguments,
 }
 
 #[derive(Clone, Debug, Args)]

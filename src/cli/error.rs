@@ -17,6 +17,9 @@ pub enum CliError {
     /// A scene that is no scene, already rendered with its places: exit code 2.
     #[error("{0}")]
     Scene(String),
+    /// Pictures that were to be the same are not: exit code 1.
+    #[error("{0}")]
+    Different(String),
     /// Something could not be written: exit code 1.
     #[error("error: {0}")]
     Output(String),
@@ -30,7 +33,7 @@ impl CliError {
     pub fn exit_code(&self) -> ExitCode {
         match self {
             Self::Input(_) | Self::Arguments(_) | Self::Scene(_) => ExitCode::from(2),
-            Self::Output(_) | Self::Viewer(_) => ExitCode::from(1),
+            Self::Different(_) | Self::Output(_) | Self::Viewer(_) => ExitCode::from(1),
         }
     }
 

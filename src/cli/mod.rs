@@ -3,15 +3,19 @@
 mod arguments;
 mod bench;
 mod diagnostics;
+mod diff;
 mod effects;
 mod error;
 mod input;
+mod levels;
 mod manual;
+mod marked;
 mod memory;
 mod parse;
 mod picture;
 mod plan;
 mod render;
+mod snapshot;
 mod stats;
 mod terminal;
 mod values;
@@ -51,6 +55,8 @@ fn command(arguments: Arguments) -> Result<(), CliError> {
         Some(Command::Render(render)) => render::run(&render),
         Some(Command::Bench(bench)) => bench::run(&bench),
         Some(Command::Plan(plan)) => plan::run(&plan),
+        Some(Command::Diff(diff)) => diff::run(&diff),
+        Some(Command::Snapshot(snapshot)) => snapshot::run(&snapshot),
         Some(Command::Check(scene)) => check(&scene),
         Some(Command::Scenes { name }) => scenes(name.as_deref()),
         Some(Command::Completions { shell }) => manual::completions(shell),

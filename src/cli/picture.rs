@@ -222,7 +222,7 @@ impl PictureArguments {
 
     /// Whether anything says where the picture is seen from, but a view's name.
     pub fn moves_camera(&self) -> bool {
-        self.preset.is_some() || self.camera.is_given()
+        self.preset.is_some() || self.camera.replaces_anything()
     }
 
     /// The view's camera with what is given in its place.
@@ -327,7 +327,7 @@ fn screen() -> Size {
 
 impl CameraArguments {
     /// Whether anything but a view's name is given.
-    fn is_given(&self) -> bool {
+    pub fn replaces_anything(&self) -> bool {
         self.eye.is_some()
             || self.target.is_some()
             || self.up.is_some()

@@ -3,13 +3,15 @@
 //! PNG of no dots.
 
 mod cells;
+mod levels;
 mod pictures;
 mod sgr;
 mod terminal;
 mod terminfo;
 
 pub use cells::{ansi, text};
-pub use pictures::{Pixels, grays_of_levels, grays_of_light, levels, pfm_gray, pfm_vectors, pgm, png, ppm};
+pub use levels::{LevelsError, levels, read_levels};
+pub use pictures::{Pixels, grays_of_levels, grays_of_light, pfm_gray, pfm_vectors, pgm, png, ppm};
 pub use sgr::{Color, Pen};
 pub use terminal::{Capabilities, Colors, Environment, is_known};
 pub use terminfo::Description;

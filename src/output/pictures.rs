@@ -1,21 +1,9 @@
-//! Pictures of dots: levels as characters, pixels as PNG and as portable maps, raw values as a portable float map.
+//! Pictures of dots: pixels as PNG and as portable maps, raw values as a portable float map.
 
 use std::io::{self, Write};
 
 use crate::math::{DVec3, Grid, Size};
 use crate::tone::{Level, Tone, srgb_of_light};
-
-/// One character per dot, `0` to `9`, `A`, `B`, `C`; one line per row of dots.
-pub fn levels(levels: &Grid<Level>, out: &mut impl Write) -> io::Result<()> {
-    let mut line = String::new();
-    for row in levels.rows() {
-        line.clear();
-        line.extend(row.iter().map(|level| level.digit()));
-        line.push('\n');
-        out.write_all(line.as_bytes())?;
-    }
-    Ok(())
-}
 
 /// One pixel per dot, in sRGB bytes.
 #[derive(Clone, Debug, PartialEq)]
@@ -130,13 +118,6 @@ mod tests {
 
     fn all_levels() -> Grid<Level> {
         Grid::from_values(Size::new(13, 1), Level::all().collect())
-    }
-
-    #[test]
-    fn levels_are_one_character_each() {
-        let mut out = Vec::new();
-        levels(&all_levels(), &mut out).expect("a vector takes every byte");
-        assert_eq!(out, b"0123456789ABC\n");
     }
 
     #[test]

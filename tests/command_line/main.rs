@@ -7,6 +7,7 @@ mod effects;
 mod engines;
 mod plan;
 mod scenes;
+mod snapshots;
 mod still;
 
 use std::fs;

@@ -1,0 +1,85 @@
+//! Pictures of levels that are compared: read from a file, or drawn of a scene.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use crate::frame::{Studio, Wants};
+use crate::math::{Grid, Size};
+use crate::output::{LevelsError, read_levels};
+use crate::scene::MAX_FILE_BYTES;
+use crate::tone::Level;
+
+use super::arguments::PictureArguments;
+use super::error::{CliError, visible};
+use super::input;
+use super::picture::Unsized;
+
+/// A terminal's cells, of which a picture without a size has as many dots as they show.
+const CELLS: Size = Size::new(80, 25);
+
+/// How scenes are read and drawn.
+pub struct Drawing<'a> {
+    pub skip_unsupported: bool,
+    pub memory: Option<u64>,
+    pub picture: &'a PictureArguments,
+}
+
+impl Drawing<'_> {
+    /// Reads a scene and says what was left out.
+    pub fn studio(&self, file: &str) -> Result<Studio, CliError> {
+        let scene = input::read(file, self.skip_unsupported, self.memory)?;
+        input::say(&scene.notes);
+        input::studio(scene)
+    }
+
+    /// Draws one view of a scene. Without a size of its own it has the dots of `like`, else those of a terminal of
+    /// 80 × 25 cells: whatever the terminal here is like, since the picture is kept and compared.
+    pub fn levels(
+        &self,
+        studio: &Studio,
+        view: Option<&str>,
+        like: Option<Size>,
+    ) -> Result<Grid<Level>, CliError> {
+        let mut picture = self.picture.clone();
+        if let Some(view) = view {
+            picture.camera.view = Some(view.to_owned());
+        }
+        let look = picture.look(None);
+        if picture.dots.is_none() && picture.cells.is_none() && picture.preset.is_none() {
+            let per_cell = look.glyphs.dots_per_cell();
+            match like {
+                None => picture.cells = Some(CELLS),
+                Some(dots) if dots.width % per_cell.width == 0 && dots.height % per_cell.height == 0 => {
+                    picture.cells =
+                        Some(Size::new(dots.width / per_cell.width, dots.height / per_cell.height));
+                }
+                dots => picture.dots = dots,
+            }
+        }
+        let request = picture.request(studio, look, Wants::LIGHT, Unsized::Screen)?;
+        Ok(studio.draw(&request).levels(request.tone))
+    }
+}
+
+/// The picture of levels that a file holds; `None` where it is something else, as a scene, or is not there. One whose
+/// name ends in `.levels` has to hold one.
+pub fn read(file: &str) -> Result<Option<Grid<Level>>, CliError> {
+    if file == "-" {
+        return Ok(None);
+    }
+    let is_named = Path::new(file).extension().is_some_and(|ending| ending == "levels");
+    let failed = |e: &dyn std::fmt::Display| CliError::Input(format!("{}: {e}", visible(file)));
+    let mut bytes = Vec::new();
+    let read = File::open(file).and_then(|source| source.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes));
+    match read {
+        Err(e) if is_named => return Err(failed(&e)),
+        Err(_) => return Ok(None),
+        Ok(_) => {}
+    }
+    match read_levels(&bytes) {
+        Ok(levels) => Ok(Some(levels)),
+        Err(LevelsError::Character { .. } | LevelsError::Empty) if !is_named => Ok(None),
+        Err(e) => Err(failed(&e)),
+    }
+}

@@ -68,9 +68,8 @@ pub fn run(arguments: &SnapshotArguments) -> Result<(), CliError> {
     if failed == 0 {
         return Ok(());
     }
-    let all = format!("{all} picture{}", if all == 1 { "" } else { "s" });
     Err(CliError::Different(format!(
-        "{failed} of {all} differ or are missing: look, then --update keeps them"
+        "{failed} of {all} pictures not as kept: where that is right, --update keeps what the scenes show now"
     )))
 }
 

@@ -39,7 +39,7 @@ fn a_part_is_kept_and_compared() {
         .unwrap();
     let [shown, why] = differs(&run(&["snapshot", part]));
     assert!(shown.contains("of 16000 dots differ") && shown.lines().count() == 26, "{shown}");
-    assert!(why.contains("1 of 1 picture differ or are missing"), "{why}");
+    assert!(why.contains("1 of 1 pictures not as kept"), "{why}");
     let before = fs::read(&kept).unwrap();
     done(&run(&["snapshot", part, "--tolerance", "12"]));
     assert_eq!(fs::read(&kept).unwrap(), before);

@@ -16,7 +16,7 @@ use super::layout::{self, Around, Layout};
 use super::suspend::suspend;
 use super::terminal::{self, Terminal};
 use super::theme::Theme;
-use super::viewer::End;
+use super::viewer::SessionEnd;
 use super::watch::Watch;
 use super::{AppError, Settings, caption, charset};
 use crate::glyph::Palette;
@@ -51,7 +51,7 @@ pub enum Waited<P, E> {
     /// The painter, or why there is none.
     Loaded(Box<Result<(P, Settings), E>>),
     /// The person did not wait.
-    Ended(End),
+    Ended(SessionEnd),
 }
 
 impl<P: Send + 'static, E: Send + 'static> Loading<P, E> {
@@ -108,13 +108,13 @@ impl<P: Send + 'static, E: Send + 'static> Loading<P, E> {
                 }
                 Some(Event::Working(now)) => step = now,
                 Some(Event::Key(key)) => match keys::action(key) {
-                    Some(Action::Quit) => return Ok(Waited::Ended(End::Quit)),
+                    Some(Action::Quit) => return Ok(Waited::Ended(SessionEnd::Quit)),
                     Some(Action::Suspend) => suspend(terminal)?,
                     _ => {}
                 },
                 Some(Event::Stopped) => suspend(terminal)?,
                 Some(Event::Continued) => terminal.retake()?,
-                Some(Event::Terminated(signal)) => return Ok(Waited::Ended(End::Signal(signal))),
+                Some(Event::Terminated(signal)) => return Ok(Waited::Ended(SessionEnd::Signal(signal))),
                 Some(Event::HungUp) => return Err(AppError::HungUp),
                 Some(Event::Failed(error)) => return Err(error.into()),
                 Some(Event::Panicked) => return Err(AppError::LoadingPanicked),

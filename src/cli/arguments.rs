@@ -7,7 +7,7 @@ use clap_complete::Shell;
 
 use crate::math::{DVec3, Size};
 
-use super::picture::{EngineName, Glyphs, PaletteName, PrecisionName, Preset, StructureName, ToneName};
+use super::names::{EngineName, Glyphs, PaletteName, PrecisionName, Preset, StructureName, ToneName};
 use super::values;
 
 /// Shows solid models in a terminal: ray traced, in 13 gray levels of block characters.

@@ -6,7 +6,7 @@ use crate::plan::{EngineChoice, Shading};
 
 use super::arguments::{Channel, Format, PictureArguments};
 use super::error::CliError;
-use super::picture::{PaletteName, PrecisionName};
+use super::names::{PaletteName, PrecisionName};
 
 /// What shows a picture.
 #[derive(Clone, Copy, Debug)]

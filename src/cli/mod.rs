@@ -8,6 +8,7 @@ mod error;
 mod input;
 mod manual;
 mod memory;
+mod names;
 mod parse;
 mod picture;
 mod plan;

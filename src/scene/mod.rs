@@ -6,6 +6,7 @@ mod language;
 mod memory;
 mod model;
 mod nff;
+mod options;
 mod read;
 
 pub use diagnostic::{Diagnostic, Diagnostics, Severity};
@@ -15,4 +16,5 @@ pub use model::{
     Anchor, Camera, CameraError, Corner, Facets, FieldSpan, HalfSpace, Light, Material, MaterialId, Mesh,
     Object, Primitive, REACH, Scene, Shape, Solid, World,
 };
-pub use read::{Format, MAX_FILE_BYTES, ReadError, ReadOptions, read, read_file};
+pub use options::{Format, ReadOptions};
+pub use read::{MAX_FILE_BYTES, ReadError, read, read_file};

@@ -4,42 +4,11 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
+use super::options::{Format, ReadOptions};
 use super::{Diagnostic, Diagnostics, Scene, language, memory, nff};
-use crate::stage::Progress;
 
 /// The largest file that is read: 256 MiB.
 pub const MAX_FILE_BYTES: u64 = 256 << 20;
-
-/// How a scene is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Format {
-    /// The scene language, and OpenSCAD's `.csg`, which is a part of it.
-    Language,
-    /// Eric Haines's Neutral File Format.
-    Nff,
-}
-
-impl Format {
-    /// The format of a file by the end of its name. A name that says nothing means the scene language.
-    pub fn of(name: &str) -> Self {
-        let extension = Path::new(name).extension();
-        if extension.is_some_and(|e| e.eq_ignore_ascii_case("nff")) { Self::Nff } else { Self::Language }
-    }
-}
-
-/// How to read.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct ReadOptions {
-    /// Leave out what OpenSCAD can show and ray13 can not, with a note, where it would be an error.
-    pub skip_unsupported: bool,
-    /// The format, where the name must not decide.
-    pub format: Option<Format>,
-    /// Where to write how far the reading is, for who watches.
-    pub progress: Option<Progress>,
-    /// Bytes of memory that the scene, and what will show it, may take; as many as there are where it is not given.
-    pub memory: Option<u64>,
-}
 
 /// Why a file gave no scene.
 #[derive(Debug, thiserror::Error)]

@@ -6,6 +6,7 @@
 
 mod build;
 mod css_colors;
+mod dictionary;
 mod lexer;
 mod nearest;
 mod parser;
@@ -23,7 +24,8 @@ pub use reference::reference;
 
 use super::diagnostic::{Reported, Sink};
 use super::memory::Memory;
-use super::{Diagnostics, ReadOptions, Scene};
+use super::options::ReadOptions;
+use super::{Diagnostics, Scene};
 use crate::stage::{Progress, Task};
 use build::{Builder, Flow};
 use parser::{Parser, Reading};

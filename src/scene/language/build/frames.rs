@@ -3,96 +3,13 @@
 //! An operator takes its operands off the stack only where it becomes an operand of another kind of operator: so no list is
 //! copied from level to level, and reading stays linear in the length of the text however the text is nested.
 
-use std::rc::Rc;
-
+use super::Builder;
+use super::frame::{Built, Frame, Run};
 use super::lost::Lost;
-use super::{Builder, Context};
 use crate::scene::language::syntax::Span;
 use crate::scene::language::vocabulary::OperatorWord;
 use crate::scene::memory::ASSEMBLED_OPERATOR;
 use crate::scene::{Diagnostic, Object, Solid};
-
-/// A call that is open.
-#[derive(Debug)]
-pub struct Frame {
-    pub role: Role,
-    /// The place of its word.
-    pub place: Span,
-    pub context: Rc<Context>,
-    /// Where its solids begin on the stack.
-    pub start: usize,
-    /// What its solids are to each other, where there are any.
-    run: Run,
-    /// How many children OpenSCAD would see, so far.
-    present: usize,
-    /// What the first child is, where it is no solid.
-    first_lost: Option<Lost>,
-    any_empty: bool,
-    any_missing: bool,
-    /// Whether a child is there, but without some part of it.
-    any_incomplete: bool,
-}
-
-/// What the children of a call are for.
-#[derive(Debug)]
-pub enum Role {
-    /// Each is an object of the lattice.
-    Objects,
-    /// All are one object of this name; none where the name is an error.
-    Object(Option<Box<str>>),
-    /// They are operands.
-    Operator(OperatorWord),
-    /// There may be none, because the call is a primitive.
-    Primitive(&'static str, Built),
-}
-
-/// Solids one after the other on the stack.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Run {
-    /// One solid.
-    One,
-    /// The operands of an operator that is still to be made of them.
-    Operands(OperatorWord),
-}
-
-/// What became of a call.
-#[derive(Clone, Copy, Debug)]
-pub enum Built {
-    /// What is last on the stack; and whether a part of it was left out.
-    Solids(Run, bool),
-    Nothing(Lost),
-}
-
-impl Frame {
-    /// The scene itself.
-    pub fn scene(context: Rc<Context>) -> Self {
-        Self::new(Role::Objects, Span { start: 0, end: 0 }, context, 0)
-    }
-
-    pub fn new(role: Role, place: Span, context: Rc<Context>, start: usize) -> Self {
-        Self {
-            role,
-            place,
-            context,
-            start,
-            run: Run::One,
-            present: 0,
-            first_lost: None,
-            any_empty: false,
-            any_missing: false,
-            any_incomplete: false,
-        }
-    }
-
-    /// The operator over its children, where they are operands.
-    fn operator(&self) -> Option<OperatorWord> {
-        match self.role {
-            Role::Operator(operator) => Some(operator),
-            Role::Object(_) => Some(OperatorWord::Union),
-            Role::Objects | Role::Primitive(..) => None,
-        }
-    }
-}
 
 impl Builder {
     /// Before another child of the innermost call: makes one solid of the child before it, where its operands would not

@@ -3,8 +3,11 @@
 mod arguments;
 mod chain;
 mod colors;
+mod context;
+mod definitions;
 mod degrees;
 mod facets;
+mod frame;
 mod frames;
 mod lost;
 mod maps;
@@ -18,28 +21,19 @@ mod views;
 use std::collections::HashSet;
 use std::rc::Rc;
 
+use super::dictionary::{Known, look_up, nearest_word};
 use super::nearest::quoted;
 use super::syntax::{Call, Event};
-use super::vocabulary::{Known, Meaning, Word, look_up, nearest_word};
+use super::vocabulary::Word;
 use crate::scene::diagnostic::Sink;
 use crate::scene::memory::Memory;
 use crate::scene::{Diagnostic, ReadOptions, Scene, Solid};
-use chain::Chain;
+use context::Context;
 use facets::Polygons;
-use frames::Frame;
-use materials::{Surface, Surfaces};
+use frame::Frame;
+use materials::Surfaces;
 use polyhedron::EarClipper;
-use survey::Survey;
-
-/// What the words above hand down to a word.
-#[derive(Clone, Debug, Default)]
-struct Context {
-    /// From the word's coordinates to the world's.
-    maps: Chain,
-    surface: Surface,
-    /// `$fn`: how many sides stand for a circle, where they are few.
-    fragments: f64,
-}
+use survey::{Survey, is_definition};
 
 /// Whether to read on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -192,17 +186,5 @@ fn empty(sink: &Sink) -> Diagnostic {
             };
             error.help(format!("{}{more}", first.message))
         }
-    }
-}
-
-/// Whether a call at the top level is no solid: a view, a light, the world, or a material with a name.
-fn is_definition(call: &Call<'_>) -> bool {
-    match look_up(call.name.text) {
-        Known::Word(word) => match word.meaning {
-            Meaning::Camera | Meaning::Light | Meaning::World => true,
-            Meaning::Material => call.is_ended,
-            _ => false,
-        },
-        _ => false,
     }
 }

@@ -4,10 +4,11 @@ use std::rc::Rc;
 
 use super::arguments::Arguments;
 use super::chain::Numbers;
-use super::frames::{Built, Frame, Role, Run};
+use super::context::Context;
+use super::frame::{Built, Frame, Role, Run};
 use super::lost::Lost;
 use super::materials::tinted;
-use super::{Builder, Context, maps};
+use super::{Builder, maps};
 use crate::scene::diagnostic::Reported;
 use crate::scene::language::syntax::Call;
 use crate::scene::language::vocabulary::{MapWord, Meaning, OperatorWord, Word};

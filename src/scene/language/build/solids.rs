@@ -2,9 +2,10 @@
 
 use super::arguments::Arguments;
 use super::chain::Numbers;
+use super::context::Context;
 use super::facets::Polygons;
 use super::lost::Lost;
-use super::{Builder, Context, facets, polyhedron};
+use super::{Builder, facets, polyhedron};
 use crate::math::{DAffine3, DMat3, DVec3, Placement};
 use crate::scene::diagnostic::Sink;
 use crate::scene::language::syntax::Call;

@@ -67,7 +67,7 @@ impl LooseOctree {
             let left = level.cells[(z * level.side + y) * level.side + x].get_or_init(|| {
                 let mut remains = PrunedExpr::default();
                 let some = best.pruned(primitives, &cell, &mut Pruning::default(), &mut remains);
-                (some == Classification::Some).then_some(remains)
+                (some == Classification::Mixed).then_some(remains)
             });
             best = ExprView::from(left.as_ref()?);
         }

@@ -5,8 +5,8 @@ use fearless_simd::Simd;
 
 use crate::math::{Mask, Number, Real};
 
-use super::crossing::start_of;
-use super::crossings::{CsgQuery, PacketCrossings, have_one_slope};
+use super::crossing::{have_one_slope, start_of};
+use super::csg_query::{CsgQuery, PacketCrossings};
 use super::span::Ends;
 use super::span_cache::CachedSpans;
 

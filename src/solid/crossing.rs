@@ -230,7 +230,13 @@ pub fn first_of_expression(
 /// Where surfaces coincide they have one slope, but for what their maps lost, which counts where a ray all but skims them.
 /// What is crossed steeply on a way that skims a face has a sine farther from the face's than this, unless the face's
 /// crossing is known within 256 times `off`, too little to be seen.
-pub(super) const SAME_SLOPE: f64 = 256.0;
+const SAME_SLOPE: f64 = 256.0;
+
+/// Whether the sines of the angles at which rays meet two surfaces are as near as those of one place are.
+#[inline(always)]
+pub(super) fn have_one_slope<N: Number>(a: N, b: N) -> N::Mask {
+    a.larger(b).is_at_most(a.smaller(b) * SAME_SLOPE)
+}
 
 /// Brings those of the sorted events that are one place with the first of them to the front, and counts them; the
 /// others keep their order.

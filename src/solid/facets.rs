@@ -3,7 +3,7 @@
 use crate::math::{Bounds, DVec3, Mask, Number, Placement, Rays};
 use crate::scene;
 
-use super::primitive::Cover;
+use super::classification::Classification;
 use super::span::{Ends, Spans, rounding_at};
 use super::unit_space::norm;
 
@@ -144,20 +144,20 @@ impl Facets {
     }
 
     /// How it lies to a box.
-    pub fn cover(&self, b: &Bounds) -> Cover {
+    pub fn classify(&self, b: &Bounds) -> Classification {
         if self.bounds.meet(b).is_empty() {
-            return Cover::None;
+            return Classification::Outside;
         }
         let (center, half) = (b.center() - self.center, b.half());
         let mut all = true;
         for face in &self.faces {
             let (middle, reach) = (face.normal.dot(center), face.normal.abs().dot(half));
             if middle - reach > face.offset {
-                return Cover::None;
+                return Classification::Outside;
             }
             all &= middle + reach < face.offset;
         }
-        if all { Cover::All } else { Cover::Some }
+        if all { Classification::Inside } else { Classification::Mixed }
     }
 }
 

@@ -4,8 +4,10 @@
 mod alone;
 mod assembly;
 mod ball;
+mod classification;
 mod crossing;
 mod crossings;
+mod csg_query;
 mod eight;
 mod expression;
 mod face;
@@ -33,15 +35,17 @@ mod unit_space;
 
 pub use assembly::{Assembly, AssemblyError, AssemblyStats, Body, Kind, Object, SceneFrame};
 pub use ball::Ball;
+pub use classification::Classification;
 pub use crossing::{
     Crossing, FirstCrossings, Scratch, Starts, TRange, first_of_expression, first_of_span, firsts_of_spans,
 };
-pub use crossings::{CsgQuery, Departures, PacketCrossings, PacketScratch, first_of_expressions};
+pub use crossings::{PacketScratch, first_of_expressions};
+pub use csg_query::{CsgQuery, Departures, PacketCrossings};
 pub use eight::Eight;
-pub use expression::{Child, Expression, Leaf, Pruned, Tree};
+pub use expression::{Child, Expression, Leaf, Tree};
 pub use packet_shear::PacketShear;
-pub use primitive::{Cover, Primitive, WorldShape};
-pub use prune::{Classification, ExprView, PrunedExpr, Pruning};
+pub use primitive::{Primitive, WorldShape};
+pub use prune::{ExprView, PrunedExpr, Pruning};
 pub use span::{Departure, End, Ends, LIMIT, ROUNDING, Span, Spans, WORLD};
 pub(crate) use span_cache::with_spans;
 pub use surface::first_of_surface;

@@ -6,6 +6,7 @@ use crate::math::{Bounds, DAffine3, DMat3, DVec3, Number, Placement, Ray, Rays, 
 use crate::scene::{MaterialId, Shape};
 
 use super::ball::Ball;
+use super::classification::Classification;
 use super::face::Face;
 use super::facets::Facets;
 use super::hull::convex;
@@ -47,17 +48,6 @@ pub enum WorldShape {
     Patch(Box<Patch>),
     /// The side of a frustum: a surface.
     Tube(Box<Tube>),
-}
-
-/// How a primitive lies to a box.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Cover {
-    /// The whole box is inside the primitive.
-    All,
-    /// The box and the primitive do not meet.
-    None,
-    /// Neither is certain.
-    Some,
 }
 
 /// Radii whose inverse maps are far from the limits of f64.
@@ -252,35 +242,23 @@ impl WorldShape {
         }
     }
 
-    /// How it lies to a box.
-    pub fn cover(&self, b: &Bounds) -> Cover {
+    /// How a box lies to it.
+    pub fn classify(&self, b: &Bounds) -> Classification {
         match self {
-            Self::Ball(ball) => ball.cover(b),
+            Self::Ball(ball) => ball.classify(b),
             Self::AxisBox(slabs) => {
                 let own = slabs.bounds();
-                Cover::of(own.meet(b).is_empty(), || own.lo.cmplt(b.lo).all() && b.hi.cmplt(own.hi).all())
+                Classification::of(own.meet(b).is_empty(), || {
+                    own.lo.cmplt(b.lo).all() && b.hi.cmplt(own.hi).all()
+                })
             }
-            Self::SkewBox(slabs) => slabs.cover(b),
-            Self::Round(round) => round.cover(b),
-            Self::Facets(facets) => facets.cover(b),
-            Self::Mesh(mesh) => Cover::of(mesh.misses(b), || false),
-            Self::Face(face) => Cover::of(face.misses(b), || false),
-            Self::Patch(patch) => Cover::of(patch.face.misses(b), || false),
-            Self::Tube(tube) => Cover::of(tube.misses(b), || false),
-        }
-    }
-}
-
-impl Cover {
-    /// Where a box is certainly outside, or certainly inside.
-    #[inline(always)]
-    pub(super) fn of(misses: bool, covers: impl FnOnce() -> bool) -> Self {
-        if misses {
-            Self::None
-        } else if covers() {
-            Self::All
-        } else {
-            Self::Some
+            Self::SkewBox(slabs) => slabs.classify(b),
+            Self::Round(round) => round.classify(b),
+            Self::Facets(facets) => facets.classify(b),
+            Self::Mesh(mesh) => Classification::of(mesh.misses(b), || false),
+            Self::Face(face) => Classification::of(face.misses(b), || false),
+            Self::Patch(patch) => Classification::of(patch.face.misses(b), || false),
+            Self::Tube(tube) => Classification::of(tube.misses(b), || false),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::math::{Bounds, DMat3, DVec3, Mask, Number, Placement, Rays, Vector};
 
-use super::primitive::Cover;
+use super::classification::Classification;
 use super::span::{Ends, STILL, Spans};
 use super::taper::Taper;
 use super::unit_space::{Centred, UnitSpace};
@@ -99,13 +99,15 @@ impl Round {
     }
 
     /// How it lies to a box.
-    pub fn cover(&self, b: &Bounds) -> Cover {
+    pub fn classify(&self, b: &Bounds) -> Classification {
         let u = self.space.bounds(b);
         match self.profile {
-            Profile::Sphere => Cover::of(DVec3::ZERO.clamp(u.lo, u.hi).length_squared() > 1.0, || {
-                u.farthest().length_squared() < 1.0
-            }),
-            Profile::Frustum(taper) => Cover::of(taper.misses(&u), || taper.covers(&u)),
+            Profile::Sphere => {
+                Classification::of(DVec3::ZERO.clamp(u.lo, u.hi).length_squared() > 1.0, || {
+                    u.farthest().length_squared() < 1.0
+                })
+            }
+            Profile::Frustum(taper) => Classification::of(taper.misses(&u), || taper.covers(&u)),
         }
     }
 }

@@ -6,7 +6,7 @@ use fearless_simd::Simd;
 use crate::math::{Lanes, Mask, Number, RayPacket, Rays, Real};
 
 use super::crossing::TRange;
-use super::crossings::Departures;
+use super::csg_query::Departures;
 use super::primitive::WorldShape;
 use super::span::{Ends, Spans};
 

@@ -9,7 +9,7 @@ use crate::math::{LANES, Mask, Number, ROWS, RayPacket};
 use crate::stage::{Meter, Silent};
 
 use super::crossing::{FirstCrossings, Starts, start_of};
-use super::crossings::{Departures, PacketCrossings};
+use super::csg_query::{Departures, PacketCrossings};
 use super::face::{Face, SteepCrossings};
 use super::packet_shear::{Around, PacketShear};
 use super::primitive::{Primitive, WorldShape};

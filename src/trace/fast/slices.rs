@@ -73,7 +73,7 @@ fn slice<R: Slices>(
         return;
     }
     let mut remains = memory.remains.pop().unwrap_or_default();
-    if expression.pruned(primitives, &b, &mut memory.pruning, &mut remains) == Classification::Some {
+    if expression.pruned(primitives, &b, &mut memory.pruning, &mut remains) == Classification::Mixed {
         let left = ExprView::from(&remains);
         let few = if halvings + CUTS > HALVINGS { R::FEW } else { SOME };
         if left.leaves.len() <= few || halvings == 0 {

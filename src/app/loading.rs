@@ -21,7 +21,7 @@ use super::watch::Watch;
 use super::{AppError, Settings, caption, charset};
 use crate::glyph::Palette;
 use crate::output::Capabilities;
-use crate::stage::{Progress, Step};
+use crate::stage::{Progress, WorkStep};
 use crate::widget::FlowChart;
 
 /// A scene that is there sooner is shown without a word: a screen that stands for less than a tenth of a second is a
@@ -125,7 +125,7 @@ impl<P: Send + 'static, E: Send + 'static> Loading<P, E> {
 }
 
 /// The screen without a picture: the frame, the chart with the stage at work, and how far that is.
-fn draw(opening: &Opening, layout: &Layout, step: Step, buffer: &mut Buffer) {
+fn draw(opening: &Opening, layout: &Layout, step: WorkStep, buffer: &mut Buffer) {
     let theme = Theme::of(opening.palette);
     buffer.set_style(buffer.area, theme.text);
     let labels = Labels { title: &opening.title, ..Labels::default() };
@@ -149,7 +149,7 @@ mod tests {
         let layout = Layout::new(Size::new(width, height));
         let mut buffer = Buffer::empty(layout.screen);
         let opening = Opening { title: "gears.csg".to_owned(), terminal, ..Opening::default() };
-        draw(&opening, &layout, Step { task: Task::Reading, percent: Some(37) }, &mut buffer);
+        draw(&opening, &layout, WorkStep { task: Task::Reading, percent: Some(37) }, &mut buffer);
         let rows = buffer.content.chunks(buffer.area.width.into());
         rows.map(|row| row.iter().map(Cell::symbol).collect::<String>() + "\n").collect()
     }

@@ -15,7 +15,7 @@ use super::terminal::{self, Terminal};
 use super::tracer::Tracer;
 use super::{AppError, Painter, keys};
 use crate::frame::{Frame, Request};
-use crate::stage::Step;
+use crate::stage::WorkStep;
 
 /// Model, picture and terminal together.
 pub struct Viewer<'a> {
@@ -27,7 +27,7 @@ pub struct Viewer<'a> {
     pacing: Pacing,
     shown: Option<Shown>,
     /// How far the next picture is, where it takes long.
-    working: Option<Step>,
+    working: Option<WorkStep>,
     /// What is told beside the picture that is shown.
     subject: Subject,
     /// What is to be told beside the picture that is being traced; absent while none is.

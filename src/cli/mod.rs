@@ -71,7 +71,7 @@ fn view(arguments: &ViewerArguments) -> Result<(), CliError> {
         tell(&terminal::why_a_still());
         return Ok(());
     }
-    let no_effects = effects::check(picture, effects::Shown::Viewer)?;
+    let no_effects = effects::check(picture, effects::Presentation::Viewer)?;
     let palette = picture.palette(Some(terminal));
     let opening = Opening { title: input::title(file), palette, terminal };
     let viewed = if file == "-" && io::stdin().is_terminal() {

@@ -7,7 +7,7 @@
 use std::sync::OnceLock;
 
 use crate::math::{Bounds, DVec3};
-use crate::solid::{Classification, ExprView, Primitive, PrunedExpr, Pruning};
+use crate::solid::{Classification, ExprView, PrunedExpr, Pruning, WorldPrimitive};
 
 /// An expression of fewer primitives is pruned as it is.
 pub const MANY: usize = 24;
@@ -45,7 +45,7 @@ impl LooseOctree {
     pub fn around<'l>(
         &'l self,
         whole: ExprView<'l>,
-        primitives: &[Primitive],
+        primitives: &[WorldPrimitive],
         b: &Bounds,
     ) -> Option<ExprView<'l>> {
         let size = self.bounds.hi - self.bounds.lo;

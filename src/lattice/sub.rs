@@ -5,7 +5,8 @@ use std::ops::ControlFlow;
 
 use crate::math::{Bounds, DVec3, Ray};
 use crate::solid::{
-    Assembly, Body, Classification, ExprView, Expression, Leaf, Object, Primitive, PrunedExpr, Pruning,
+    Assembly, Body, Classification, ExprView, Expression, Leaf, PrunedExpr, Pruning, WorldObject,
+    WorldPrimitive,
 };
 use crate::stage::{Progress, Task};
 
@@ -43,16 +44,16 @@ impl SubLattices {
     /// The same, where `progress` says how far this is.
     pub fn watched(assembly: &Assembly, progress: &Progress) -> Self {
         progress.begin(Task::Cutting, assembly.objects.len() as u64);
-        let composite = |object: &&Object| matches!(object.body, Body::Composite { .. });
+        let composite = |object: &&WorldObject| matches!(object.body, Body::Composite { .. });
         let budget = Budget::shared(assembly.objects.iter().filter(composite).count());
-        let of = |(number, object): (usize, &Object)| match &object.body {
+        let of = |(number, object): (usize, &WorldObject)| match &object.body {
             Body::Single(_) | Body::Surface(_) => None,
             Body::Composite { whole, .. } => {
                 progress.reach(number as u64);
                 SubLattice::new(whole, &assembly.primitives, &object.bounds, budget)
             }
         };
-        let loose = |object: &Object| match &object.body {
+        let loose = |object: &WorldObject| match &object.body {
             Body::Composite { whole, .. } if whole.leaves.len() >= MANY => {
                 Some(LooseOctree::new(object.bounds))
             }
@@ -120,7 +121,12 @@ const NOTHING: u32 = u32::MAX;
 
 impl SubLattice {
     /// The sub-lattice of the expression `whole` in the box `bounds`; `None` where it would be a single cell.
-    fn new(whole: &Expression, primitives: &[Primitive], bounds: &Bounds, budget: Budget) -> Option<Self> {
+    fn new(
+        whole: &Expression,
+        primitives: &[WorldPrimitive],
+        bounds: &Bounds,
+        budget: Budget,
+    ) -> Option<Self> {
         let leaves = &whole.leaves;
         if leaves.len() < 2 {
             return None;
@@ -175,7 +181,7 @@ impl SubLattice {
 }
 
 struct Building<'a> {
-    primitives: &'a [Primitive],
+    primitives: &'a [WorldPrimitive],
     planes: &'a Planes,
     slack: f64,
     cells: Vec<u32>,

@@ -2,7 +2,7 @@
 
 use crate::math::Size;
 use crate::scene::Scene;
-use crate::solid::{Assembly, Body, Tree, WorldShape};
+use crate::solid::{Assembly, Body, CsgTree, WorldShape};
 use crate::stage::Stage;
 use crate::view::PinholeCamera;
 
@@ -229,7 +229,7 @@ impl Kinds {
         let bodies = |is: fn(&Body) -> bool| assembly.objects.iter().filter(|o| is(&o.body)).count();
         let composites = bodies(|b| matches!(b, Body::Composite { .. }));
         let lone_meshes =
-            bodies(|b| matches!(b, Body::Composite { tree, .. } if matches!(**tree, Tree::Leaf(_))));
+            bodies(|b| matches!(b, Body::Composite { tree, .. } if matches!(**tree, CsgTree::Leaf(_))));
         Self {
             objects: assembly.objects.len(),
             primitives: assembly.primitives.len(),

@@ -15,7 +15,7 @@ use crate::math::{Number, Ray, Rays};
 use crate::stage::{Meter, Probe, Stage};
 
 use super::expression::Expression;
-use super::primitive::{Primitive, WorldShape};
+use super::primitive::{WorldPrimitive, WorldShape};
 use super::span::{Departure, End, Ends, Spans};
 use super::state::State;
 
@@ -154,7 +154,7 @@ pub fn firsts_of_spans<N: Number>(
 #[inline]
 pub fn first_of_span(
     ray: &Ray,
-    primitive: &Primitive,
+    primitive: &WorldPrimitive,
     index: u32,
     departure: Option<Departure>,
     meter: &mut Meter<impl Probe>,
@@ -175,7 +175,7 @@ pub fn first_of_span(
 pub fn first_of_expression(
     ray: &Ray,
     expression: &Expression,
-    primitives: &[Primitive],
+    primitives: &[WorldPrimitive],
     departure: Option<Departure>,
     reach: TRange,
     scratch: &mut Scratch,
@@ -265,7 +265,7 @@ fn gather_cluster(events: &mut [Event], off: impl Fn(&Event) -> f64) -> usize {
 fn gather(
     ray: &Ray,
     expression: &Expression,
-    primitives: &[Primitive],
+    primitives: &[WorldPrimitive],
     departure: Option<Departure>,
     reach: TRange,
     events: &mut Vec<Event>,

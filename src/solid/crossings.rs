@@ -13,7 +13,7 @@ use super::alone::decide_alone;
 use super::crossing::{TRange, have_one_slope, start_of};
 use super::csg_query::{CsgQuery, Departures, PacketCrossings};
 use super::expression::Link;
-use super::primitive::Primitive;
+use super::primitive::WorldPrimitive;
 use super::prune::ExprView;
 use super::span_cache::{CachedSpans, SpanCache, SpanEnds};
 
@@ -45,7 +45,7 @@ pub fn first_of_expressions<S: Simd, T: Real>(
     simd: S,
     asked: &CsgQuery<T>,
     expression: ExprView,
-    primitives: &[Primitive],
+    primitives: &[WorldPrimitive],
     scratch: &mut PacketScratch<T>,
     found: &mut PacketCrossings<T>,
 ) {

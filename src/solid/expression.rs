@@ -7,33 +7,33 @@ use std::vec::Drain;
 use crate::math::{Bounds, DVec3};
 use crate::scene::Solid;
 
-use super::primitive::Primitive;
+use super::primitive::WorldPrimitive;
 
 /// An expression over primitives.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub enum Tree {
+pub enum CsgTree {
     /// Inside this primitive, by its index.
     Leaf(u32),
     /// Inside any of these.
-    Any(Vec<Child>),
+    Any(Vec<Operand>),
     /// Inside all of these.
-    All(Vec<Child>),
+    All(Vec<Operand>),
 }
 
 /// A child, taken as it is or its complement.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct Child {
+pub struct Operand {
     /// The child.
-    pub tree: Tree,
+    pub tree: CsgTree,
     /// Whether its complement is meant.
     pub negated: bool,
 }
 
-impl Tree {
+impl CsgTree {
     /// The expression of a solid whose primitives are numbered from `*next` in file order. `None` for a solid
     /// of nothing.
     pub fn new(solid: &Solid, next: &mut u32) -> Option<Self> {
-        let plain = |tree| Child { tree, negated: false };
+        let plain = |tree| Operand { tree, negated: false };
         let mut leaf = |_| {
             let leaf = Self::Leaf(*next);
             *next += 1;
@@ -47,7 +47,7 @@ impl Tree {
             }
             Solid::Difference(_) => {
                 let first = children.next().flatten().map(plain);
-                let cuts = children.flatten().map(|tree| Child { tree, negated: true });
+                let cuts = children.flatten().map(|tree| Operand { tree, negated: true });
                 fold(Self::All(std::iter::once(first?).chain(cuts).collect()))
             }
         })
@@ -96,7 +96,7 @@ impl Tree {
     }
 
     /// How far the solid reaches along `v` at most. A difference reaches no further than what it cuts from.
-    pub fn support(&self, primitives: &[Primitive], v: DVec3) -> f64 {
+    pub fn support(&self, primitives: &[WorldPrimitive], v: DVec3) -> f64 {
         self.fold_up(
             |index| primitives[index as usize].form.support(v),
             |tree, own| match tree {
@@ -121,7 +121,7 @@ impl Tree {
     }
 
     /// A box around the solid. A difference reaches no further than what it cuts from.
-    pub fn bounds(&self, primitives: &[Primitive]) -> Bounds {
+    pub fn bounds(&self, primitives: &[WorldPrimitive]) -> Bounds {
         self.fold_up(
             |index| primitives[index as usize].form.bounds(),
             |tree, own| match tree {
@@ -133,19 +133,21 @@ impl Tree {
 }
 
 /// Of the values of children those that are taken as they are.
-fn kept<T>(children: &[Child], values: impl Iterator<Item = T>) -> impl Iterator<Item = T> {
+fn kept<T>(children: &[Operand], values: impl Iterator<Item = T>) -> impl Iterator<Item = T> {
     children.iter().zip(values).filter(|(child, _)| !child.negated).map(|(_, value)| value)
 }
 
 /// An operator over one child is that child; over none it is nothing.
-fn fold(tree: Tree) -> Option<Tree> {
+fn fold(tree: CsgTree) -> Option<CsgTree> {
     match tree {
-        Tree::Any(mut children) | Tree::All(mut children) if children.len() == 1 && !children[0].negated => {
+        CsgTree::Any(mut children) | CsgTree::All(mut children)
+            if children.len() == 1 && !children[0].negated =>
+        {
             children.pop().map(|c| c.tree)
         }
-        Tree::Any(ref children) | Tree::All(ref children) if children.is_empty() => None,
+        CsgTree::Any(ref children) | CsgTree::All(ref children) if children.is_empty() => None,
         tree => {
-            debug_assert!(!matches!(&tree, Tree::All(c) if c.iter().all(|c| c.negated)));
+            debug_assert!(!matches!(&tree, CsgTree::All(c) if c.iter().all(|c| c.negated)));
             Some(tree)
         }
     }
@@ -197,7 +199,7 @@ pub(super) struct Node {
 
 impl Expression {
     /// Lays a tree out.
-    pub fn new(tree: &Tree) -> Self {
+    pub fn new(tree: &CsgTree) -> Self {
         let (leaves, nodes) = flatten(tree);
         Self::of(leaves, nodes)
     }
@@ -217,22 +219,22 @@ impl Expression {
 /// An operator whose children are being laid out.
 struct OpenOperator<'t> {
     node: u32,
-    rest: std::slice::Iter<'t, Child>,
+    rest: std::slice::Iter<'t, Operand>,
 }
 
 /// Lays a tree out: operators before their children, primitives in file order.
-fn flatten(tree: &Tree) -> (Vec<Leaf>, Vec<Node>) {
+fn flatten(tree: &CsgTree) -> (Vec<Leaf>, Vec<Node>) {
     let (mut leaves, mut nodes) = (Vec::new(), Vec::new());
     let mut open: Vec<OpenOperator<'_>> = Vec::new();
     let mut next = Some((tree, false));
     loop {
         let node = open.last().map_or(Link::ROOT, |operator| operator.node);
         match next {
-            Some((Tree::Leaf(primitive), negated)) => {
+            Some((CsgTree::Leaf(primitive), negated)) => {
                 leaves.push(Leaf { primitive: *primitive, parent: Link { node, negated } });
             }
-            Some((operator @ (Tree::Any(children) | Tree::All(children)), negated)) => {
-                let threshold = if matches!(operator, Tree::All(_)) { children.len() as u32 } else { 1 };
+            Some((operator @ (CsgTree::Any(children) | CsgTree::All(children)), negated)) => {
+                let threshold = if matches!(operator, CsgTree::All(_)) { children.len() as u32 } else { 1 };
                 open.push(OpenOperator { node: nodes.len() as u32, rest: children.iter() });
                 nodes.push(Node { parent: Link { node, negated }, threshold, initial: 0 });
             }

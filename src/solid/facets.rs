@@ -9,7 +9,7 @@ use super::unit_space::norm;
 
 /// An intersection of half-spaces, in the world.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Facets {
+pub struct ConvexPolyhedron {
     /// The points `p` with `normal · (p − center) ≤ offset`; normals have length 1.
     faces: Box<[scene::HalfSpace]>,
     center: DVec3,
@@ -29,7 +29,7 @@ pub struct Facets {
 /// itself, 4 half-ulps.
 const STILL: f64 = 2.0 * f64::EPSILON;
 
-impl Facets {
+impl ConvexPolyhedron {
     /// The faces of `unit`, put at `place`, which may be off by `map_error`.
     pub fn new(unit: &scene::Facets, place: &Placement, map_error: DVec3) -> Self {
         let turn = place.inverse.transpose();

@@ -8,9 +8,9 @@ use crate::scene::{MaterialId, Shape};
 use super::ball::Ball;
 use super::classification::Classification;
 use super::face::Face;
-use super::facets::Facets;
+use super::facets::ConvexPolyhedron;
 use super::hull::convex;
-use super::mesh::Mesh;
+use super::mesh::TriangleMesh;
 use super::patch::Patch;
 use super::round::Round;
 use super::slabs::{AxisBox, SkewBox};
@@ -19,7 +19,7 @@ use super::tube::Tube;
 
 /// A primitive in the world.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Primitive {
+pub struct WorldPrimitive {
     /// Its form.
     pub form: WorldShape,
     /// Its surface.
@@ -39,9 +39,9 @@ pub enum WorldShape {
     /// An ellipsoid or frustum in any position.
     Round(Box<Round>),
     /// A convex solid of flat faces.
-    Facets(Box<Facets>),
+    Facets(Box<ConvexPolyhedron>),
     /// A closed surface of triangles.
-    Mesh(Box<Mesh>),
+    Mesh(Box<TriangleMesh>),
     /// A polygon: a surface.
     Face(Box<Face>),
     /// A polygon with a normal at each corner: a surface.
@@ -78,10 +78,10 @@ impl WorldShape {
                 Some(half) => Self::AxisBox(Box::new(AxisBox::new(place.center, half, error))),
                 None => Self::SkewBox(Box::new(SkewBox::new(place, error))),
             },
-            Shape::Facets(unit) => Self::Facets(Box::new(Facets::new(unit, &place, error))),
+            Shape::Facets(unit) => Self::Facets(Box::new(ConvexPolyhedron::new(unit, &place, error))),
             Shape::Mesh(unit) => match convex(unit, &place, error) {
                 Some(facets) => Self::Facets(Box::new(facets)),
-                None => Self::Mesh(Box::new(Mesh::new(unit, &place, error))),
+                None => Self::Mesh(Box::new(TriangleMesh::new(unit, &place, error))),
             },
             Shape::Face(corners) => Self::Face(Box::new(Face::new(corners.iter().copied(), &place, error))),
             Shape::Patch(corners) => Self::Patch(Box::new(Patch::new(corners, &place, error))),

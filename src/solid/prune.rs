@@ -7,7 +7,7 @@ use crate::math::Bounds;
 
 use super::classification::Classification;
 use super::expression::{Expression, Leaf, Link, Node};
-use super::primitive::Primitive;
+use super::primitive::WorldPrimitive;
 
 /// Memory for pruning.
 #[derive(Clone, Debug, Default)]
@@ -118,7 +118,7 @@ impl ExprView<'_> {
     /// Prunes to a box; `remains` means something only where the answer is [`Classification::Mixed`].
     pub fn pruned(
         self,
-        primitives: &[Primitive],
+        primitives: &[WorldPrimitive],
         b: &Bounds,
         memory: &mut Pruning,
         remains: &mut PrunedExpr,
@@ -180,19 +180,19 @@ impl ExprView<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solid::expression::{Child, Tree};
+    use crate::solid::expression::{CsgTree, Operand};
 
-    fn child(tree: Tree, negated: bool) -> Child {
-        Child { tree, negated }
+    fn child(tree: CsgTree, negated: bool) -> Operand {
+        Operand { tree, negated }
     }
 
     #[test]
     fn an_operator_of_one_child_that_is_left_is_that_child() {
         // (0 or 1) and not (2 or (3 and 4)).
-        let inner = Tree::All(vec![child(Tree::Leaf(3), false), child(Tree::Leaf(4), false)]);
-        let cut = Tree::Any(vec![child(Tree::Leaf(2), false), child(inner, false)]);
-        let kept = Tree::Any(vec![child(Tree::Leaf(0), false), child(Tree::Leaf(1), false)]);
-        let whole = Expression::new(&Tree::All(vec![child(kept, false), child(cut, true)]));
+        let inner = CsgTree::All(vec![child(CsgTree::Leaf(3), false), child(CsgTree::Leaf(4), false)]);
+        let cut = CsgTree::Any(vec![child(CsgTree::Leaf(2), false), child(inner, false)]);
+        let kept = CsgTree::Any(vec![child(CsgTree::Leaf(0), false), child(CsgTree::Leaf(1), false)]);
+        let whole = Expression::new(&CsgTree::All(vec![child(kept, false), child(cut, true)]));
         let is_left = |open: [bool; 5], value: [bool; 5]| {
             let balls: Vec<_> = (0..5).map(|i| ball(open[i], value[i])).collect();
             let mut remains = PrunedExpr::default();
@@ -202,10 +202,10 @@ mod tests {
         };
         let (yes, no) = (true, false);
         let (found, left) = is_left([yes, no, no, no, no], [no; 5]);
-        assert_eq!((found, left), (Classification::Mixed, Expression::new(&Tree::Leaf(0))));
+        assert_eq!((found, left), (Classification::Mixed, Expression::new(&CsgTree::Leaf(0))));
         // Not 3: an operator is kept for a child that is negated.
         let (found, left) = is_left([no, no, no, yes, no], [no, yes, no, no, yes]);
-        let not_3 = Expression::new(&Tree::All(vec![child(Tree::Leaf(3), true)]));
+        let not_3 = Expression::new(&CsgTree::All(vec![child(CsgTree::Leaf(3), true)]));
         assert_eq!((found, left), (Classification::Mixed, not_3));
         let (found, _) = is_left([yes, yes, no, yes, yes], [no, no, yes, no, no]);
         assert_eq!(found, Classification::Outside);
@@ -214,7 +214,7 @@ mod tests {
     }
 
     /// A ball that a box of −1..1 lies across, within, or beside.
-    fn ball(is_open: bool, is_inside: bool) -> Primitive {
+    fn ball(is_open: bool, is_inside: bool) -> WorldPrimitive {
         use crate::math::DVec3;
         use crate::scene::MaterialId;
         use crate::solid::{Ball, WorldShape};
@@ -227,6 +227,6 @@ mod tests {
         };
         let center = if is_open || is_inside { DVec3::ZERO } else { DVec3::splat(5.0) };
         let form = WorldShape::Ball(Ball::new(center, radius, DVec3::ZERO));
-        Primitive { form, material: MaterialId(0) }
+        WorldPrimitive { form, material: MaterialId(0) }
     }
 }

@@ -12,7 +12,7 @@ use super::crossing::{FirstCrossings, Starts, start_of};
 use super::csg_query::{Departures, PacketCrossings};
 use super::face::{Face, SteepCrossings};
 use super::packet_shear::{Around, PacketShear};
-use super::primitive::{Primitive, WorldShape};
+use super::primitive::{WorldPrimitive, WorldShape};
 use super::surface::{first_of_surface, firsts_of_tube};
 use super::tube::Tube;
 
@@ -21,7 +21,7 @@ pub fn firsts_of_surface<S: Simd>(
     simd: S,
     packet: &RayPacket,
     wanted: u64,
-    (primitive, index): (&Primitive, u32),
+    (primitive, index): (&WorldPrimitive, u32),
     departures: Option<&Departures>,
     sheared: &mut PacketShear,
     found: &mut PacketCrossings,
@@ -238,7 +238,7 @@ mod tests {
     }
 
     fn assert_like_alone(
-        primitive: &Primitive,
+        primitive: &WorldPrimitive,
         rays: &[Ray],
         wanted: u64,
         departures: Option<&Departures>,
@@ -273,9 +273,9 @@ mod tests {
         Ok(met)
     }
 
-    fn primitive(shape: &Shape, map: &DAffine3) -> Primitive {
+    fn primitive(shape: &Shape, map: &DAffine3) -> WorldPrimitive {
         let form = WorldShape::new(shape, Placement::new(map).unwrap(), DVec3::splat(1e-15));
-        Primitive { form, material: MaterialId(0) }
+        WorldPrimitive { form, material: MaterialId(0) }
     }
 
     proptest! {

@@ -226,5 +226,5 @@ fn pruning_keeps_what_a_point_sees() {
     assert_eq!(at(0.0, 0.0, 0.0).0, Classification::Outside);
     assert_eq!(at(0.7, 0.7, 0.0).0, Classification::Inside);
     // Above the sphere, the cube's face alone is left.
-    assert_eq!(at(1.0, 0.9, 0.0), (Classification::Mixed, Expression::new(&Tree::Leaf(0))));
+    assert_eq!(at(1.0, 0.9, 0.0), (Classification::Mixed, Expression::new(&CsgTree::Leaf(0))));
 }

@@ -2,7 +2,7 @@
 
 use crate::lattice::{LooseOctree, MANY};
 use crate::math::{Bounds, DVec3};
-use crate::solid::{Classification, ExprView, Primitive};
+use crate::solid::{Classification, ExprView, WorldPrimitive};
 
 use super::Fast;
 use super::memory::TileMemory;
@@ -95,7 +95,7 @@ pub type Whole<'a> = (&'a LooseOctree, ExprView<'a>);
 fn begin<'e>(
     whole: Option<Whole<'e>>,
     left: ExprView<'e>,
-    primitives: &[Primitive],
+    primitives: &[WorldPrimitive],
     b: &Bounds,
 ) -> Option<ExprView<'e>> {
     let Some((loose, whole)) = whole.filter(|_| left.leaves.len() >= MANY) else { return Some(left) };

@@ -1,33 +1,33 @@
 //! The first reading of a text: takes its definitions, and finds its root.
 
-use super::arguments::{Arguments, setting};
+use super::arguments::{BoundArguments, setting};
 use super::survey::is_definition;
 use super::{Builder, Flow};
 use crate::scene::Diagnostic;
 use crate::scene::diagnostic::Reported;
 use crate::scene::language::dictionary::{Known, look_up};
-use crate::scene::language::syntax::{Call, Event};
+use crate::scene::language::syntax::{Call, SyntaxEvent};
 use crate::scene::language::vocabulary::{Meaning, Word};
 
 impl Builder {
     /// Takes an event of the survey.
-    pub fn survey(&mut self, event: &Event<'_>) -> Flow {
+    pub fn survey(&mut self, event: &SyntaxEvent<'_>) -> Flow {
         match event {
-            Event::Assignment(name, value) => {
+            SyntaxEvent::Assignment(name, value) => {
                 if let Ok(number) = setting(name.text, name.span, value, &mut self.sink)
                     && name.text == "$fn"
                 {
                     self.survey.fragments = number.unwrap_or(0.0);
                 }
             }
-            Event::Close => {
+            SyntaxEvent::Close => {
                 self.survey.depth -= usize::from(self.survey.depth > 0);
                 self.passed_over = self.passed_over.saturating_sub(1);
                 if self.survey.depth == 0 {
                     self.survey.definition = None;
                 }
             }
-            Event::Open(call) => {
+            SyntaxEvent::Open(call) => {
                 self.survey_call(call);
                 self.survey.depth += usize::from(!call.is_ended);
             }
@@ -60,7 +60,7 @@ impl Builder {
     }
 
     fn define(&mut self, call: &Call<'_>, word: &'static Word) -> Result<(), Reported> {
-        let arguments = Arguments::bind(call, word, &mut self.sink)?;
+        let arguments = BoundArguments::bind(call, word, &mut self.sink)?;
         match word.meaning {
             Meaning::Camera => self.camera(&arguments),
             Meaning::Light => self.light(&arguments),

@@ -4,15 +4,15 @@ use std::rc::Rc;
 
 use super::context::Context;
 use super::lost::Lost;
-use crate::scene::language::syntax::Span;
+use crate::scene::language::syntax::TextSpan;
 use crate::scene::language::vocabulary::OperatorWord;
 
 /// A call that is open.
 #[derive(Debug)]
-pub struct Frame {
+pub struct OpenCall {
     pub role: Role,
     /// The place of its word.
-    pub place: Span,
+    pub place: TextSpan,
     pub context: Rc<Context>,
     /// Where its solids begin on the stack.
     pub start: usize,
@@ -38,7 +38,7 @@ pub enum Role {
     /// They are operands.
     Operator(OperatorWord),
     /// There may be none, because the call is a primitive.
-    Primitive(&'static str, Built),
+    Primitive(&'static str, BuiltCall),
 }
 
 /// Solids one after the other on the stack.
@@ -52,19 +52,19 @@ pub enum Run {
 
 /// What became of a call.
 #[derive(Clone, Copy, Debug)]
-pub enum Built {
+pub enum BuiltCall {
     /// What is last on the stack; and whether a part of it was left out.
     Solids(Run, bool),
     Nothing(Lost),
 }
 
-impl Frame {
+impl OpenCall {
     /// The scene itself.
     pub fn scene(context: Rc<Context>) -> Self {
-        Self::new(Role::Objects, Span { start: 0, end: 0 }, context, 0)
+        Self::new(Role::Objects, TextSpan { start: 0, end: 0 }, context, 0)
     }
 
-    pub fn new(role: Role, place: Span, context: Rc<Context>, start: usize) -> Self {
+    pub fn new(role: Role, place: TextSpan, context: Rc<Context>, start: usize) -> Self {
         Self {
             role,
             place,

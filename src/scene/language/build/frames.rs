@@ -4,9 +4,9 @@
 //! copied from level to level, and reading stays linear in the length of the text however the text is nested.
 
 use super::Builder;
-use super::frame::{Built, Frame, Run};
+use super::frame::{BuiltCall, OpenCall, Run};
 use super::lost::Lost;
-use crate::scene::language::syntax::Span;
+use crate::scene::language::syntax::TextSpan;
 use crate::scene::language::vocabulary::OperatorWord;
 use crate::scene::memory::ASSEMBLED_OPERATOR;
 use crate::scene::{Diagnostic, Object, Solid};
@@ -34,7 +34,7 @@ impl Builder {
     }
 
     /// What an operator makes of its children.
-    pub(super) fn ended(&mut self, frame: &Frame) -> Built {
+    pub(super) fn ended(&mut self, frame: &OpenCall) -> BuiltCall {
         let any_left_out = frame.any_missing || frame.any_incomplete;
         let none = if any_left_out { Lost::Missing } else { Lost::Empty };
         let lost = match frame.operator() {
@@ -47,17 +47,17 @@ impl Builder {
             if frame.run != Run::One && frame.operator() != Some(OperatorWord::Union) {
                 self.memory.take(ASSEMBLED_OPERATOR);
             }
-            return Built::Solids(frame.run, any_left_out);
+            return BuiltCall::Solids(frame.run, any_left_out);
         };
         self.solids.truncate(frame.start);
         if lost == Lost::Missing && frame.present > 1 {
             self.note_left_out(frame);
         }
-        Built::Nothing(lost)
+        BuiltCall::Nothing(lost)
     }
 
     /// Says that an operator went with a child that it needs.
-    fn note_left_out(&mut self, frame: &Frame) {
+    fn note_left_out(&mut self, frame: &OpenCall) {
         let message = match frame.operator() {
             Some(OperatorWord::Intersection) => "`intersection` is left out whole: a part of it is missing",
             Some(OperatorWord::Difference) => "`difference` is left out whole: what it cuts from is missing",
@@ -70,10 +70,10 @@ impl Builder {
     }
 
     /// Gives what became of a call, whose solids begin at `start` on the stack, to the call that holds it.
-    pub(super) fn give(&mut self, built: Built, start: usize, place: Span) {
+    pub(super) fn give(&mut self, built: BuiltCall, start: usize, place: TextSpan) {
         let Some(frame) = self.frames.last_mut() else { return };
         let Some(operator) = frame.operator() else {
-            if let Built::Solids(run, _) = built {
+            if let BuiltCall::Solids(run, _) = built {
                 self.open_up(start, run);
             }
             return;
@@ -82,7 +82,7 @@ impl Builder {
         frame.present += 1;
         let is_cutter = operator == OperatorWord::Difference && !is_first;
         match built {
-            Built::Nothing(lost) => {
+            BuiltCall::Nothing(lost) => {
                 if is_first {
                     frame.first_lost = Some(lost);
                 }
@@ -94,10 +94,10 @@ impl Builder {
                 }
             }
             // The others are read even where there is nothing to take them from: their errors are errors.
-            Built::Solids(..) if operator == OperatorWord::Difference && frame.first_lost.is_some() => {
+            BuiltCall::Solids(..) if operator == OperatorWord::Difference && frame.first_lost.is_some() => {
                 self.solids.truncate(start);
             }
-            Built::Solids(run, is_incomplete) => {
+            BuiltCall::Solids(run, is_incomplete) => {
                 frame.any_incomplete |= is_incomplete;
                 if is_cutter && is_incomplete && self.sink.is_clean() {
                     let message =

@@ -83,7 +83,8 @@ pub fn run(painter: impl Painter + 'static, settings: Settings) -> Result<(), Ap
 /// # Errors
 /// See [`AppError`].
 pub fn run_shared<P: Painter + 'static>(painter: &Arc<P>, settings: Settings) -> Result<(), AppError> {
-    let session = Session::start(settings.terminal, mpsc::channel())?;
+    let (sender, events) = mpsc::channel();
+    let session = Session::start(settings.terminal, sender, events)?;
     session.show(painter, settings)
 }
 
@@ -100,9 +101,9 @@ pub fn open<P: Painter + 'static, E: From<AppError> + Send + 'static>(
     let mut loading = Loading::start(load, sender.clone()).map_err(AppError::from)?;
     let (session, loaded) = if let Some(loaded) = loading.done_at_once() {
         let (painter, settings) = loaded?;
-        (Session::start(settings.terminal, (sender, events))?, Ok((painter, settings)))
+        (Session::start(settings.terminal, sender, events)?, Ok((painter, settings)))
     } else {
-        let mut session = Session::start(opening.terminal, (sender, events))?;
+        let mut session = Session::start(opening.terminal, sender, events)?;
         match loading.wait(opening, &mut session.terminal, &mut session.inbox) {
             Ok(Waited::Loaded(loaded)) => (session, *loaded),
             Ok(Waited::Ended(end)) => {
@@ -139,7 +140,8 @@ impl Session {
     /// Takes the terminal and listens to it.
     fn start(
         capabilities: Capabilities,
-        (sender, events): (Sender<Event>, Receiver<Event>),
+        sender: Sender<Event>,
+        events: Receiver<Event>,
     ) -> Result<Self, AppError> {
         // The caller has decided about colours, NO_COLOR included; crossterm shall not decide again.
         force_color_output(true);

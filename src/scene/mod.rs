@@ -1,5 +1,6 @@
-//! Stage 1, OBJECTS: text in, [`Scene`] out. Kind, place, size and surface of every solid.
+//! Stage 1, OBJECTS: bytes in, [`Scene`] out. Kind, place, size and surface of every solid.
 
+mod content;
 mod diagnostic;
 mod embedded;
 mod language;

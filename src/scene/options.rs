@@ -20,6 +20,14 @@ impl Format {
         let extension = Path::new(name).extension();
         if extension.is_some_and(|e| e.eq_ignore_ascii_case("nff")) { Self::Nff } else { Self::Language }
     }
+
+    /// What messages call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Language => "the scene language",
+            Self::Nff => "NFF",
+        }
+    }
 }
 
 /// How to read.
@@ -27,7 +35,7 @@ impl Format {
 pub struct ReadOptions {
     /// Leave out what OpenSCAD can show and ray13 can not, with a note, where it would be an error.
     pub skip_unsupported: bool,
-    /// The format, where the name must not decide.
+    /// The format, where neither name nor content are to decide.
     pub format: Option<Format>,
     /// Where to write how far the reading is, for who watches.
     pub progress: Option<Progress>,

@@ -5,7 +5,7 @@ use fearless_simd::Simd;
 
 use crate::math::{Mask, Number, Real};
 
-use super::crossing::{have_one_slope, start_of};
+use super::crossing::{PlaceError, have_one_slope, start_of};
 use super::csg_query::{CsgQuery, PacketCrossings};
 use super::span::Ends;
 use super::span_cache::CachedSpans;
@@ -14,9 +14,11 @@ use super::span_cache::CachedSpans;
 #[inline(always)]
 pub(super) fn decide_alone<S: Simd, T: Real>(
     simd: S,
-    (asked, open): (&CsgQuery<T>, u64),
+    asked: &CsgQuery<T>,
+    open: u64,
     known: &CachedSpans<T>,
-    (primitive, negated): (u32, bool),
+    primitive: u32,
+    negated: bool,
     found: &mut PacketCrossings<T>,
 ) {
     let CsgQuery { departures, reach, .. } = *asked;
@@ -44,7 +46,7 @@ pub(super) fn decide_alone<S: Simd, T: Real>(
             #[inline(always)]
             |d| d.off.load(simd, row),
         );
-        let own = (known.off, known.seeming);
+        let own = PlaceError { off: known.off, seeming: known.seeming };
         let starts = [start_of(enter.error, own, offs), start_of(leave.error, own, offs)];
         if !T::DECIDES {
             let near = enter.t.magnitude().is_at_most(starts[0]) | leave.t.magnitude().is_at_most(starts[1]);

@@ -76,19 +76,34 @@ impl TRange {
 /// The eye is where it is: for a ray from there only rounding counts, not how far the map of the primitive may be off.
 #[inline]
 pub fn at_start(end: &End, form: &WorldShape, departure: Option<Departure>) -> bool {
-    end.t <= start_of(end.error, (form.off(), form.seeming()), departure.map(|d| d.off))
+    end.t <= start_of(end.error, PlaceError::of(form), departure.map(|d| d.off))
+}
+
+/// How far a primitive may be off its place, in the world's unit, and which share of that our own rounding may have made.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PlaceError<N> {
+    pub off: N,
+    pub seeming: N,
+}
+
+impl PlaceError<f64> {
+    /// That of a primitive.
+    #[inline(always)]
+    pub fn of(form: &WorldShape) -> Self {
+        Self { off: form.off(), seeming: form.seeming() }
+    }
 }
 
 /// Up to which distance a crossing with this error lies at the start of its ray, given how far its primitive is off, and
 /// which share of that is seeming.
 #[inline(always)]
-pub(super) fn start_of<N, M>(error: N, (own_off, seeming): (M, M), departure_off: Option<N>) -> N
+pub(super) fn start_of<N, M>(error: N, own: PlaceError<M>, departure_off: Option<N>) -> N
 where
     N: Number + Div<M, Output = N> + Mul<M, Output = N>,
 {
     match departure_off {
-        Some(off) => error * (off / own_off + 1.0),
-        None => error * 2.0 * seeming,
+        Some(off) => error * (off / own.off + 1.0),
+        None => error * 2.0 * own.seeming,
     }
 }
 
@@ -118,7 +133,7 @@ impl<N: Number> Starts<N> {
 
     #[inline(always)]
     fn reach(&self, end: &Ends<N>, form: &WorldShape) -> N {
-        start_of(end.error, (form.off() * N::COARSER, form.seeming()), self.off)
+        start_of(end.error, PlaceError { off: form.off() * N::COARSER, seeming: form.seeming() }, self.off)
     }
 }
 

@@ -10,7 +10,7 @@ use fearless_simd::Simd;
 use crate::math::{Mask, Number, Real, RealMask};
 
 use super::alone::decide_alone;
-use super::crossing::{TRange, have_one_slope, start_of};
+use super::crossing::{PlaceError, TRange, have_one_slope, start_of};
 use super::csg_query::{CsgQuery, Departures, PacketCrossings};
 use super::expression::Link;
 use super::primitive::WorldPrimitive;
@@ -49,7 +49,7 @@ pub fn first_of_expressions<S: Simd, T: Real>(
     scratch: &mut PacketScratch<T>,
     found: &mut PacketCrossings<T>,
 ) {
-    let CsgQuery { packet, wanted, departures, reach } = *asked;
+    let wanted = asked.wanted;
     (found.any, found.unsure, found.entering) = (0, 0, 0);
     let form = |leaf: usize| &primitives[expression.leaves[leaf].primitive as usize].form;
     let leaves = expression.leaves.len();
@@ -60,8 +60,7 @@ pub fn first_of_expressions<S: Simd, T: Real>(
     let (mut some, mut doubtful) = (0, 0);
     scratch.places.clear();
     for (leaf, place) in expression.leaves.iter().enumerate() {
-        let about = (place.primitive, form(leaf));
-        let (place, [ahead, may]) = scratch.known.look(simd, (packet, departures), about, wanted, reach);
+        let (place, [ahead, may]) = scratch.known.look(simd, asked, place.primitive, form(leaf));
         scratch.places.push(place);
         some |= ahead;
         doubtful |= may;
@@ -76,7 +75,7 @@ pub fn first_of_expressions<S: Simd, T: Real>(
         let negated = expression.is_negated();
         simd.vectorize(
             #[inline(always)]
-            || decide_alone(simd, (asked, some), known, (leaf.primitive, negated), found),
+            || decide_alone(simd, asked, some, known, leaf.primitive, negated, found),
         );
         return;
     }
@@ -126,7 +125,7 @@ fn decide<S: Simd, T: Real>(
         let mut early = 0;
         for row in 0..T::ROWS {
             if T::has_any(open, row) {
-                let [ended, earlier, doubtful] = next_place((simd, row, open), &mut sides, departures, reach);
+                let [ended, earlier, doubtful] = next_place(simd, row, open, &mut sides, departures, reach);
                 done |= ended | doubtful;
                 early |= earlier;
                 found.unsure |= doubtful;
@@ -172,7 +171,9 @@ fn decide<S: Simd, T: Real>(
 /// double precision are to decide what is one place.
 #[inline(always)]
 fn next_place<S: Simd, T: Real>(
-    (simd, row, open): (S, usize, u64),
+    simd: S,
+    row: usize,
+    open: u64,
     sides: &mut Leaves<T>,
     departures: Option<&Departures<T>>,
     reach: TRange,
@@ -194,7 +195,7 @@ fn next_place<S: Simd, T: Real>(
             seeming = sooner.choose(T::all(simd, known.seeming), seeming);
         }
     }
-    let start = start_of(error, (off, seeming), departures.map(|d| d.off.load(simd, row)));
+    let start = start_of(error, PlaceError { off, seeming }, departures.map(|d| d.off.load(simd, row)));
     let open = T::row_of(simd, open, row);
     let ended = open & (t.is_equal(infinite) | t.is_above(T::all(simd, reach.to)));
     let (asking, limit) = (open & !ended, t + error);
@@ -220,7 +221,7 @@ fn next_place<S: Simd, T: Real>(
         doubtful = T::bits_of(simd, more | at_start, row);
         t.is_below(T::all(simd, reach.from))
     } else if more.any() {
-        one_place((simd, row, asking), sides, [t, error, off], reach)
+        one_place(simd, row, asking, sides, FirstEnds { t, error, off }, reach)
     } else {
         t.is_below(T::all(simd, reach.from))
     };
@@ -228,15 +229,27 @@ fn next_place<S: Simd, T: Real>(
     [T::bits_of(simd, ended, row), T::bits_of(simd, early, row), doubtful]
 }
 
+/// The first crossing that is yet to come on each ray of a row: where, how far that may be off, and how far its primitive may
+/// be off its place.
+#[derive(Clone, Copy)]
+struct FirstEnds<N> {
+    t: N,
+    error: N,
+    off: N,
+}
+
 /// Which crossings of those that reach back to the first of a row, where several do, are one place with it. Answers
 /// where all of these are before the reach.
 #[inline(always)]
 fn one_place<S: Simd, T: Real>(
-    (simd, row, asking): (S, usize, RealMask<T, S>),
+    simd: S,
+    row: usize,
+    asking: RealMask<T, S>,
     sides: &mut Leaves<T>,
-    [t, error, off]: [T::SimdReal<S>; 3],
+    first: FirstEnds<T::SimdReal<S>>,
     reach: TRange,
 ) -> RealMask<T, S> {
+    let FirstEnds { t, error, off } = first;
     let shift = row * T::LANES;
     let (infinite, zero) = (T::all(simd, f64::INFINITY), T::all(simd, 0.0));
     let limit = t + error;

@@ -8,7 +8,7 @@ use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 use crate::math::{LANES, Mask, Number, ROWS, RayPacket};
 use crate::stage::{Meter, Silent};
 
-use super::crossing::{FirstCrossings, Starts, start_of};
+use super::crossing::{FirstCrossings, PlaceError, Starts, start_of};
 use super::csg_query::{Departures, PacketCrossings};
 use super::face::{Face, SteepCrossings};
 use super::packet_shear::{Around, PacketShear};
@@ -31,7 +31,7 @@ pub fn firsts_of_surface<S: Simd>(
         #[inline(always)]
         || {
             let (here, inward) = departures.map_or((0, 0), |d| d.here(simd, index));
-            let asking = Asking { packet, form: &primitive.form, index, here, inward, departures };
+            let asking = SurfaceRays { packet, form: &primitive.form, index, here, inward, departures };
             match &primitive.form {
                 WorldShape::Face(face) => asking.polygon(simd, face, wanted, sheared, found),
                 WorldShape::Patch(patch) => asking.polygon(simd, &patch.face, wanted, sheared, found),
@@ -58,8 +58,8 @@ fn rays_of_row<S: Simd>(simd: S, row: usize, rays: u64) -> mask64x8<S> {
     mask64x8::from_bitmask(simd, rays >> (row * LANES) & 0xFF)
 }
 
-/// Who asks one surface.
-struct Asking<'a> {
+/// One surface, and the rays of a packet that may meet it.
+struct SurfaceRays<'a> {
     packet: &'a RayPacket,
     form: &'a WorldShape,
     index: u32,
@@ -69,7 +69,7 @@ struct Asking<'a> {
     departures: Option<&'a Departures>,
 }
 
-impl Asking<'_> {
+impl SurfaceRays<'_> {
     #[inline(always)]
     fn polygon<S: Simd>(
         &self,
@@ -119,11 +119,8 @@ impl Asking<'_> {
                 let SteepCrossings { end, against, steep } =
                     face.steep_crossings(&self.packet.load(simd, row));
                 unsure |= odd & !steep;
-                let before = end.t.is_at_most(start_of(
-                    end.error,
-                    (self.form.off(), self.form.seeming()),
-                    self.off(simd, row),
-                ));
+                let before =
+                    end.t.is_at_most(start_of(end.error, PlaceError::of(self.form), self.off(simd, row)));
                 let any = odd & steep & !before;
                 self.put(simd, row, &FirstCrossings { end, entering: against, any }, found);
             }

@@ -107,7 +107,7 @@ impl<N: Number> Tubes<N> {
         if !near.any() {
             return SideCrossings::none(t);
         }
-        let side = self.taper.sides(&rays, (self.off, self.seeming));
+        let side = self.taper.sides(&rays, self.off, self.seeming);
         let met = side.any & near;
         SideCrossings {
             enter: Ends { t: t + side.enter.t, ..side.enter },

@@ -109,7 +109,7 @@ where
 
 /// The surfaces that rays start on, as seen from one primitive.
 #[derive(Clone, Copy, Debug)]
-pub struct Starts<N: Number> {
+pub struct RayStarts<N: Number> {
     /// Which rays start on a surface of this primitive.
     pub here: N::Mask,
     /// Which of these go to its inside.
@@ -118,7 +118,7 @@ pub struct Starts<N: Number> {
     pub off: Option<N>,
 }
 
-impl<N: Number> Starts<N> {
+impl<N: Number> RayStarts<N> {
     /// Whether crossings lie at the starts of their rays, or before.
     #[inline(always)]
     pub(super) fn before(&self, end: &Ends<N>, form: &WorldShape) -> N::Mask {
@@ -153,7 +153,7 @@ pub struct FirstCrossings<N: Number> {
 pub fn firsts_of_spans<N: Number>(
     spans: Spans<N>,
     form: &WorldShape,
-    starts: &Starts<N>,
+    starts: &RayStarts<N>,
 ) -> FirstCrossings<N> {
     // A convex solid is not met again by a ray that leaves it.
     let any = spans.any & !(starts.here & !starts.inward);
@@ -180,7 +180,7 @@ pub fn first_of_span(
         return None;
     }
     let spans = primitive.form.spans(&Rays::from(ray)).filter(|spans| spans.any)?;
-    let starts = Starts { here: here.is_some(), inward: here.is_some(), off: departure.map(|d| d.off) };
+    let starts = RayStarts { here: here.is_some(), inward: here.is_some(), off: departure.map(|d| d.off) };
     let first = firsts_of_spans(spans, &primitive.form, &starts);
     let End { t, error, surface } = first.end.one();
     first.any.then_some(Crossing { t, error, primitive: index, surface, entering: first.entering })

@@ -9,12 +9,12 @@ use fearless_simd::Simd;
 
 use crate::math::{Mask, Number, Real, RealMask};
 
-use super::alone::decide_alone;
 use super::crossing::{PlaceError, TRange, have_one_slope, start_of};
 use super::csg_query::{CsgQuery, Departures, PacketCrossings};
 use super::expression::Link;
 use super::primitive::WorldPrimitive;
 use super::prune::ExprView;
+use super::single::decide_single;
 use super::span_cache::{CachedSpans, SpanCache, SpanEnds};
 
 /// Memory that is used again for every packet.
@@ -75,7 +75,7 @@ pub fn first_of_expressions<S: Simd, T: Real>(
         let negated = expression.is_negated();
         simd.vectorize(
             #[inline(always)]
-            || decide_alone(simd, asked, some, known, leaf.primitive, negated, found),
+            || decide_single(simd, asked, some, known, leaf.primitive, negated, found),
         );
         return;
     }
@@ -134,10 +134,10 @@ fn decide<S: Simd, T: Real>(
         open &= !done;
         for leaf in 0..leaves {
             let CachedSpans { enter, leave, .. } = sides.of_mut(leaf);
-            flipped[leaf] = (enter.now ^ leave.now) & open;
+            flipped[leaf] = (enter.crossing ^ leave.crossing) & open;
             inside[leaf] ^= flipped[leaf];
-            enter.ahead &= !enter.now;
-            leave.ahead &= !leave.now;
+            enter.ahead &= !enter.crossing;
+            leave.ahead &= !leave.crossing;
         }
         let value = |nodes: &[u64], inside: &[u64]| nodes.first().map_or_else(|| inside[0], |&root| root);
         evaluate(expression, inside, behind);
@@ -152,7 +152,7 @@ fn decide<S: Simd, T: Real>(
                 if why != 0 {
                     left &= !why;
                     let [enter, leave] = sides.of(leaf).sides();
-                    for (side, lanes) in [(enter, why & enter.now), (leave, why & !enter.now)] {
+                    for (side, lanes) in [(enter, why & enter.crossing), (leave, why & !enter.crossing)] {
                         take(simd, side, lanes, expression.leaves[leaf].primitive, found);
                     }
                 }
@@ -205,14 +205,14 @@ fn next_place<S: Simd, T: Real>(
     for leaf in 0..sides.places.len() {
         for side in sides.of_mut(leaf).sides_mut() {
             if !T::has_any(side.ahead, row) {
-                side.now &= !(T::ROW << shift);
+                side.crossing &= !(T::ROW << shift);
                 continue;
             }
             let earliest = side.t.load(simd, row) - side.error.load(simd, row);
             let reaches = T::row_of(simd, side.ahead, row) & asking & earliest.is_at_most(limit);
             more = more | (some & reaches);
             some = some | reaches;
-            side.now = side.now & !(T::ROW << shift) | reaches.bits() << shift;
+            side.crossing = side.crossing & !(T::ROW << shift) | reaches.bits() << shift;
         }
     }
     let mut doubtful = 0;
@@ -268,16 +268,16 @@ fn one_place<S: Simd, T: Real>(
         let known = sides.of_mut(leaf);
         let own = T::all(simd, known.off);
         for side in known.sides_mut() {
-            if !T::has_any(side.now, row) {
+            if !T::has_any(side.crossing, row) {
                 continue;
             }
             let (their_t, their_error) = (side.t.load(simd, row), side.error.load(simd, row));
             let exact = error.is_equal(zero) | their_error.is_equal(zero);
-            let now = T::row_of(simd, side.now, row)
+            let now = T::row_of(simd, side.crossing, row)
                 & their_t.is_below(end)
                 & (have_one_slope(off / error, own / their_error) | exact);
             all_before = all_before & (!now | their_t.is_below(T::all(simd, reach.from)));
-            side.now = side.now & !(T::ROW << shift) | now.bits() << shift;
+            side.crossing = side.crossing & !(T::ROW << shift) | now.bits() << shift;
         }
     }
     all_before

@@ -1,7 +1,6 @@
 //! Stages 7 and 8, SOLID and CSG: ray × primitive → interval, intervals × expression → hit, and an expression
 //! pruned to a box.
 
-mod alone;
 mod assembly;
 mod ball;
 mod classification;
@@ -21,6 +20,7 @@ mod prune;
 mod ray_batch;
 mod ray_shear;
 mod round;
+mod single;
 mod slabs;
 mod span;
 mod span_cache;
@@ -37,7 +37,7 @@ pub use assembly::{Assembly, AssemblyError, AssemblyStats, BatchKind, Body, Scen
 pub use ball::Ball;
 pub use classification::Classification;
 pub use crossing::{
-    Crossing, FirstCrossings, Scratch, Starts, TRange, first_of_expression, first_of_span, firsts_of_spans,
+    Crossing, FirstCrossings, RayStarts, Scratch, TRange, first_of_expression, first_of_span, firsts_of_spans,
 };
 pub use crossings::{PacketScratch, first_of_expressions};
 pub use csg_query::{CsgQuery, Departures, PacketCrossings};
@@ -49,5 +49,5 @@ pub use ray_batch::RayBatch;
 pub use span::{Departure, End, Ends, LIMIT, ROUNDING, Span, Spans, WORLD};
 pub(crate) use span_cache::with_spans;
 pub use surface::first_of_surface;
-pub use surfaces::firsts_of_surface;
+pub use surfaces::{SurfaceQuery, firsts_of_surface};
 pub use tube::Bar;

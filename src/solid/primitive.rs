@@ -36,7 +36,7 @@ pub enum WorldShape {
     AxisBox(Box<AxisBox>),
     /// A box in any position.
     SkewBox(Box<SkewBox>),
-    /// An ellipsoid or frustum in any position.
+    /// An ellipsoid or truncated cone in any position.
     Round(Box<Round>),
     /// A convex solid of flat faces.
     Facets(Box<ConvexPolyhedron>),
@@ -46,7 +46,7 @@ pub enum WorldShape {
     Face(Box<Face>),
     /// A polygon with a normal at each corner: a surface.
     Patch(Box<Patch>),
-    /// The side of a frustum: a surface.
+    /// The side of a truncated cone: a surface.
     Tube(Box<Tube>),
 }
 
@@ -72,7 +72,7 @@ impl WorldShape {
                 None => Self::Round(Box::new(Round::ellipsoid(&place, error))),
             },
             Shape::Frustum { bottom, top } => {
-                Self::Round(Box::new(Round::frustum(&place, *bottom, *top, error)))
+                Self::Round(Box::new(Round::cone(&place, *bottom, *top, error)))
             }
             Shape::Cube => match axis_half(&place.linear) {
                 Some(half) => Self::AxisBox(Box::new(AxisBox::new(place.center, half, error))),

@@ -8,7 +8,7 @@ use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
 use crate::math::{LANES, Mask, Ray, Rays, Vector};
 
 use super::ball::Balls;
-use super::crossing::{Crossing, FirstCrossings, Starts, firsts_of_spans};
+use super::crossing::{Crossing, FirstCrossings, RayStarts, firsts_of_spans};
 use super::primitive::{WorldPrimitive, WorldShape};
 use super::span::{Departure, Ends, Spans};
 use super::surface::firsts_of_sides;
@@ -145,7 +145,7 @@ impl RayBatch {
         let lane = lane % LANES;
         let here = departure.is_some_and(|d| d.primitive == index);
         let inward = here && departure.is_some_and(|d| d.inward);
-        let starts = Starts { here, inward, off: departure.map(|d| d.off) };
+        let starts = RayStarts { here, inward, off: departure.map(|d| d.off) };
         // Balls and tubes have one face.
         let enter = Ends { t: self.enter[0][lane], error: self.enter[1][lane], surface: 0.0 };
         let leave = Ends { t: self.leave[0][lane], error: self.leave[1][lane], surface: 0.0 };

@@ -40,7 +40,7 @@ pub(super) struct SpanEnds<T> {
     /// The rays that are yet to cross here.
     pub ahead: u64,
     /// The rays that cross here in the place that is looked at.
-    pub now: u64,
+    pub crossing: u64,
 }
 
 /// The spans in one primitive.
@@ -63,7 +63,7 @@ impl<T: Real> SpanEnds<T> {
         error: Lanes::filled(T::ZERO),
         surface: Lanes::filled(T::ZERO),
         ahead: 0,
-        now: 0,
+        crossing: 0,
     };
 
     /// Those of a row.
@@ -118,7 +118,7 @@ impl<T: Real> CachedSpans<T> {
         }
         ahead &= rays;
         (self.enter.ahead, self.leave.ahead) = (ahead, ahead);
-        (self.enter.now, self.leave.now) = (0, 0);
+        (self.enter.crossing, self.leave.crossing) = (0, 0);
         ahead
     }
 }

@@ -3,7 +3,7 @@
 use crate::math::{Number, Ray, Rays};
 use crate::stage::{Meter, Probe};
 
-use super::crossing::{Crossing, FirstCrossings, Starts, at_start};
+use super::crossing::{Crossing, FirstCrossings, RayStarts, at_start};
 use super::primitive::{WorldPrimitive, WorldShape};
 use super::span::{Departure, End, Ends};
 use super::tube::{SideCrossings, Tube};
@@ -38,7 +38,7 @@ pub fn first_of_surface(
             end.filter(|end| !at_start(end)).map(|end| crossing(end, patch.face.normal().dot(ray.d) < 0.0))
         }
         WorldShape::Tube(tube) => {
-            let starts = Starts {
+            let starts = RayStarts {
                 here: here.is_some(),
                 inward: here.is_some_and(|d| d.inward),
                 off: departure.map(|d| d.off),
@@ -56,7 +56,7 @@ pub(super) fn firsts_of_tube<N: Number>(
     rays: &Rays<N>,
     tube: &Tube,
     form: &WorldShape,
-    starts: &Starts<N>,
+    starts: &RayStarts<N>,
 ) -> FirstCrossings<N> {
     firsts_of_sides(tube.crossings(rays), form, starts)
 }
@@ -66,7 +66,7 @@ pub(super) fn firsts_of_tube<N: Number>(
 pub(super) fn firsts_of_sides<N: Number>(
     found: SideCrossings<N>,
     form: &WorldShape,
-    starts: &Starts<N>,
+    starts: &RayStarts<N>,
 ) -> FirstCrossings<N> {
     let (enter, leave) = (&found.enter, &found.leave);
     let enter_ahead = !starts.before(enter, form);

@@ -8,7 +8,7 @@ use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 use crate::math::{LANES, Mask, Number, ROWS, RayPacket};
 use crate::stage::{Meter, Silent};
 
-use super::crossing::{FirstCrossings, PlaceError, Starts, start_of};
+use super::crossing::{FirstCrossings, PlaceError, RayStarts, start_of};
 use super::csg_query::{Departures, PacketCrossings};
 use super::face::{Face, SteepCrossings};
 use super::packet_shear::{Around, PacketShear};
@@ -16,16 +16,27 @@ use super::primitive::{WorldPrimitive, WorldShape};
 use super::surface::{first_of_surface, firsts_of_tube};
 use super::tube::Tube;
 
+/// What is asked of a surface that bounds no solid.
+#[derive(Clone, Copy, Debug)]
+pub struct SurfaceQuery<'a> {
+    /// The rays.
+    pub packet: &'a RayPacket,
+    /// Which of them ask, a bit for each.
+    pub wanted: u64,
+    /// The surfaces that they leave; none for rays from the eye.
+    pub departures: Option<&'a Departures>,
+}
+
 /// The first crossings of a surface, a primitive with its index, for the rays of `wanted`. `sheared` are the planes across the packet's rays.
 pub fn firsts_of_surface<S: Simd>(
     simd: S,
-    packet: &RayPacket,
-    wanted: u64,
-    (primitive, index): (&WorldPrimitive, u32),
-    departures: Option<&Departures>,
+    asked: &SurfaceQuery,
+    primitive: &WorldPrimitive,
+    index: u32,
     sheared: &mut PacketShear,
     found: &mut PacketCrossings,
 ) {
+    let SurfaceQuery { packet, wanted, departures } = *asked;
     (found.any, found.unsure, found.entering) = (0, 0, 0);
     simd.vectorize(
         #[inline(always)]
@@ -134,7 +145,7 @@ impl SurfaceRays<'_> {
             let asking = rays_of_row(simd, row, wanted);
             if asking.any_true() {
                 let (here, inward) = (rays_of_row(simd, row, self.here), rays_of_row(simd, row, self.inward));
-                let starts = Starts { here, inward, off: self.off(simd, row) };
+                let starts = RayStarts { here, inward, off: self.off(simd, row) };
                 let firsts = firsts_of_tube(&self.packet.load(simd, row), tube, self.form, &starts);
                 self.put(simd, row, &FirstCrossings { any: firsts.any & asking, ..firsts }, found);
             }
@@ -248,7 +259,7 @@ mod tests {
         for level in [Level::new(), Level::baseline()] {
             let (mut sheared, mut found) = (PacketShear::UNKNOWN, PacketCrossings::NONE);
             dispatch!(level, simd => firsts_of_surface(
-                simd, &packet, wanted, (primitive, 3), departures, &mut sheared, &mut found,
+                simd, &SurfaceQuery { packet: &packet, wanted, departures }, primitive, 3, &mut sheared, &mut found,
             ));
             prop_assert_eq!((found.unsure, found.any & !wanted), (0, 0));
             for (lane, ray) in rays.iter().enumerate().filter(|(lane, _)| wanted >> lane & 1 == 1) {

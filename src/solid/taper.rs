@@ -1,11 +1,11 @@
-//! The outline of a frustum: a radius that is linear in z, turned about the z axis.
+//! The outline of a truncated cone: a radius that is linear in z, turned about the z axis.
 
 use crate::math::{Bounds, DMat3, DVec3, Mask, Number, Rays, Vector};
 
 use super::span::{Ends, STILL, Spans};
 use super::unit_space::Centred;
 
-/// The face number of the side of a frustum.
+/// The face number of the side of a truncated cone.
 pub(super) const SIDE: u32 = 0;
 
 /// `r(z) = middle + slope · z` for `|z| ≤ 1`.

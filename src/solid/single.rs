@@ -12,7 +12,7 @@ use super::span_cache::CachedSpans;
 
 /// The first crossings of the rays that are `open` with their spans in one primitive, which may be `negated`.
 #[inline(always)]
-pub(super) fn decide_alone<S: Simd, T: Real>(
+pub(super) fn decide_single<S: Simd, T: Real>(
     simd: S,
     asked: &CsgQuery<T>,
     open: u64,

@@ -35,12 +35,11 @@ impl Children {
     /// Adds a child of `node`, with its value where that is known, by the link from it.
     #[inline(always)]
     fn add(&mut self, node: &Node, link: Link, value: Option<bool>) {
-        match value {
-            Some(value) => self.decided |= (value != link.negated) == stop(node),
-            None => {
-                self.open += 1;
-                self.any_negated |= link.negated;
-            }
+        if let Some(value) = value {
+            self.decided |= (value != link.negated) == stop(node);
+        } else {
+            self.open += 1;
+            self.any_negated |= link.negated;
         }
     }
 

@@ -15,7 +15,7 @@ pub fn public_types(text: &str) -> Vec<String> {
 }
 
 /// The names that several public types have, each with the files of these; `files` are paths and texts.
-pub fn shared_names<'a>(files: &'a [(String, String)]) -> BTreeMap<String, Vec<&'a str>> {
+pub fn shared_names(files: &[(String, String)]) -> BTreeMap<String, Vec<&str>> {
     let mut found = BTreeMap::<String, Vec<&str>>::new();
     for (path, text) in files {
         for name in public_types(text) {

@@ -15,7 +15,7 @@ use ray13::math::Size;
 use ray13::plan::Options;
 use ray13::scene::{self, ReadOptions};
 use ray13::tone::Tone;
-use ray13::widget::Picture;
+use ray13::widget::PictureWidget;
 
 /// Width of a character cell divided by its height; a program that can ask its terminal does better.
 const CELL_ASPECT: f64 = 0.5;
@@ -49,7 +49,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         if inside.area() > 0 {
             let frame = studio.draw(&request(&studio, inside));
             if let Some(cells) = &frame.cells {
-                screen.render_widget(Picture(cells), inside);
+                screen.render_widget(PictureWidget(cells), inside);
             }
         }
     })?;

@@ -8,7 +8,7 @@ use ratatui::widgets::{Block, BorderType, Widget};
 use super::keys;
 use super::layout::{Around, Panels, Rows};
 use super::theme::Theme;
-use crate::stage::Step;
+use crate::stage::WorkStep;
 
 /// Columns of the least part of a note that tells anything: its line, and the word that it is about.
 const LEAST_NOTE: u16 = 24;
@@ -23,11 +23,11 @@ pub struct Labels<'a> {
     /// What is shown otherwise than asked for.
     pub note: Option<String>,
     /// What is at work, where that takes long enough to be said.
-    pub working: Option<Step>,
+    pub working: Option<WorkStep>,
 }
 
 /// How far a piece of work is, in words.
-pub fn words(step: Step) -> String {
+pub fn words(step: WorkStep) -> String {
     let name = step.task.name();
     step.percent.map_or_else(|| name.to_owned(), |percent| format!("{name} {percent} %"))
 }

@@ -3,8 +3,8 @@
 //! Nobody's colors are changed; they are asked for (OSC 4 and OSC 11, of xterm), in one write with a status request
 //! behind it, so that a terminal that does not know the questions is not waited for.
 
-use super::Settings;
 use super::input::{Answer, Colored};
+use super::settings::{Questions, Settings};
 use crate::glyph::{FourGrays, Ground, Palette};
 use crate::math::DVec3;
 use crate::shade::luminance;
@@ -12,15 +12,6 @@ use crate::tone::{light_of_srgb, lightness};
 
 /// The attributes of the four grays, from the darkest.
 const ATTRIBUTES: [u8; 4] = [0, 8, 7, 15];
-
-/// What a terminal's answers may decide.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Questions {
-    /// The grays of [`Palette::Dos`].
-    pub grays: bool,
-    /// Where ink goes that is the terminal's own.
-    pub ground: bool,
-}
 
 impl Questions {
     /// What to send.

@@ -10,7 +10,7 @@ use ratatui::crossterm::event::KeyEvent;
 use super::fence::Fence;
 use super::input::{self, Answer, Input};
 use crate::frame::Frame;
-use crate::stage::Step;
+use crate::stage::WorkStep;
 
 /// Something that happened.
 #[derive(Debug)]
@@ -24,7 +24,7 @@ pub enum Event {
     /// The terminal has another size.
     Resized,
     /// Something takes long, and is so far.
-    Working(Step),
+    Working(WorkStep),
     /// The scene is there, or why there is none.
     Loaded,
     /// A picture is finished.

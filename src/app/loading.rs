@@ -16,12 +16,12 @@ use super::layout::{self, Around, Layout};
 use super::suspend::suspend;
 use super::terminal::{self, Terminal};
 use super::theme::Theme;
-use super::viewer::End;
+use super::viewer::SessionEnd;
 use super::watch::Watch;
 use super::{AppError, Settings, caption, charset};
 use crate::glyph::Palette;
 use crate::output::Capabilities;
-use crate::stage::{Progress, Step};
+use crate::stage::{Progress, WorkStep};
 use crate::widget::FlowChart;
 
 /// A scene that is there sooner is shown without a word: a screen that stands for less than a tenth of a second is a
@@ -51,7 +51,7 @@ pub enum Waited<P, E> {
     /// The painter, or why there is none.
     Loaded(Box<Result<(P, Settings), E>>),
     /// The person did not wait.
-    Ended(End),
+    Ended(SessionEnd),
 }
 
 impl<P: Send + 'static, E: Send + 'static> Loading<P, E> {
@@ -108,13 +108,13 @@ impl<P: Send + 'static, E: Send + 'static> Loading<P, E> {
                 }
                 Some(Event::Working(now)) => step = now,
                 Some(Event::Key(key)) => match keys::action(key) {
-                    Some(Action::Quit) => return Ok(Waited::Ended(End::Quit)),
+                    Some(Action::Quit) => return Ok(Waited::Ended(SessionEnd::Quit)),
                     Some(Action::Suspend) => suspend(terminal)?,
                     _ => {}
                 },
                 Some(Event::Stopped) => suspend(terminal)?,
                 Some(Event::Continued) => terminal.retake()?,
-                Some(Event::Terminated(signal)) => return Ok(Waited::Ended(End::Signal(signal))),
+                Some(Event::Terminated(signal)) => return Ok(Waited::Ended(SessionEnd::Signal(signal))),
                 Some(Event::HungUp) => return Err(AppError::HungUp),
                 Some(Event::Failed(error)) => return Err(error.into()),
                 Some(Event::Panicked) => return Err(AppError::LoadingPanicked),
@@ -125,7 +125,7 @@ impl<P: Send + 'static, E: Send + 'static> Loading<P, E> {
 }
 
 /// The screen without a picture: the frame, the chart with the stage at work, and how far that is.
-fn draw(opening: &Opening, layout: &Layout, step: Step, buffer: &mut Buffer) {
+fn draw(opening: &Opening, layout: &Layout, step: WorkStep, buffer: &mut Buffer) {
     let theme = Theme::of(opening.palette);
     buffer.set_style(buffer.area, theme.text);
     let labels = Labels { title: &opening.title, ..Labels::default() };
@@ -149,7 +149,7 @@ mod tests {
         let layout = Layout::new(Size::new(width, height));
         let mut buffer = Buffer::empty(layout.screen);
         let opening = Opening { title: "gears.csg".to_owned(), terminal, ..Opening::default() };
-        draw(&opening, &layout, Step { task: Task::Reading, percent: Some(37) }, &mut buffer);
+        draw(&opening, &layout, WorkStep { task: Task::Reading, percent: Some(37) }, &mut buffer);
         let rows = buffer.content.chunks(buffer.area.width.into());
         rows.map(|row| row.iter().map(Cell::symbol).collect::<String>() + "\n").collect()
     }

@@ -11,6 +11,7 @@ mod caption;
 mod charset;
 mod colors;
 mod encoder;
+mod error;
 mod events;
 mod fence;
 mod help;
@@ -24,6 +25,7 @@ mod motion;
 mod pacing;
 mod painter;
 mod screen;
+mod settings;
 mod shown;
 #[cfg(unix)]
 mod signals;
@@ -42,15 +44,11 @@ use std::sync::mpsc::{self, Receiver, Sender};
 
 use ratatui::crossterm::style::force_color_output;
 
-use crate::glyph::{GlyphMode, Ground, Palette};
 use crate::output::Capabilities;
-use crate::plan::Options;
-use crate::scene::Camera;
 use crate::stage::Progress;
-use crate::tone::Tone;
 
-pub use colors::Questions;
 pub(crate) use encoder::Encoder;
+pub use error::AppError;
 use events::{Event, Inbox};
 use identity::Identity;
 pub use loading::Opening;
@@ -58,51 +56,10 @@ use loading::{Loading, Waited};
 use model::Model;
 use pacing::Pacing;
 pub use painter::Painter;
+pub use settings::{Questions, Settings};
 use terminal::Terminal;
 use tracer::Tracer;
-use viewer::{End, Viewer};
-
-/// With what the viewer starts.
-#[derive(Clone, Debug, Default)]
-pub struct Settings {
-    /// The name of the scene, as the frame shows it (in capitals).
-    pub title: String,
-    /// The index of the first view.
-    pub view: usize,
-    /// A camera of one's own, in place of the view; the first press of Tab leaves it for the view.
-    pub camera: Option<Camera>,
-    /// Shading model, shadows, structure, threads.
-    pub options: Options,
-    /// Characters.
-    pub glyphs: GlyphMode,
-    /// Colours, of the picture and of the panels.
-    pub palette: Palette,
-    /// What the terminal's own paper is, where there is only that.
-    pub ground: Ground,
-    /// What of these two the terminal has a say in.
-    pub questions: Questions,
-    /// Light to level.
-    pub tone: Tone,
-    /// What the terminal can be told and what it can draw.
-    pub terminal: Capabilities,
-}
-
-/// Why the viewer ended other than by a key.
-#[derive(Debug, thiserror::Error)]
-pub enum AppError {
-    /// The terminal could not be set up, read or written.
-    #[error("the terminal failed: {0}")]
-    Terminal(#[from] io::Error),
-    /// The terminal went away.
-    #[error("the terminal hung up")]
-    HungUp,
-    /// Tracing panicked; the message is already on standard error.
-    #[error("the picture could not be traced")]
-    Panicked,
-    /// Reading the scene panicked; the message is already on standard error.
-    #[error("the scene could not be read")]
-    LoadingPanicked,
-}
+use viewer::{SessionEnd, Viewer};
 
 /// Shows the scene until the person quits. Standard output has to be a terminal; keys come from standard
 /// input, or from the controlling terminal where standard input is something else.
@@ -126,7 +83,8 @@ pub fn run(painter: impl Painter + 'static, settings: Settings) -> Result<(), Ap
 /// # Errors
 /// See [`AppError`].
 pub fn run_shared<P: Painter + 'static>(painter: &Arc<P>, settings: Settings) -> Result<(), AppError> {
-    let session = Session::start(settings.terminal, mpsc::channel())?;
+    let (sender, events) = mpsc::channel();
+    let session = Session::start(settings.terminal, sender, events)?;
     session.show(painter, settings)
 }
 
@@ -143,9 +101,9 @@ pub fn open<P: Painter + 'static, E: From<AppError> + Send + 'static>(
     let mut loading = Loading::start(load, sender.clone()).map_err(AppError::from)?;
     let (session, loaded) = if let Some(loaded) = loading.done_at_once() {
         let (painter, settings) = loaded?;
-        (Session::start(settings.terminal, (sender, events))?, Ok((painter, settings)))
+        (Session::start(settings.terminal, sender, events)?, Ok((painter, settings)))
     } else {
-        let mut session = Session::start(opening.terminal, (sender, events))?;
+        let mut session = Session::start(opening.terminal, sender, events)?;
         match loading.wait(opening, &mut session.terminal, &mut session.inbox) {
             Ok(Waited::Loaded(loaded)) => (session, *loaded),
             Ok(Waited::Ended(end)) => {
@@ -165,7 +123,7 @@ pub fn open<P: Painter + 'static, E: From<AppError> + Send + 'static>(
             Ok(Some(painter))
         }
         Err(error) => {
-            session.end(Ok(End::Quit))?;
+            session.end(Ok(SessionEnd::Quit))?;
             Err(error)
         }
     }
@@ -182,7 +140,8 @@ impl Session {
     /// Takes the terminal and listens to it.
     fn start(
         capabilities: Capabilities,
-        (sender, events): (Sender<Event>, Receiver<Event>),
+        sender: Sender<Event>,
+        events: Receiver<Event>,
     ) -> Result<Self, AppError> {
         // The caller has decided about colours, NO_COLOR included; crossterm shall not decide again.
         force_color_output(true);
@@ -210,11 +169,11 @@ impl Session {
     }
 
     /// Gives the terminal back.
-    fn end(self, end: Result<End, AppError>) -> Result<(), AppError> {
+    fn end(self, end: Result<SessionEnd, AppError>) -> Result<(), AppError> {
         drop(self.terminal);
         match end? {
-            End::Quit => Ok(()),
-            End::Signal(signal) => {
+            SessionEnd::Quit => Ok(()),
+            SessionEnd::Signal(signal) => {
                 #[cfg(unix)]
                 signals::end_by(signal);
                 #[cfg(not(unix))]

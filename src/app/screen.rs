@@ -13,11 +13,11 @@ use super::theme::Theme;
 use super::{caption, charset, help, status};
 use crate::frame::Frame;
 use crate::plan::Shading;
-use crate::stage::{Step, Task};
-use crate::widget::{FlowChart, Picture};
+use crate::stage::{Task, WorkStep};
+use crate::widget::{FlowChart, PictureWidget};
 
 /// Draws the whole screen into a buffer of its size; `working` is what is at work, where it takes long.
-pub fn draw(model: &Model, shown: Option<&Shown>, working: Option<Step>, buffer: &mut Buffer) {
+pub fn draw(model: &Model, shown: Option<&Shown>, working: Option<WorkStep>, buffer: &mut Buffer) {
     let theme = Theme::of(model.settings.palette);
     buffer.set_style(buffer.area, theme.text);
     let labels = Labels {
@@ -40,7 +40,7 @@ pub fn draw(model: &Model, shown: Option<&Shown>, working: Option<Step>, buffer:
     let picture = model.layout.picture;
     let over = match shown {
         Some(Shown { frame: Frame { cells: Some(cells), nothing, .. }, .. }) => {
-            Picture(cells).render(picture, buffer);
+            PictureWidget(cells).render(picture, buffer);
             theme.fill(picture, buffer);
             nothing.map(|nothing| nothing.to_string() + model.way_back())
         }
@@ -60,7 +60,7 @@ pub fn draw(model: &Model, shown: Option<&Shown>, working: Option<Step>, buffer:
 fn draw_chart(
     model: &Model,
     shown: Option<&Shown>,
-    working: Option<Step>,
+    working: Option<WorkStep>,
     area: Rect,
     theme: &Theme,
     buffer: &mut Buffer,
@@ -306,7 +306,7 @@ mod tests {
     #[test]
     fn what_takes_long_says_how_far_it_is() {
         let model = model(80, 24);
-        let step = Some(Step { task: Task::Tracing, percent: Some(45) });
+        let step = Some(WorkStep { task: Task::Tracing, percent: Some(45) });
         let mut seen = [None, Some(&shown(&model))].map(|shown| {
             let mut buffer = Buffer::empty(model.layout.screen);
             draw(&model, shown, step, &mut buffer);

@@ -15,7 +15,7 @@ use super::terminal::{self, Terminal};
 use super::tracer::Tracer;
 use super::{AppError, Painter, keys};
 use crate::frame::{Frame, Request};
-use crate::stage::Step;
+use crate::stage::WorkStep;
 
 /// Model, picture and terminal together.
 pub struct Viewer<'a> {
@@ -27,7 +27,7 @@ pub struct Viewer<'a> {
     pacing: Pacing,
     shown: Option<Shown>,
     /// How far the next picture is, where it takes long.
-    working: Option<Step>,
+    working: Option<WorkStep>,
     /// What is told beside the picture that is shown.
     subject: Subject,
     /// What is to be told beside the picture that is being traced; absent while none is.
@@ -38,7 +38,7 @@ pub struct Viewer<'a> {
 
 /// How the viewer ends when nothing fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum End {
+pub enum SessionEnd {
     /// By a key.
     Quit,
     /// By a signal.
@@ -73,7 +73,7 @@ impl<'a> Viewer<'a> {
 
     /// Shows the scene until the end. Everything that has already happened is taken in before the screen is
     /// drawn once, so keys never wait behind pictures.
-    pub fn run(&mut self) -> Result<End, AppError> {
+    pub fn run(&mut self) -> Result<SessionEnd, AppError> {
         self.show(None)?;
         loop {
             // By the clock it wakes only while something waits for the terminal.
@@ -100,12 +100,12 @@ impl<'a> Viewer<'a> {
         }
     }
 
-    fn take_in(&mut self, event: Event) -> Result<Option<End>, AppError> {
+    fn take_in(&mut self, event: Event) -> Result<Option<SessionEnd>, AppError> {
         match event {
             Event::Key(key) => match self.model.update(self.painter, keys::action(key)) {
                 Effect::None => {}
                 Effect::Suspend => suspend(self.terminal)?,
-                Effect::Quit => return Ok(Some(End::Quit)),
+                Effect::Quit => return Ok(Some(SessionEnd::Quit)),
             },
             Event::Reached(_) => self.pacing.answered(Instant::now()),
             // An answer that came too late for its question.
@@ -121,7 +121,7 @@ impl<'a> Viewer<'a> {
                 self.pacing.forget();
                 self.model.resize(self.painter, terminal::window());
             }
-            Event::Terminated(signal) => return Ok(Some(End::Signal(signal))),
+            Event::Terminated(signal) => return Ok(Some(SessionEnd::Signal(signal))),
             Event::HungUp => return Err(AppError::HungUp),
             Event::Failed(error) => return Err(error.into()),
             Event::Panicked => return Err(AppError::Panicked),

@@ -125,7 +125,7 @@ impl Shared {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::stage::{Step, Task};
+    use crate::stage::{Task, WorkStep};
     use std::sync::mpsc;
 
     #[test]
@@ -139,9 +139,9 @@ mod tests {
             Event::Working(step) => step,
             event => panic!("{event:?}"),
         };
-        assert_eq!(told(), Step { task: Task::Tracing, percent: Some(0) });
+        assert_eq!(told(), WorkStep { task: Task::Tracing, percent: Some(0) });
         progress.advance(1);
-        assert_eq!(told(), Step { task: Task::Tracing, percent: Some(50) });
+        assert_eq!(told(), WorkStep { task: Task::Tracing, percent: Some(50) });
         watch.end();
         progress.advance(1);
         watch.close();

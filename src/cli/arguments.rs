@@ -7,7 +7,7 @@ use clap_complete::Shell;
 
 use crate::math::{DVec3, Size};
 
-use super::picture::{EngineName, Glyphs, PaletteName, PrecisionName, Preset, StructureName, ToneName};
+use super::names::{EngineName, Glyphs, PaletteName, PrecisionName, Preset, StructureName, ToneName};
 use super::values;
 
 /// Shows solid models in a terminal: ray traced, in 13 gray levels of block characters.
@@ -88,10 +88,10 @@ pub struct RenderArguments {
     pub picture: PictureArguments,
     /// How the picture is written [default: by the ending of -o; else ans on a terminal, txt elsewhere]
     #[arg(long, value_enum)]
-    pub format: Option<Format>,
+    pub format: Option<StillFormat>,
     /// Raw values: light in png, pgm, ppm and pfm, all others in pfm only [default: light in these]
     #[arg(long, value_enum)]
-    pub channel: Option<Channel>,
+    pub channel: Option<RawChannel>,
     /// The grays of the 13 levels in png, pgm and ppm, in place of the light's own (as in --preset pcat)
     #[arg(long)]
     pub levels: bool,
@@ -259,7 +259,7 @@ pub struct CameraArguments {
 
 /// Forms of a still.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Format {
+pub enum StillFormat {
     /// Characters only
     Txt,
     /// Characters with ANSI colours
@@ -276,7 +276,7 @@ pub enum Format {
     Pfm,
 }
 
-impl Format {
+impl StillFormat {
     /// Whether it has one pixel, or one raw value, per dot.
     pub const fn is_pixels(self) -> bool {
         matches!(self, Self::Png | Self::Pgm | Self::Ppm | Self::Pfm)
@@ -285,7 +285,7 @@ impl Format {
 
 /// Raw values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Channel {
+pub enum RawChannel {
     /// Linear light; its three primaries with --palette color
     Light,
     /// Distance from the eye, infinite where nothing is hit

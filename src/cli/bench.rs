@@ -11,7 +11,7 @@ use crate::app::Encoder;
 use crate::frame::{Frame, Request, Studio, Wants};
 use crate::math::DVec3;
 use crate::trade::{Effort, Timing, peak_memory};
-use crate::widget::Picture;
+use crate::widget::PictureWidget;
 
 use super::arguments::BenchArguments;
 use super::error::CliError;
@@ -24,7 +24,7 @@ const TURN: f64 = 5.0;
 
 /// Measures a scene and prints the figures.
 pub fn run(arguments: &BenchArguments) -> Result<(), CliError> {
-    input::say(&effects::check(&arguments.picture, effects::Shown::Cells)?);
+    input::say(&effects::check(&arguments.picture, effects::Presentation::Cells)?);
     let reading = Instant::now();
     let scene = input::read(&arguments.scene.file, arguments.scene.skip_unsupported, arguments.scene.memory)?;
     input::say(&scene.notes);
@@ -87,7 +87,7 @@ fn screen(frame: &Frame) -> Buffer {
     // ratatui counts columns in 16 bits; so does every terminal.
     let side = |n: u32| u16::try_from(n).unwrap_or(u16::MAX);
     let mut buffer = Buffer::empty(Rect::new(0, 0, side(size.width), side(size.height)));
-    Picture(cells).render(buffer.area, &mut buffer);
+    PictureWidget(cells).render(buffer.area, &mut buffer);
     buffer
 }
 

@@ -13,7 +13,7 @@ use super::{effects, input, marked};
 /// Says what changed from one picture to the other: nothing and exit code 0, or the picture with its changed cells marked and
 /// exit code 1.
 pub fn run(arguments: &DiffArguments) -> Result<(), CliError> {
-    input::say(&effects::check(&arguments.picture, effects::Shown::Cells)?);
+    input::say(&effects::check(&arguments.picture, effects::Presentation::Cells)?);
     let drawing = Drawing {
         skip_unsupported: arguments.skip_unsupported,
         memory: arguments.memory,

@@ -4,13 +4,13 @@
 use crate::glyph::{GlyphMode, Palette};
 use crate::plan::{EngineChoice, Shading};
 
-use super::arguments::{Channel, Format, PictureArguments};
+use super::arguments::{PictureArguments, RawChannel, StillFormat};
 use super::error::CliError;
-use super::picture::{PaletteName, PrecisionName};
+use super::names::{PaletteName, PrecisionName};
 
 /// What shows a picture.
 #[derive(Clone, Copy, Debug)]
-pub enum Shown {
+pub enum Presentation {
     /// The viewer, which fills its terminal.
     Viewer,
     /// Characters that are counted or planned, and not written.
@@ -22,8 +22,8 @@ pub enum Shown {
 /// How a still is written.
 #[derive(Clone, Copy, Debug)]
 pub struct Still {
-    pub format: Format,
-    pub channel: Option<Channel>,
+    pub format: StillFormat,
+    pub channel: Option<RawChannel>,
     /// Whether the grays of the levels are asked for.
     pub levels: bool,
 }
@@ -31,7 +31,7 @@ pub struct Still {
 /// What a row of the table is asked about.
 struct Given<'a> {
     picture: &'a PictureArguments,
-    shown: Shown,
+    shown: Presentation,
 }
 
 /// What becomes of an option without effect.
@@ -64,17 +64,17 @@ const ROWS: [Row; 28] = [
     row(
         "channel light",
         Refused,
-        |g| g.channel() == Some(Channel::Light) && !g.is_pixels(),
+        |g| g.channel() == Some(RawChannel::Light) && !g.is_pixels(),
         "--format png, pgm, ppm and pfm have it",
     ),
     row(
         "channel",
         Refused,
-        |g| g.raw() && g.format() != Some(Format::Pfm),
+        |g| g.raw() && g.format() != Some(StillFormat::Pfm),
         "all but light are in --format pfm only",
     ),
     row("levels", Refused, |g| g.levels() && g.channel().is_some(), "--channel asks for raw values"),
-    row("levels", Refused, |g| g.levels() && g.format() == Some(Format::Pfm), "pfm holds raw values"),
+    row("levels", Refused, |g| g.levels() && g.format() == Some(StillFormat::Pfm), "pfm holds raw values"),
     row(
         "levels",
         Refused,
@@ -91,25 +91,31 @@ const ROWS: [Row; 28] = [
     row(
         "palette",
         Said,
-        |g| g.format() == Some(Format::Txt) && g.palette(&[PaletteName::Mono]),
+        |g| g.format() == Some(StillFormat::Txt) && g.palette(&[PaletteName::Mono]),
         "txt has no colours, --format ans has",
     ),
     row(
         "palette",
         Said,
-        |g| matches!(g.format(), Some(Format::Levels | Format::Pgm)) && g.palette(&[]),
+        |g| matches!(g.format(), Some(StillFormat::Levels | StillFormat::Pgm)) && g.palette(&[]),
         "this format has grays only",
     ),
     row(
         "palette",
         Said,
-        |g| matches!(g.format(), Some(Format::Png | Format::Ppm)) && g.palette(&[PaletteName::Color]),
+        |g| {
+            matches!(g.format(), Some(StillFormat::Png | StillFormat::Ppm))
+                && g.palette(&[PaletteName::Color])
+        },
         "pixels have the light's own grays; --levels has those of the levels, --palette color colours",
     ),
     row(
         "palette",
         Said,
-        |g| g.format() == Some(Format::Pfm) && g.palette(if g.raw() { &[] } else { &[PaletteName::Color] }),
+        |g| {
+            g.format() == Some(StillFormat::Pfm)
+                && g.palette(if g.raw() { &[] } else { &[PaletteName::Color] })
+        },
         "raw values have no palette; of light --palette color has three channels",
     ),
     row(
@@ -139,7 +145,7 @@ const ROWS: [Row; 28] = [
     row(
         "tone",
         Said,
-        |g| g.picture.tone.is_some() && (g.format() == Some(Format::Pfm) || g.channel().is_some()),
+        |g| g.picture.tone.is_some() && (g.format() == Some(StillFormat::Pfm) || g.channel().is_some()),
         "raw values have no tone",
     ),
     row("samples", Said, |g| g.raw() && g.picture.samples.is_some_and(|n| n > 1), OF_THE_MIDDLE),
@@ -170,7 +176,7 @@ const OF_NO_LIGHT: &str = "depth, normal and object are found without light";
 const NOT_SENT: &str = "mirror and Snell rays come with --shading 4";
 
 /// Refuses options that contradict each other; gives a line for each that is without effect.
-pub fn check(picture: &PictureArguments, shown: Shown) -> Result<Vec<String>, CliError> {
+pub fn check(picture: &PictureArguments, shown: Presentation) -> Result<Vec<String>, CliError> {
     let given = Given { picture, shown };
     let mut lines = Vec::new();
     for Row { option, verdict, why, .. } in ROWS.iter().filter(|row| (row.holds)(&given)) {
@@ -185,27 +191,27 @@ pub fn check(picture: &PictureArguments, shown: Shown) -> Result<Vec<String>, Cl
 
 impl Given<'_> {
     fn is_viewer(&self) -> bool {
-        matches!(self.shown, Shown::Viewer)
+        matches!(self.shown, Presentation::Viewer)
     }
 
     fn still(&self) -> Option<Still> {
         match self.shown {
-            Shown::Still(still) => Some(still),
-            Shown::Viewer | Shown::Cells => None,
+            Presentation::Still(still) => Some(still),
+            Presentation::Viewer | Presentation::Cells => None,
         }
     }
 
-    fn format(&self) -> Option<Format> {
+    fn format(&self) -> Option<StillFormat> {
         self.still().map(|still| still.format)
     }
 
-    fn channel(&self) -> Option<Channel> {
+    fn channel(&self) -> Option<RawChannel> {
         self.still().and_then(|still| still.channel)
     }
 
     /// Whether a channel other than light is asked for.
     fn raw(&self) -> bool {
-        self.channel().is_some_and(|channel| channel != Channel::Light)
+        self.channel().is_some_and(|channel| channel != RawChannel::Light)
     }
 
     fn levels(&self) -> bool {
@@ -213,16 +219,16 @@ impl Given<'_> {
     }
 
     fn is_pixels(&self) -> bool {
-        self.format().is_some_and(Format::is_pixels)
+        self.format().is_some_and(StillFormat::is_pixels)
     }
 
     fn has_characters(&self) -> bool {
-        self.format().is_none_or(|format| matches!(format, Format::Txt | Format::Ans))
+        self.format().is_none_or(|format| matches!(format, StillFormat::Txt | StillFormat::Ans))
     }
 
     /// Whether colours are sent to a terminal.
     fn shows_colours(&self) -> bool {
-        self.format().is_none_or(|format| format == Format::Ans)
+        self.format().is_none_or(|format| format == StillFormat::Ans)
     }
 
     /// Whether a picture without characters has as many dots as they would have.
@@ -234,8 +240,8 @@ impl Given<'_> {
     /// Whether a still has no colours but the terminal's own.
     fn is_in_own_ink(&self) -> bool {
         match self.format() {
-            Some(Format::Txt) => true,
-            Some(Format::Ans) => matches!(self.picture.look(None).palette, Palette::Mono(_)),
+            Some(StillFormat::Txt) => true,
+            Some(StillFormat::Ans) => matches!(self.picture.look(None).palette, Palette::Mono(_)),
             _ => false,
         }
     }
@@ -274,7 +280,7 @@ mod tests {
     use super::*;
     use crate::cli::arguments::Arguments;
 
-    fn checked(arguments: &[&str], shown: Shown) -> Result<Vec<String>, String> {
+    fn checked(arguments: &[&str], shown: Presentation) -> Result<Vec<String>, String> {
         let arguments = [&["ray13", "die"], arguments].concat();
         let parsed = Arguments::try_parse_from(arguments).expect("arguments");
         check(&parsed.viewer.picture, shown).map_err(|e| e.to_string())
@@ -284,21 +290,21 @@ mod tests {
     #[test]
     fn the_viewer_refuses_sizes() {
         for size in ["--cells", "--dots"] {
-            let refused = checked(&[size, "80x25"], Shown::Viewer).expect_err("no effect");
+            let refused = checked(&[size, "80x25"], Presentation::Viewer).expect_err("no effect");
             assert!(refused.contains(size) && refused.contains("fills its terminal"), "{refused}");
-            assert_eq!(checked(&[size, "80x25"], Shown::Cells), Ok(Vec::new()));
+            assert_eq!(checked(&[size, "80x25"], Presentation::Cells), Ok(Vec::new()));
         }
-        assert_eq!(checked(&["--samples", "2", "--zoom", "3"], Shown::Viewer), Ok(Vec::new()));
+        assert_eq!(checked(&["--samples", "2", "--zoom", "3"], Presentation::Viewer), Ok(Vec::new()));
     }
 
     #[test]
     fn what_mirrors_do_is_said_to_be_of_no_effect_without_them() {
-        let lines = checked(&["--shading", "3", "--depth", "2", "--cutoff", "0"], Shown::Cells);
+        let lines = checked(&["--shading", "3", "--depth", "2", "--cutoff", "0"], Presentation::Cells);
         let lines = lines.expect("nothing is refused");
         assert!(lines.len() == 2 && lines.iter().all(|line| line.contains("--shading 4")), "{lines:?}");
-        assert_eq!(checked(&["--depth", "2"], Shown::Cells), Ok(Vec::new()));
+        assert_eq!(checked(&["--depth", "2"], Presentation::Cells), Ok(Vec::new()));
         assert_eq!(
-            checked(&["--preset", "pcat", "--depth", "2"], Shown::Cells).map(|lines| lines.len()),
+            checked(&["--preset", "pcat", "--depth", "2"], Presentation::Cells).map(|lines| lines.len()),
             Ok(1)
         );
     }

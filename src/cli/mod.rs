@@ -11,6 +11,7 @@ mod levels;
 mod manual;
 mod marked;
 mod memory;
+mod names;
 mod parse;
 mod picture;
 mod plan;
@@ -76,7 +77,7 @@ fn view(arguments: &ViewerArguments) -> Result<(), CliError> {
         tell(&terminal::why_a_still());
         return Ok(());
     }
-    let no_effects = effects::check(picture, effects::Shown::Viewer)?;
+    let no_effects = effects::check(picture, effects::Presentation::Viewer)?;
     let palette = picture.palette(Some(terminal));
     let opening = Opening { title: input::title(file), palette, terminal };
     let viewed = if file == "-" && io::stdin().is_terminal() {

@@ -17,7 +17,7 @@ use super::{effects, input};
 
 /// Explains a picture; draws it only where that is asked for.
 pub fn run(arguments: &PlanArguments) -> Result<(), CliError> {
-    input::say(&effects::check(&arguments.picture, effects::Shown::Cells)?);
+    input::say(&effects::check(&arguments.picture, effects::Presentation::Cells)?);
     let reading = Instant::now();
     let scene = input::read(&arguments.scene.file, arguments.scene.skip_unsupported, arguments.scene.memory)?;
     input::say(&scene.notes);

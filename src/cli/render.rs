@@ -13,7 +13,7 @@ use crate::output::{self, Capabilities, Pixels};
 use crate::plan::PrecisionChoice;
 use crate::tone::Tone;
 
-use super::arguments::{Channel, Format, PictureArguments, RenderArguments};
+use super::arguments::{PictureArguments, RawChannel, RenderArguments, StillFormat};
 use super::effects::{self, Still};
 use super::error::{CliError, tell};
 use super::picture::{Look, Unsized};
@@ -26,7 +26,7 @@ pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
     to.check(&arguments.scene.file)?;
     let format = arguments.format.map_or_else(|| format_of(&to), Ok)?;
     let still = Still { format, channel: arguments.channel, levels: arguments.levels };
-    let notes = effects::check(&arguments.picture, effects::Shown::Still(still))?;
+    let notes = effects::check(&arguments.picture, effects::Presentation::Still(still))?;
     input::say(&notes);
     let reading = Instant::now();
     let scene = input::read(&arguments.scene.file, arguments.scene.skip_unsupported, arguments.scene.memory)?;
@@ -39,7 +39,7 @@ pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
     let size = if format.is_pixels() { Unsized::Pixels } else { Unsized::Screen };
     let mut request = arguments.picture.request(&studio, look, wants(still), size)?;
     // Raw values are for whoever computes with them.
-    if format == Format::Pfm && request.options.precision == PrecisionChoice::Auto {
+    if format == StillFormat::Pfm && request.options.precision == PrecisionChoice::Auto {
         request.options.precision = PrecisionChoice::Double;
     }
     let mut frame = studio.draw(&request);
@@ -66,16 +66,16 @@ pub fn still(
     memory: Option<u64>,
     picture: &PictureArguments,
 ) -> Result<(), CliError> {
-    let still = Still { format: Format::Txt, channel: None, levels: false };
-    let notes = effects::check(picture, effects::Shown::Still(still))?;
+    let still = Still { format: StillFormat::Txt, channel: None, levels: false };
+    let notes = effects::check(picture, effects::Presentation::Still(still))?;
     input::say(&notes);
     let scene = input::read(file, skip_unsupported, memory)?;
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
-    let look = look(picture, Format::Txt, terminal::of_output());
+    let look = look(picture, StillFormat::Txt, terminal::of_output());
     let request = picture.request(&studio, look, Wants::CELLS, Unsized::Screen)?;
     let frame = studio.draw(&request);
-    print(&encoded(&frame, &request, Format::Txt, Values::Toned)?)?;
+    print(&encoded(&frame, &request, StillFormat::Txt, Values::Toned)?)?;
     say_nothing(&frame);
     Ok(())
 }
@@ -95,7 +95,7 @@ enum Values {
     /// The grays of the levels.
     Levels,
     /// A channel as it is.
-    Raw(Channel),
+    Raw(RawChannel),
 }
 
 impl Values {
@@ -103,7 +103,7 @@ impl Values {
     fn new(still: Still, picture: &PictureArguments) -> Self {
         match still.channel {
             Some(channel) => Self::Raw(channel),
-            None if still.format == Format::Pfm => Self::Raw(Channel::Light),
+            None if still.format == StillFormat::Pfm => Self::Raw(RawChannel::Light),
             None if still.levels || picture.preset.is_some() => Self::Levels,
             None => Self::Toned,
         }
@@ -113,29 +113,29 @@ impl Values {
 /// What the format shows of a picture.
 fn wants(still: Still) -> Wants {
     match (still.format, still.channel) {
-        (Format::Txt | Format::Ans, _) => Wants::CELLS,
-        (_, Some(Channel::Depth)) => Wants { depth: true, ..Wants::LIGHT },
-        (_, Some(Channel::Normal)) => Wants { normal: true, ..Wants::LIGHT },
-        (_, Some(Channel::Object)) => Wants { object: true, ..Wants::LIGHT },
-        (_, Some(Channel::Light) | None) => Wants::LIGHT,
+        (StillFormat::Txt | StillFormat::Ans, _) => Wants::CELLS,
+        (_, Some(RawChannel::Depth)) => Wants { depth: true, ..Wants::LIGHT },
+        (_, Some(RawChannel::Normal)) => Wants { normal: true, ..Wants::LIGHT },
+        (_, Some(RawChannel::Object)) => Wants { object: true, ..Wants::LIGHT },
+        (_, Some(RawChannel::Light) | None) => Wants::LIGHT,
     }
 }
 
 /// Text has no colours to lose: its shades are ink.
-fn look(picture: &PictureArguments, format: Format, terminal: Option<Capabilities>) -> Look {
+fn look(picture: &PictureArguments, format: StillFormat, terminal: Option<Capabilities>) -> Look {
     let look = picture.look(terminal);
-    if format == Format::Txt { Look { palette: Palette::Mono(picture.ground()), ..look } } else { look }
+    if format == StillFormat::Txt { Look { palette: Palette::Mono(picture.ground()), ..look } } else { look }
 }
 
 /// The format that a file's ending names. A file without one holds text; an ending that names no format is an error,
 /// since text in a `.jpg` would be found out late.
-fn format_of(to: &Destination) -> Result<Format, CliError> {
+fn format_of(to: &Destination) -> Result<StillFormat, CliError> {
     let Destination::File(path) = to else {
-        return Ok(if io::stdout().is_terminal() { Format::Ans } else { Format::Txt });
+        return Ok(if io::stdout().is_terminal() { StillFormat::Ans } else { StillFormat::Txt });
     };
-    let Some(ending) = path.extension() else { return Ok(Format::Txt) };
-    Format::from_str(&ending.to_string_lossy(), true).map_err(|_| {
-        let known: Vec<String> = Format::value_variants()
+    let Some(ending) = path.extension() else { return Ok(StillFormat::Txt) };
+    StillFormat::from_str(&ending.to_string_lossy(), true).map_err(|_| {
+        let known: Vec<String> = StillFormat::value_variants()
             .iter()
             .filter_map(|format| Some(format.to_possible_value()?.get_name().to_owned()))
             .collect();
@@ -148,30 +148,35 @@ fn format_of(to: &Destination) -> Result<Format, CliError> {
 }
 
 /// The whole still in memory, so that an error leaves nothing half-written.
-fn encoded(frame: &Frame, request: &Request, format: Format, values: Values) -> Result<Vec<u8>, CliError> {
+fn encoded(
+    frame: &Frame,
+    request: &Request,
+    format: StillFormat,
+    values: Values,
+) -> Result<Vec<u8>, CliError> {
     let mut out = Vec::new();
     let done = match format {
-        Format::Txt => wanted(frame.cells.as_ref()).and_then(|cells| output::text(cells, &mut out)),
-        Format::Ans => wanted(frame.cells.as_ref()).and_then(|cells| output::ansi(cells, &mut out)),
-        Format::Levels => output::levels(&frame.levels(request.tone), &mut out),
-        Format::Png => {
+        StillFormat::Txt => wanted(frame.cells.as_ref()).and_then(|cells| output::text(cells, &mut out)),
+        StillFormat::Ans => wanted(frame.cells.as_ref()).and_then(|cells| output::ansi(cells, &mut out)),
+        StillFormat::Levels => output::levels(&frame.levels(request.tone), &mut out),
+        StillFormat::Png => {
             let drawn = output::png(&pixels(frame, request, values), &mut out);
             drawn.map_err(|e| io::Error::other(e.to_string()))
         }
-        Format::Pgm => output::pgm(&grays(frame, request, values), &mut out),
-        Format::Ppm => output::ppm(&pixels(frame, request, values), &mut out),
-        Format::Pfm => match values {
-            Values::Toned | Values::Levels | Values::Raw(Channel::Light) => match &frame.color {
+        StillFormat::Pgm => output::pgm(&grays(frame, request, values), &mut out),
+        StillFormat::Ppm => output::ppm(&pixels(frame, request, values), &mut out),
+        StillFormat::Pfm => match values {
+            Values::Toned | Values::Levels | Values::Raw(RawChannel::Light) => match &frame.color {
                 Some(color) => output::pfm_vectors(color, &mut out),
                 None => output::pfm_gray(&frame.light, &mut out),
             },
-            Values::Raw(Channel::Depth) => {
+            Values::Raw(RawChannel::Depth) => {
                 wanted(frame.depth.as_ref()).and_then(|depth| output::pfm_gray(depth, &mut out))
             }
-            Values::Raw(Channel::Normal) => {
+            Values::Raw(RawChannel::Normal) => {
                 wanted(frame.normal.as_ref()).and_then(|normal| output::pfm_vectors(normal, &mut out))
             }
-            Values::Raw(Channel::Object) => wanted(frame.object.as_ref())
+            Values::Raw(RawChannel::Object) => wanted(frame.object.as_ref())
                 .and_then(|object| output::pfm_gray(&object.map(|&n| f64::from(n)), &mut out)),
         },
     };

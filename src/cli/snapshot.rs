@@ -36,7 +36,7 @@ pub fn run(arguments: &SnapshotArguments) -> Result<(), CliError> {
                 .to_owned(),
         ));
     }
-    input::say(&effects::check(&arguments.picture, effects::Shown::Cells)?);
+    input::say(&effects::check(&arguments.picture, effects::Presentation::Cells)?);
     let drawing = Drawing {
         skip_unsupported: arguments.skip_unsupported,
         memory: arguments.memory,

@@ -1,7 +1,7 @@
 //! A character cell.
 
 use super::paint::{ColorDepth, Paint};
-use super::shape::{Shape, complement};
+use super::shape::{GlyphShape, complement};
 
 /// One character of the screen with its two colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -24,7 +24,7 @@ impl Cell {
     }
 
     /// A cell of two colours; with ink and paper in each other's place where that spares a bright paper.
-    pub fn pair(shape: Shape, ink: Paint, paper: Paint) -> Self {
+    pub fn pair(shape: GlyphShape, ink: Paint, paper: Paint) -> Self {
         if ink == paper {
             return Self::flat(ink);
         }

@@ -5,7 +5,7 @@ use super::choice::{Ground, Palette};
 use super::grays::FourGrays;
 use super::paint::Paint;
 use super::pair::{Grays, PairFit, paint};
-use super::shape::{DOT_COUNT, DOTS, HALVES, QUADRANTS, Shape, block_of, braille_of};
+use super::shape::{DOT_COUNT, DOTS, GlyphShape, HALVES, QUADRANTS, block_of, braille_of};
 use crate::math::{DVec3, Grid, Size};
 use crate::tone::{FOUR_GRAYS, INK_ONLY, Level, Tone, lightness};
 
@@ -17,7 +17,7 @@ const HALF: Size = Size::new(1, 2);
 const QUARTERS: Size = Size::new(2, 2);
 
 /// `▀`.
-const UPPER: Shape = HALVES[0];
+const UPPER: GlyphShape = HALVES[0];
 
 /// Two dots to a cell, one above the other.
 pub fn half(light: &Grid<f64>, palette: Palette, tone: Tone) -> Grid<Cell> {

@@ -14,7 +14,7 @@ use super::eye::{Dots, overlaps};
 use super::paint::Paint;
 use super::range::{LevelRange, dots_of, levels_around};
 use super::shade::{Papers, Shades};
-use super::shape::{DOT_COUNT, DOTS, Shape};
+use super::shape::{DOT_COUNT, DOTS, GlyphShape};
 use crate::math::{Grid, Size};
 use crate::tone::{Level, Tone, lightness, lightness_in_single};
 
@@ -68,7 +68,7 @@ pub struct BestFit {
 impl BestFit {
     /// The 13 levels, and each of `shapes` in each two of the palette's colors, as far as there are papers. Of
     /// candidates that look the same the first stays: a level, then the first paper, ink and shape.
-    pub fn new(shapes: &[Shape], papers: Papers, palette: Palette) -> Self {
+    pub fn new(shapes: &[GlyphShape], papers: Papers, palette: Palette) -> Self {
         let shades = Shades::new(palette, papers);
         let mut table: Vec<Candidate> = Vec::new();
         for level in Level::all() {

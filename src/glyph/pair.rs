@@ -12,14 +12,14 @@ use super::eye::{Dots, overlaps};
 use super::grays::FourGrays;
 use super::paint::Paint;
 use super::range::{LevelRange, dots_of, levels_around};
-use super::shape::{DOT_COUNT, DOTS, HALVES, Shape};
+use super::shape::{DOT_COUNT, DOTS, GlyphShape, HALVES};
 use crate::math::{DVec3, Grid, Size};
 use crate::tone::{Level, Tone, color_of_lab, labs_of_colors, lightness, lightnesses, srgb_of_light};
 
 /// One way to part the dots.
 #[derive(Clone, Copy, Debug)]
 struct Parting {
-    shape: Shape,
+    shape: GlyphShape,
     /// K m and K n.
     ink: Dots,
     paper: Dots,
@@ -35,7 +35,7 @@ pub struct PairFit {
 }
 
 impl Parting {
-    fn new(shape: Shape, overlaps: &[Dots; DOT_COUNT]) -> Self {
+    fn new(shape: GlyphShape, overlaps: &[Dots; DOT_COUNT]) -> Self {
         let (m, n) = (shape.dots(1.0, 0.0), shape.dots(0.0, 1.0));
         let seen = |dots: Dots| overlaps.map(|row| dot(&row, &dots));
         let (ink, paper) = (seen(m), seen(n));
@@ -66,7 +66,7 @@ fn dot(a: &Dots, b: &Dots) -> f64 {
 
 impl PairFit {
     /// For these shapes; one of each two that are each other's complement will do.
-    pub fn new(shapes: &[Shape]) -> Self {
+    pub fn new(shapes: &[GlyphShape]) -> Self {
         let overlaps = overlaps();
         let mut partings: Vec<Parting> = Vec::new();
         for &shape in shapes {
@@ -120,7 +120,7 @@ impl PairFit {
     }
 
     /// The parting of least error, with its ink and paper in each axis.
-    fn best<const AXES: usize>(&self, axes: [Dots; AXES]) -> (Shape, [[f64; 2]; AXES]) {
+    fn best<const AXES: usize>(&self, axes: [Dots; AXES]) -> (GlyphShape, [[f64; 2]; AXES]) {
         let mut least = (f64::INFINITY, HALVES[0], [[0.0; 2]; AXES]);
         for parting in &self.partings {
             let pulls = axes.map(|axis| parting.pulls(&axis));

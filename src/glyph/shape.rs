@@ -9,14 +9,14 @@ pub const DOT_COUNT: usize = DOTS.area();
 
 /// A glyph that fills some dots of its cell with ink and leaves the others to the paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Shape {
+pub struct GlyphShape {
     /// The character.
     pub glyph: char,
     /// The inked dots in scan order, the top left one in the lowest bit.
     pub mask: u8,
 }
 
-impl Shape {
+impl GlyphShape {
     /// From the four rows of the cell, the top one first; in each, bit 1 is the left dot and bit 0 the right one,
     /// as they are read.
     const fn new(glyph: char, rows: [u8; 4]) -> Self {
@@ -37,46 +37,46 @@ impl Shape {
 }
 
 /// The shapes of code page 437: upright and level halves.
-pub const HALVES: &[Shape] = &[
-    Shape::new('▀', [0b11, 0b11, 0b00, 0b00]),
-    Shape::new('▄', [0b00, 0b00, 0b11, 0b11]),
-    Shape::new('▌', [0b10, 0b10, 0b10, 0b10]),
-    Shape::new('▐', [0b01, 0b01, 0b01, 0b01]),
+pub const HALVES: &[GlyphShape] = &[
+    GlyphShape::new('▀', [0b11, 0b11, 0b00, 0b00]),
+    GlyphShape::new('▄', [0b00, 0b00, 0b11, 0b11]),
+    GlyphShape::new('▌', [0b10, 0b10, 0b10, 0b10]),
+    GlyphShape::new('▐', [0b01, 0b01, 0b01, 0b01]),
 ];
 
 /// The halves and every other choice of quadrants, and the lower quarter and three quarters.
-pub const BLOCKS: &[Shape] = &[
-    Shape::new('▀', [0b11, 0b11, 0b00, 0b00]),
-    Shape::new('▄', [0b00, 0b00, 0b11, 0b11]),
-    Shape::new('▌', [0b10, 0b10, 0b10, 0b10]),
-    Shape::new('▐', [0b01, 0b01, 0b01, 0b01]),
-    Shape::new('▘', [0b10, 0b10, 0b00, 0b00]),
-    Shape::new('▝', [0b01, 0b01, 0b00, 0b00]),
-    Shape::new('▖', [0b00, 0b00, 0b10, 0b10]),
-    Shape::new('▗', [0b00, 0b00, 0b01, 0b01]),
-    Shape::new('▙', [0b10, 0b10, 0b11, 0b11]),
-    Shape::new('▟', [0b01, 0b01, 0b11, 0b11]),
-    Shape::new('▛', [0b11, 0b11, 0b10, 0b10]),
-    Shape::new('▜', [0b11, 0b11, 0b01, 0b01]),
-    Shape::new('▚', [0b10, 0b10, 0b01, 0b01]),
-    Shape::new('▞', [0b01, 0b01, 0b10, 0b10]),
-    Shape::new('▂', [0b00, 0b00, 0b00, 0b11]),
-    Shape::new('▆', [0b00, 0b11, 0b11, 0b11]),
+pub const BLOCKS: &[GlyphShape] = &[
+    GlyphShape::new('▀', [0b11, 0b11, 0b00, 0b00]),
+    GlyphShape::new('▄', [0b00, 0b00, 0b11, 0b11]),
+    GlyphShape::new('▌', [0b10, 0b10, 0b10, 0b10]),
+    GlyphShape::new('▐', [0b01, 0b01, 0b01, 0b01]),
+    GlyphShape::new('▘', [0b10, 0b10, 0b00, 0b00]),
+    GlyphShape::new('▝', [0b01, 0b01, 0b00, 0b00]),
+    GlyphShape::new('▖', [0b00, 0b00, 0b10, 0b10]),
+    GlyphShape::new('▗', [0b00, 0b00, 0b01, 0b01]),
+    GlyphShape::new('▙', [0b10, 0b10, 0b11, 0b11]),
+    GlyphShape::new('▟', [0b01, 0b01, 0b11, 0b11]),
+    GlyphShape::new('▛', [0b11, 0b11, 0b10, 0b10]),
+    GlyphShape::new('▜', [0b11, 0b11, 0b01, 0b01]),
+    GlyphShape::new('▚', [0b10, 0b10, 0b01, 0b01]),
+    GlyphShape::new('▞', [0b01, 0b01, 0b10, 0b10]),
+    GlyphShape::new('▂', [0b00, 0b00, 0b00, 0b11]),
+    GlyphShape::new('▆', [0b00, 0b11, 0b11, 0b11]),
 ];
 
 /// The choices of quadrants, one of each two that are each other's complement.
-pub const QUADRANTS: &[Shape] = &[
-    Shape::new('▀', [0b11, 0b11, 0b00, 0b00]),
-    Shape::new('▌', [0b10, 0b10, 0b10, 0b10]),
-    Shape::new('▘', [0b10, 0b10, 0b00, 0b00]),
-    Shape::new('▝', [0b01, 0b01, 0b00, 0b00]),
-    Shape::new('▖', [0b00, 0b00, 0b10, 0b10]),
-    Shape::new('▗', [0b00, 0b00, 0b01, 0b01]),
-    Shape::new('▚', [0b10, 0b10, 0b01, 0b01]),
+pub const QUADRANTS: &[GlyphShape] = &[
+    GlyphShape::new('▀', [0b11, 0b11, 0b00, 0b00]),
+    GlyphShape::new('▌', [0b10, 0b10, 0b10, 0b10]),
+    GlyphShape::new('▘', [0b10, 0b10, 0b00, 0b00]),
+    GlyphShape::new('▝', [0b01, 0b01, 0b00, 0b00]),
+    GlyphShape::new('▖', [0b00, 0b00, 0b10, 0b10]),
+    GlyphShape::new('▗', [0b00, 0b00, 0b01, 0b01]),
+    GlyphShape::new('▚', [0b10, 0b10, 0b01, 0b01]),
 ];
 
 /// The shape whose paper is the other's ink, where there is one.
-pub fn complement(shape: Shape) -> Option<Shape> {
+pub fn complement(shape: GlyphShape) -> Option<GlyphShape> {
     BLOCKS.iter().find(|other| other.mask == !shape.mask).copied()
 }
 

@@ -7,7 +7,7 @@
 use std::sync::OnceLock;
 
 use crate::math::{Bounds, DVec3};
-use crate::solid::{Classification, ExprView, Primitive, PrunedExpr, Pruning};
+use crate::solid::{Classification, ExprView, PrunedExpr, Pruning, WorldPrimitive};
 
 /// An expression of fewer primitives is pruned as it is.
 pub const MANY: usize = 24;
@@ -45,7 +45,7 @@ impl LooseOctree {
     pub fn around<'l>(
         &'l self,
         whole: ExprView<'l>,
-        primitives: &[Primitive],
+        primitives: &[WorldPrimitive],
         b: &Bounds,
     ) -> Option<ExprView<'l>> {
         let size = self.bounds.hi - self.bounds.lo;
@@ -67,7 +67,7 @@ impl LooseOctree {
             let left = level.cells[(z * level.side + y) * level.side + x].get_or_init(|| {
                 let mut remains = PrunedExpr::default();
                 let some = best.pruned(primitives, &cell, &mut Pruning::default(), &mut remains);
-                (some == Classification::Some).then_some(remains)
+                (some == Classification::Mixed).then_some(remains)
             });
             best = ExprView::from(left.as_ref()?);
         }

@@ -4,7 +4,10 @@ use std::collections::HashMap;
 use std::ops::ControlFlow;
 
 use crate::math::{Bounds, DVec3, Ray};
-use crate::solid::{Assembly, Body, Expression, Object, Primitive, Pruned, Tree};
+use crate::solid::{
+    Assembly, Body, Classification, ExprView, Expression, Leaf, PrunedExpr, Pruning, WorldObject,
+    WorldPrimitive,
+};
 use crate::stage::{Progress, Task};
 
 use super::loose_octree::{LooseOctree, MANY};
@@ -41,16 +44,16 @@ impl SubLattices {
     /// The same, where `progress` says how far this is.
     pub fn watched(assembly: &Assembly, progress: &Progress) -> Self {
         progress.begin(Task::Cutting, assembly.objects.len() as u64);
-        let composite = |object: &&Object| matches!(object.body, Body::Composite { .. });
+        let composite = |object: &&WorldObject| matches!(object.body, Body::Composite { .. });
         let budget = Budget::shared(assembly.objects.iter().filter(composite).count());
-        let of = |(number, object): (usize, &Object)| match &object.body {
+        let of = |(number, object): (usize, &WorldObject)| match &object.body {
             Body::Single(_) | Body::Surface(_) => None,
-            Body::Composite { tree, .. } => {
+            Body::Composite { whole, .. } => {
                 progress.reach(number as u64);
-                SubLattice::new(tree, &assembly.primitives, &object.bounds, budget)
+                SubLattice::new(whole, &assembly.primitives, &object.bounds, budget)
             }
         };
-        let loose = |object: &Object| match &object.body {
+        let loose = |object: &WorldObject| match &object.body {
             Body::Composite { whole, .. } if whole.leaves.len() >= MANY => {
                 Some(LooseOctree::new(object.bounds))
             }
@@ -113,33 +116,38 @@ pub struct SubLattice {
 /// The first and the last cell along each axis.
 type Range = [(usize, usize); 3];
 
-/// Pruning recurses once per level of operators inside each other: deeper ones than a small stack allows for, which only
-/// programs write, and seldom, are asked as a whole.
-const DEEPEST: usize = 256;
-
 /// The content of a cell without surfaces, be it outside or inside.
 const NOTHING: u32 = u32::MAX;
 
 impl SubLattice {
-    /// The sub-lattice of the expression `tree` in the box `bounds`; `None` where it would be a single cell.
-    fn new(tree: &Tree, primitives: &[Primitive], bounds: &Bounds, budget: Budget) -> Option<Self> {
-        let leaves = tree.leaves();
-        if leaves.len() < 2 || tree.depth() > DEEPEST {
+    /// The sub-lattice of the expression `whole` in the box `bounds`; `None` where it would be a single cell.
+    fn new(
+        whole: &Expression,
+        primitives: &[WorldPrimitive],
+        bounds: &Bounds,
+        budget: Budget,
+    ) -> Option<Self> {
+        let leaves = &whole.leaves;
+        if leaves.len() < 2 {
             return None;
         }
-        let boxes = leaves.iter().map(|&leaf| primitives[leaf as usize].form.bounds());
+        let form = |leaf: &Leaf| &primitives[leaf.primitive as usize].form;
+        let boxes = leaves.iter().map(|leaf| form(leaf).bounds());
         let mut planes = Planes::new(boxes, bounds);
         planes.thin(budget.cells);
         if planes.cells() <= 1.0 {
             return None;
         }
         let cells = vec![NOTHING; planes.cells() as usize];
-        let off = leaves.iter().map(|&leaf| primitives[leaf as usize].form.off()).fold(0.0, f64::max);
-        let (parts, known, slack) = (Vec::new(), HashMap::new(), slack(off));
-        let mut building = Building { primitives, planes: &planes, slack, cells, parts, known };
+        let off = leaves.iter().map(|leaf| form(leaf).off()).fold(0.0, f64::max);
+        let (parts, pruning, slack) = (HashMap::new(), Pruning::default(), slack(off));
+        let mut building = Building { primitives, planes: &planes, slack, cells, parts, pruning };
         let [nx, ny, nz] = planes.dimensions();
-        building.fill(tree, [(0, nx - 1), (0, ny - 1), (0, nz - 1)], budget.leaves);
+        building.fill(ExprView::from(whole), [(0, nx - 1), (0, ny - 1), (0, nz - 1)], budget.leaves);
         let Building { cells, parts, .. } = building;
+        let mut parts: Vec<_> = parts.into_iter().collect();
+        parts.sort_unstable_by_key(|&(_, number)| number);
+        let parts = parts.into_iter().map(|(part, _)| part).collect();
         Some(Self { planes, cells, parts, bounds: *bounds })
     }
 
@@ -173,27 +181,30 @@ impl SubLattice {
 }
 
 struct Building<'a> {
-    primitives: &'a [Primitive],
+    primitives: &'a [WorldPrimitive],
     planes: &'a Planes,
     slack: f64,
     cells: Vec<u32>,
-    parts: Vec<Expression>,
-    /// Equal expressions are stored once. Only asked by key, so that its order plays no part.
-    known: HashMap<Tree, u32>,
+    /// The expressions, each once, and their numbers.
+    parts: HashMap<Expression, u32>,
+    pruning: Pruning,
 }
 
 impl Building<'_> {
     /// Fills a range of cells, given what is left of the expression in a range around it, with expressions that name
     /// about `allowance` primitives together.
-    fn fill(&mut self, tree: &Tree, range: Range, allowance: f64) {
+    fn fill(&mut self, around: ExprView, range: Range, allowance: f64) {
         // A crossing may be computed `slack` outside its cell; twice that keeps its whole cluster.
         let b = self.planes.bounds(&range).padded(DVec3::splat(2.0 * self.slack));
-        let Pruned::Tree(tree) = tree.pruned(self.primitives, &b) else { return };
+        let mut left = PrunedExpr::default();
+        if around.pruned(self.primitives, &b, &mut self.pruning, &mut left) != Classification::Mixed {
+            return;
+        }
         let longest = (0..3).max_by_key(|&axis| range[axis].1 - range[axis].0).unwrap_or(0);
         let (first, last) = range[longest];
         // Both halves may still need all of it.
-        if first == last || 2.0 * tree.leaves().len() as f64 > allowance {
-            let part = self.part(&tree);
+        if first == last || 2.0 * left.leaves.len() as f64 > allowance {
+            let part = self.part(&left);
             let [x, y, z] = range;
             for (k, j) in (z.0..=z.1).flat_map(|k| (y.0..=y.1).map(move |j| (k, j))) {
                 let row = self.planes.number([x.0, j, k]);
@@ -206,18 +217,14 @@ impl Building<'_> {
         low[longest].1 = middle;
         high[longest].0 = middle + 1;
         let share = (middle - first + 1) as f64 / (last - first + 1) as f64;
-        self.fill(&tree, low, allowance * share);
-        self.fill(&tree, high, allowance * (1.0 - share));
+        self.fill(ExprView::from(&left), low, allowance * share);
+        self.fill(ExprView::from(&left), high, allowance * (1.0 - share));
     }
 
-    fn part(&mut self, tree: &Tree) -> u32 {
-        if let Some(&part) = self.known.get(tree) {
-            return part;
-        }
-        let part = self.parts.len() as u32;
-        self.parts.push(Expression::new(tree));
-        self.known.insert(tree.clone(), part);
-        part
+    /// The number of an expression.
+    fn part(&mut self, left: &PrunedExpr) -> u32 {
+        let next = self.parts.len() as u32;
+        *self.parts.entry(Expression::from(left)).or_insert(next)
     }
 }
 
@@ -239,10 +246,10 @@ mod tests {
         let object = crate::scene::Object { name: None, solid: Solid::Union((0..60).map(plate).collect()) };
         let scene = Scene { objects: vec![object], materials: vec![Material::default()], ..Scene::default() };
         let assembly = Assembly::new(&scene).unwrap();
-        let Body::Composite { tree, .. } = &assembly.objects[0].body else { panic!("one solid of many") };
+        let Body::Composite { whole, .. } = &assembly.objects[0].body else { panic!("one solid of many") };
         let leaves = |leaves: f64| {
             let budget = Budget { cells: 32_768.0, leaves };
-            let sub = SubLattice::new(tree, &assembly.primitives, &assembly.limit, budget).unwrap();
+            let sub = SubLattice::new(whole, &assembly.primitives, &assembly.limit, budget).unwrap();
             sub.parts.iter().map(|part| part.leaves.len()).sum::<usize>()
         };
         let (much, little) = (leaves(f64::INFINITY), leaves(500.0));

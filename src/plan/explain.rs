@@ -2,12 +2,13 @@
 
 use crate::math::Size;
 use crate::scene::Scene;
-use crate::solid::{Assembly, Body, Tree, WorldShape};
+use crate::solid::{Assembly, Body, CsgTree, WorldShape};
 use crate::stage::Stage;
 use crate::view::PinholeCamera;
 
-use super::precision::{Digital, Precision};
-use super::{Channels, Cost, EngineChoice, Plan, Shading, StructureChoice};
+use super::precision::{Precision, PrecisionReason};
+use super::reasons::{Absent, Cut};
+use super::{Channels, Cost, EngineChoice, Plan, StructureChoice};
 
 /// What a plan says of one stage.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,54 +34,6 @@ pub struct Term {
     pub needed: bool,
     /// Why, or why not: one line.
     pub why: String,
-}
-
-/// What a plan was made from, decision by decision. [`Plan::explain`] puts it into words.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Reasons {
-    pub(super) cut: Cut,
-    pub(super) digital: Digital,
-    pub(super) shading: Shading,
-    /// The depth constant.
-    pub(super) depth: Result<f64, Absent>,
-    /// The first material that has a highlight, by its index.
-    pub(super) highlight: Result<usize, Absent>,
-    /// The first material that sends rays on, by its index.
-    pub(super) secondary: Result<usize, Absent>,
-    pub(super) shadows: Result<(), Absent>,
-    /// The first thing that has a colour.
-    pub(super) colored: Option<&'static str>,
-    pub(super) color_wanted: bool,
-}
-
-/// Why space is cut as it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Cut {
-    /// The person wants it so.
-    Asked,
-    /// There is so little to tell apart that a structure would only add its own steps.
-    Few,
-    /// There is more.
-    Many,
-    /// The fast engine goes through boxes.
-    ForTiles,
-}
-
-/// What a term needs and does not have.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Absent {
-    /// The shading model has no such term.
-    InModel(Shading),
-    /// The scene gives no depth constant.
-    DepthConstant,
-    /// No light shines.
-    Light,
-    /// No material has a highlight.
-    Highlight,
-    /// No material is a mirror or glass.
-    MirrorOrGlass,
-    /// The person does not want it.
-    Wish,
 }
 
 impl Absent {
@@ -158,15 +111,17 @@ impl Plan {
 
     fn digits(&self) -> Term {
         let why = match self.reasons.digital {
-            Digital::Asked(precision) => format!("{} precision is wanted", precision.name()),
-            Digital::Exact => "the exact engine has double precision → f64".into(),
-            Digital::SentOn => "rays start on what is hit → f64".into(),
-            Digital::NoGain => "of balls and surfaces it saves nothing → f64".into(),
-            Digital::Thin => "a primitive is so thin that most rays would be asked twice → f64".into(),
-            Digital::Many => "24 bits can not number so many primitives → f64".into(),
-            Digital::Near => "the eye may be as near to a solid as can be → f64".into(),
-            Digital::Dots(dots) => format!("a hit would be off by up to {dots:.2} dots → f64"),
-            Digital::Unseen(dots) => {
+            PrecisionReason::Asked(precision) => format!("{} precision is wanted", precision.name()),
+            PrecisionReason::Exact => "the exact engine has double precision → f64".into(),
+            PrecisionReason::SentOn => "rays start on what is hit → f64".into(),
+            PrecisionReason::NoGain => "of balls and surfaces it saves nothing → f64".into(),
+            PrecisionReason::Thin => {
+                "a primitive is so thin that most rays would be asked twice → f64".into()
+            }
+            PrecisionReason::Many => "24 bits can not number so many primitives → f64".into(),
+            PrecisionReason::Near => "the eye may be as near to a solid as can be → f64".into(),
+            PrecisionReason::Dots(dots) => format!("a hit would be off by up to {dots:.2} dots → f64"),
+            PrecisionReason::Unseen(dots) => {
                 format!("a hit is off by {dots:.4} dots at most → f32, and f64 where that leaves a doubt")
             }
         };
@@ -274,7 +229,7 @@ impl Kinds {
         let bodies = |is: fn(&Body) -> bool| assembly.objects.iter().filter(|o| is(&o.body)).count();
         let composites = bodies(|b| matches!(b, Body::Composite { .. }));
         let lone_meshes =
-            bodies(|b| matches!(b, Body::Composite { tree, .. } if matches!(**tree, Tree::Leaf(_))));
+            bodies(|b| matches!(b, Body::Composite { tree, .. } if matches!(**tree, CsgTree::Leaf(_))));
         Self {
             objects: assembly.objects.len(),
             primitives: assembly.primitives.len(),

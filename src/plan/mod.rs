@@ -5,21 +5,23 @@ mod cost;
 mod explain;
 mod options;
 mod precision;
+mod reasons;
 
 pub use cost::{Cost, Sample};
-pub use explain::{Reasons, StagePlan, Term};
+pub use explain::{StagePlan, Term};
 pub use options::{
     CUTOFF, DEPTH, EngineChoice, Options, OptionsError, PrecisionChoice, Shading, StructureChoice,
 };
 pub use precision::Precision;
+pub use reasons::Reasons;
 
 use crate::math::DVec3;
 use crate::scene::{Anchor, Light, Material, Scene};
 use crate::solid::Assembly;
 use crate::view::PinholeCamera;
 
-use explain::{Absent, Cut};
-use precision::Digital;
+use precision::PrecisionReason;
+use reasons::{Absent, Cut};
 
 /// Everything that the later stages need to know.
 #[derive(Clone, Debug, PartialEq)]
@@ -133,7 +135,7 @@ impl Plan {
         let sends_on = secondary.is_ok() || shadows.is_ok();
         let reasons = Reasons {
             cut,
-            digital: Digital::of(assembly, pinhole, options, (engine, sends_on)),
+            digital: PrecisionReason::of(assembly, pinhole, options, (engine, sends_on)),
             shading: options.shading,
             depth: from_model(Shading::Depth).and_then(|()| scene.world.k.ok_or(Absent::DepthConstant)),
             highlight: from_model(Shading::Phong)

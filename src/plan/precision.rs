@@ -56,7 +56,7 @@ const NUMBERED: usize = 1 << f32::MANTISSA_DIGITS;
 
 /// What decided.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Digital {
+pub(super) enum PrecisionReason {
     /// The person.
     Asked(Precision),
     /// The exact engine has one precision.
@@ -77,7 +77,7 @@ pub(super) enum Digital {
     Unseen(f64),
 }
 
-impl Digital {
+impl PrecisionReason {
     pub fn precision(self) -> Precision {
         match self {
             Self::Asked(precision) => precision,

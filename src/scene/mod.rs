@@ -1,11 +1,13 @@
-//! Stage 1, OBJECTS: text in, [`Scene`] out. Kind, place, size and surface of every solid.
+//! Stage 1, OBJECTS: bytes in, [`Scene`] out. Kind, place, size and surface of every solid.
 
+mod content;
 mod diagnostic;
 mod embedded;
 mod language;
 mod memory;
 mod model;
 mod nff;
+mod options;
 mod read;
 
 pub use diagnostic::{Diagnostic, Diagnostics, Severity};
@@ -15,4 +17,5 @@ pub use model::{
     Anchor, Camera, CameraError, Corner, Facets, FieldSpan, HalfSpace, Light, Material, MaterialId, Mesh,
     Object, Primitive, REACH, Scene, Shape, Solid, World,
 };
-pub use read::{Format, MAX_FILE_BYTES, ReadError, ReadOptions, read, read_file};
+pub use options::{Format, ReadOptions};
+pub use read::{MAX_FILE_BYTES, ReadError, read, read_file};

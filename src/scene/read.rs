@@ -1,45 +1,15 @@
-//! From a file, or its bytes, to a [`Scene`]: the checks that every format shares, then the format's reader.
+//! From a file, or its bytes, to a [`Scene`]: the checks that every format shares, then the reader that name or content
+//! choose. Only the readers of text ask for UTF-8.
 
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use super::{Diagnostic, Diagnostics, Scene, language, memory, nff};
-use crate::stage::Progress;
+use super::options::{Format, ReadOptions};
+use super::{Diagnostic, Diagnostics, Scene, content, language, memory, nff};
 
 /// The largest file that is read: 256 MiB.
 pub const MAX_FILE_BYTES: u64 = 256 << 20;
-
-/// How a scene is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Format {
-    /// The scene language, and OpenSCAD's `.csg`, which is a part of it.
-    Language,
-    /// Eric Haines's Neutral File Format.
-    Nff,
-}
-
-impl Format {
-    /// The format of a file by the end of its name. A name that says nothing means the scene language.
-    pub fn of(name: &str) -> Self {
-        let extension = Path::new(name).extension();
-        if extension.is_some_and(|e| e.eq_ignore_ascii_case("nff")) { Self::Nff } else { Self::Language }
-    }
-}
-
-/// How to read.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct ReadOptions {
-    /// Leave out what OpenSCAD can show and ray13 can not, with a note, where it would be an error.
-    pub skip_unsupported: bool,
-    /// The format, where the name must not decide.
-    pub format: Option<Format>,
-    /// Where to write how far the reading is, for who watches.
-    pub progress: Option<Progress>,
-    /// Bytes of memory that the scene, and what will show it, may take; as many as there are where it is not given.
-    pub memory: Option<u64>,
-}
 
 /// Why a file gave no scene.
 #[derive(Debug, thiserror::Error)]
@@ -96,11 +66,30 @@ pub fn read(name: &str, bytes: &[u8], options: &ReadOptions) -> Result<Scene, Di
         return Err(too_large(name));
     }
     check_room(name, bytes.len() as u64, options)?;
-    let text = text(name, bytes)?;
-    match options.format.unwrap_or_else(|| Format::of(name)) {
-        Format::Language => language::read(name, text, options),
-        Format::Nff => nff::read(name, text, options),
+    if let Some(what) = content::binary(bytes) {
+        return Err(no_scene(name, what));
     }
+    let format = options.format.unwrap_or_else(|| format_of(name, bytes));
+    match format {
+        Format::Language => language::read(name, text(name, bytes, format)?, options),
+        Format::Nff => nff::read(name, text(name, bytes, format)?, options),
+    }
+}
+
+/// The format by the name; by the content where the name has no ending, as that of standard input has none.
+fn format_of(name: &str, bytes: &[u8]) -> Format {
+    match Path::new(name).extension() {
+        None if content::is_nff(bytes) => Format::Nff,
+        _ => Format::of(name),
+    }
+}
+
+fn no_scene(name: &str, what: &str) -> Diagnostics {
+    let error = Diagnostic::error(0..0, format!("this is {what}, not a scene"));
+    Diagnostics::whole(
+        name,
+        error.help("ray13 reads its scene language, OpenSCAD's .csg and NFF, all of them UTF-8 text"),
+    )
 }
 
 /// Whether there is memory for the text alone.
@@ -116,15 +105,50 @@ fn too_large(name: &str) -> Diagnostics {
     Diagnostics::whole(name, error.help("split the scene, or leave detail out where it was exported"))
 }
 
-fn text<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Diagnostics> {
+/// The text that a format asks for.
+fn text<'a>(name: &str, bytes: &'a [u8], format: Format) -> Result<&'a str, Diagnostics> {
     let no_text = |offset: usize, what: &str| {
         let line = bytes[..offset].split(|&byte| byte == b'\n').count();
         let message = format!("the file is not text: byte {offset}, in line {line}, is {what}");
-        Diagnostics::whole(name, Diagnostic::error(0..0, message).help("a scene is UTF-8 text"))
+        Diagnostics::whole(
+            name,
+            Diagnostic::error(0..0, message).help(format!("{} is UTF-8 text", format.name())),
+        )
     };
     let text = std::str::from_utf8(bytes).map_err(|error| no_text(error.valid_up_to(), "not UTF-8"))?;
     match text.find('\0') {
         Some(offset) => Err(no_text(offset, "0")),
         None => Ok(text),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn content_decides_where_a_name_has_no_ending() {
+        let objects =
+            |name: &str, bytes: &[u8]| read(name, bytes, &ReadOptions::default()).map(|s| s.objects.len());
+        assert_eq!(objects("standard input", b"# a ball\ns 0 0 0 1"), Ok(1));
+        assert_eq!(objects("standard input", b"sphere(1);"), Ok(1));
+        assert!(objects("ball.csg", b"s 0 0 0 1").is_err(), "the ending has the last word");
+    }
+
+    #[test]
+    fn a_binary_file_is_named_whatever_its_own_name() {
+        for name in ["ball.csg", "ball.nff", "standard input"] {
+            let error = read(name, b"\x89PNG\r\n\x1a\n\0\0", &ReadOptions::default()).unwrap_err();
+            assert!(error.to_string().contains("error: this is a PNG picture, not a scene"), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_text_format_asks_for_utf_8_by_its_name() {
+        for (name, format) in [("ball.csg", "the scene language"), ("ball.nff", "NFF")] {
+            let error = read(name, b"s \xc0", &ReadOptions::default()).unwrap_err().to_string();
+            assert!(error.contains("the file is not text: byte 2"), "{error}");
+            assert!(error.ends_with(&format!("{format} is UTF-8 text")), "{error}");
+        }
     }
 }

@@ -10,8 +10,8 @@ use crate::scene::{self, MaterialId, Scene, Solid};
 use crate::stage::{Progress, Task};
 
 use super::ball::Ball;
-use super::expression::{Expression, Tree};
-use super::primitive::{Primitive, WorldShape};
+use super::expression::{CsgTree, Expression};
+use super::primitive::{WorldPrimitive, WorldShape};
 use super::span::ROUNDING;
 
 /// Eyes and lights farther away than this, in the assembly's unit, stand here: the square of such a length does not
@@ -50,11 +50,11 @@ const MANY: u32 = u32::MAX;
 #[derive(Clone, Debug)]
 pub struct Assembly {
     /// All primitives, in file order.
-    pub primitives: Vec<Primitive>,
+    pub primitives: Vec<WorldPrimitive>,
     /// All objects, in file order, without those that hold nothing.
-    pub objects: Vec<Object>,
+    pub objects: Vec<WorldObject>,
     /// By object: [`Assembly::alone`], or [`MANY`]; and its kind.
-    alone: Vec<(u32, Kind)>,
+    alone: Vec<(u32, BatchKind)>,
     /// The world limit: the box of all objects. Within −2..=2 on every axis.
     pub limit: Bounds,
     /// How far any primitive may be off its place: the greatest [`WorldShape::off`].
@@ -78,7 +78,7 @@ pub struct AssemblyStats {
 
 /// One object of the lattice.
 #[derive(Clone, Debug)]
-pub struct Object {
+pub struct WorldObject {
     /// Its number in the scene, from 0.
     pub number: u32,
     /// A box around it.
@@ -97,7 +97,7 @@ pub enum Body {
     /// A CSG expression, or a solid that is not convex.
     Composite {
         /// The expression as a tree, to be pruned.
-        tree: Box<Tree>,
+        tree: Box<CsgTree>,
         /// The same laid out for rays.
         whole: Box<Expression>,
     },
@@ -105,7 +105,7 @@ pub enum Body {
 
 /// What kind of object is asked about for eight rays at a time, each with an object of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum BatchKind {
     /// One ball.
     Ball,
     /// One tube.
@@ -123,15 +123,20 @@ pub struct SceneFrame {
     pub unit: f64,
 }
 
-impl Object {
+impl WorldObject {
     /// The object of this number, whose primitives begin at `start`. `None` where it holds nothing.
-    fn new(number: usize, object: &scene::Object, start: usize, primitives: &[Primitive]) -> Option<Self> {
-        let tree = Tree::new(&object.solid, &mut (start as u32))?;
+    fn new(
+        number: usize,
+        object: &scene::Object,
+        start: usize,
+        primitives: &[WorldPrimitive],
+    ) -> Option<Self> {
+        let tree = CsgTree::new(&object.solid, &mut (start as u32))?;
         let bounds = tree.bounds(primitives);
         let form = |index: u32| &primitives[index as usize].form;
         let body = match tree {
-            Tree::Leaf(index) if form(index).is_convex() => Body::Single(index),
-            Tree::Leaf(index) if form(index).is_surface() => Body::Surface(index),
+            CsgTree::Leaf(index) if form(index).is_convex() => Body::Single(index),
+            CsgTree::Leaf(index) if form(index).is_surface() => Body::Surface(index),
             tree => Body::Composite { whole: Box::new(Expression::new(&tree)), tree: Box::new(tree) },
         };
         (!bounds.is_empty()).then_some(Self { number: number as u32, bounds, body })
@@ -285,7 +290,7 @@ impl Assembly {
         progress.begin(Task::Assembling, (parts.len() + scene.objects.len()) as u64);
         let placed = |number, p: &&scene::Primitive| {
             tell(progress, number);
-            scene_frame.form(p).map(|form| Primitive { form, material: p.material })
+            scene_frame.form(p).map(|form| WorldPrimitive { form, material: p.material })
         };
         let primitives = mapped(&parts, placed);
         if let Some(singular) = primitives.iter().position(Option::is_none) {
@@ -297,10 +302,10 @@ impl Assembly {
         let own = |number: usize| starts[number]..starts[number + 1];
         let object = |number, object: &scene::Object| {
             tell(progress, number);
-            Object::new(number, object, own(number).start, &primitives)
+            WorldObject::new(number, object, own(number).start, &primitives)
         };
         let objects = present(mapped(&scene.objects, object));
-        for Object { number, .. } in objects.iter().filter(|object| object.is_composite()) {
+        for WorldObject { number, .. } in objects.iter().filter(|object| object.is_composite()) {
             if let Some(surface) = primitives[own(*number as usize)].iter().position(|p| p.form.is_surface())
             {
                 let (object, primitive) = (*number as usize + 1, surface + 1);
@@ -308,23 +313,23 @@ impl Assembly {
             }
         }
         let limit = objects.iter().fold(Bounds::EMPTY, |limit, object| limit.join(&object.bounds));
-        let numbers = |p: &Primitive| (p.form.off(), p.form.thickness());
+        let numbers = |p: &WorldPrimitive| (p.form.off(), p.form.thickness());
         let join = |(off, thinnest): (f64, f64), other: (f64, f64)| (off.max(other.0), thinnest.min(other.1));
         let (off, thinnest) = if primitives.len() < STRETCH {
             primitives.iter().map(numbers).fold((0.0, f64::INFINITY), join)
         } else {
             primitives.par_iter().map(numbers).reduce(|| (0.0, f64::INFINITY), join)
         };
-        let alone = |object: &Object| match object.body {
+        let alone = |object: &WorldObject| match object.body {
             Body::Single(index) | Body::Surface(index) => match primitives[index as usize].form {
-                WorldShape::Ball(_) => (index, Kind::Ball),
-                WorldShape::Tube(_) => (index, Kind::Tube),
-                _ => (index, Kind::Other),
+                WorldShape::Ball(_) => (index, BatchKind::Ball),
+                WorldShape::Tube(_) => (index, BatchKind::Tube),
+                _ => (index, BatchKind::Other),
             },
-            Body::Composite { .. } => (MANY, Kind::Other),
+            Body::Composite { .. } => (MANY, BatchKind::Other),
         };
         let alone: Vec<_> = objects.iter().map(alone).collect();
-        let balls = alone.iter().filter(|(_, kind)| *kind == Kind::Ball).count();
+        let balls = alone.iter().filter(|(_, kind)| *kind == BatchKind::Ball).count();
         let surfaces = objects.iter().filter(|o| matches!(o.body, Body::Surface(_))).count();
         let stats = AssemblyStats { thinnest, balls, surfaces };
         Ok(Self { primitives, objects, alone, limit, off, scene_frame, stats })
@@ -339,7 +344,7 @@ impl Assembly {
 
     /// What kind of object it is; and the primitive that it is, where it is one alone.
     #[inline]
-    pub fn kind(&self, object: u32) -> (Kind, u32) {
+    pub fn kind(&self, object: u32) -> (BatchKind, u32) {
         let (index, kind) = self.alone[object as usize];
         (kind, index)
     }

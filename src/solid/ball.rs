@@ -2,7 +2,7 @@
 
 use crate::math::{Bounds, DVec3, Mask, Number, Rays, Real, Vector};
 
-use super::primitive::Cover;
+use super::classification::Classification;
 use super::span::{Ends, LIMIT, ROUNDING, Spans, WORLD, rounding_at};
 
 /// The points within `radius` of `center`.
@@ -153,11 +153,11 @@ impl Ball {
     }
 
     /// How it lies to a box.
-    pub fn cover(&self, b: &Bounds) -> Cover {
+    pub fn classify(&self, b: &Bounds) -> Classification {
         let (from_center, half) = ((b.center() - self.center).abs(), b.half());
         // Radii are far from numbers whose squares are none.
         let square = self.radius * self.radius;
-        Cover::of((from_center - half).max(DVec3::ZERO).length_squared() > square, || {
+        Classification::of((from_center - half).max(DVec3::ZERO).length_squared() > square, || {
             (from_center + half).length_squared() < square
         })
     }

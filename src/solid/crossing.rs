@@ -15,7 +15,7 @@ use crate::math::{Number, Ray, Rays};
 use crate::stage::{Meter, Probe, Stage};
 
 use super::expression::Expression;
-use super::primitive::{Primitive, WorldShape};
+use super::primitive::{WorldPrimitive, WorldShape};
 use super::span::{Departure, End, Ends, Spans};
 use super::state::State;
 
@@ -76,25 +76,40 @@ impl TRange {
 /// The eye is where it is: for a ray from there only rounding counts, not how far the map of the primitive may be off.
 #[inline]
 pub fn at_start(end: &End, form: &WorldShape, departure: Option<Departure>) -> bool {
-    end.t <= start_of(end.error, (form.off(), form.seeming()), departure.map(|d| d.off))
+    end.t <= start_of(end.error, PlaceError::of(form), departure.map(|d| d.off))
+}
+
+/// How far a primitive may be off its place, in the world's unit, and which share of that our own rounding may have made.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PlaceError<N> {
+    pub off: N,
+    pub seeming: N,
+}
+
+impl PlaceError<f64> {
+    /// That of a primitive.
+    #[inline(always)]
+    pub fn of(form: &WorldShape) -> Self {
+        Self { off: form.off(), seeming: form.seeming() }
+    }
 }
 
 /// Up to which distance a crossing with this error lies at the start of its ray, given how far its primitive is off, and
 /// which share of that is seeming.
 #[inline(always)]
-pub(super) fn start_of<N, M>(error: N, (own_off, seeming): (M, M), departure_off: Option<N>) -> N
+pub(super) fn start_of<N, M>(error: N, own: PlaceError<M>, departure_off: Option<N>) -> N
 where
     N: Number + Div<M, Output = N> + Mul<M, Output = N>,
 {
     match departure_off {
-        Some(off) => error * (off / own_off + 1.0),
-        None => error * 2.0 * seeming,
+        Some(off) => error * (off / own.off + 1.0),
+        None => error * 2.0 * own.seeming,
     }
 }
 
 /// The surfaces that rays start on, as seen from one primitive.
 #[derive(Clone, Copy, Debug)]
-pub struct Starts<N: Number> {
+pub struct RayStarts<N: Number> {
     /// Which rays start on a surface of this primitive.
     pub here: N::Mask,
     /// Which of these go to its inside.
@@ -103,7 +118,7 @@ pub struct Starts<N: Number> {
     pub off: Option<N>,
 }
 
-impl<N: Number> Starts<N> {
+impl<N: Number> RayStarts<N> {
     /// Whether crossings lie at the starts of their rays, or before.
     #[inline(always)]
     pub(super) fn before(&self, end: &Ends<N>, form: &WorldShape) -> N::Mask {
@@ -118,7 +133,7 @@ impl<N: Number> Starts<N> {
 
     #[inline(always)]
     fn reach(&self, end: &Ends<N>, form: &WorldShape) -> N {
-        start_of(end.error, (form.off() * N::COARSER, form.seeming()), self.off)
+        start_of(end.error, PlaceError { off: form.off() * N::COARSER, seeming: form.seeming() }, self.off)
     }
 }
 
@@ -138,7 +153,7 @@ pub struct FirstCrossings<N: Number> {
 pub fn firsts_of_spans<N: Number>(
     spans: Spans<N>,
     form: &WorldShape,
-    starts: &Starts<N>,
+    starts: &RayStarts<N>,
 ) -> FirstCrossings<N> {
     // A convex solid is not met again by a ray that leaves it.
     let any = spans.any & !(starts.here & !starts.inward);
@@ -154,7 +169,7 @@ pub fn firsts_of_spans<N: Number>(
 #[inline]
 pub fn first_of_span(
     ray: &Ray,
-    primitive: &Primitive,
+    primitive: &WorldPrimitive,
     index: u32,
     departure: Option<Departure>,
     meter: &mut Meter<impl Probe>,
@@ -165,7 +180,7 @@ pub fn first_of_span(
         return None;
     }
     let spans = primitive.form.spans(&Rays::from(ray)).filter(|spans| spans.any)?;
-    let starts = Starts { here: here.is_some(), inward: here.is_some(), off: departure.map(|d| d.off) };
+    let starts = RayStarts { here: here.is_some(), inward: here.is_some(), off: departure.map(|d| d.off) };
     let first = firsts_of_spans(spans, &primitive.form, &starts);
     let End { t, error, surface } = first.end.one();
     first.any.then_some(Crossing { t, error, primitive: index, surface, entering: first.entering })
@@ -175,7 +190,7 @@ pub fn first_of_span(
 pub fn first_of_expression(
     ray: &Ray,
     expression: &Expression,
-    primitives: &[Primitive],
+    primitives: &[WorldPrimitive],
     departure: Option<Departure>,
     reach: TRange,
     scratch: &mut Scratch,
@@ -230,7 +245,13 @@ pub fn first_of_expression(
 /// Where surfaces coincide they have one slope, but for what their maps lost, which counts where a ray all but skims them.
 /// What is crossed steeply on a way that skims a face has a sine farther from the face's than this, unless the face's
 /// crossing is known within 256 times `off`, too little to be seen.
-pub(super) const SAME_SLOPE: f64 = 256.0;
+const SAME_SLOPE: f64 = 256.0;
+
+/// Whether the sines of the angles at which rays meet two surfaces are as near as those of one place are.
+#[inline(always)]
+pub(super) fn have_one_slope<N: Number>(a: N, b: N) -> N::Mask {
+    a.larger(b).is_at_most(a.smaller(b) * SAME_SLOPE)
+}
 
 /// Brings those of the sorted events that are one place with the first of them to the front, and counts them; the
 /// others keep their order.
@@ -259,7 +280,7 @@ fn gather_cluster(events: &mut [Event], off: impl Fn(&Event) -> f64) -> usize {
 fn gather(
     ray: &Ray,
     expression: &Expression,
-    primitives: &[Primitive],
+    primitives: &[WorldPrimitive],
     departure: Option<Departure>,
     reach: TRange,
     events: &mut Vec<Event>,

@@ -7,117 +7,15 @@
 
 use fearless_simd::Simd;
 
-use crate::math::{Lanes, Mask, Number, RayPacket, Real, RealMask};
+use crate::math::{Mask, Number, Real, RealMask};
 
-use super::alone::decide_alone;
-use super::crossing::{Crossing, SAME_SLOPE, TRange, start_of};
+use super::crossing::{PlaceError, TRange, have_one_slope, start_of};
+use super::csg_query::{CsgQuery, Departures, PacketCrossings};
 use super::expression::Link;
-use super::primitive::Primitive;
+use super::primitive::WorldPrimitive;
 use super::prune::ExprView;
-use super::span::Departure;
+use super::single::decide_single;
 use super::span_cache::{CachedSpans, SpanCache, SpanEnds};
-
-/// The surfaces that the rays of a packet start on: [`super::Departure`] of each.
-#[derive(Clone, Debug)]
-pub struct Departures<T = f64> {
-    /// The index of the primitive.
-    pub primitive: Lanes<T>,
-    /// Which rays go to the inside of it, a bit for each.
-    pub inward: u64,
-    /// How far it may be off its place.
-    pub off: Lanes<T>,
-}
-
-impl Departures {
-    /// From nowhere.
-    pub const NONE: Self = Self { primitive: Lanes::filled(-1.0), inward: 0, off: Lanes::filled(0.0) };
-
-    /// Sets the surface that one ray starts on; it goes to the outside unless it did to the inside before.
-    pub fn set(&mut self, lane: usize, departure: &Departure) {
-        self.primitive.0[lane] = f64::from(departure.primitive);
-        self.off.0[lane] = departure.off;
-        self.inward = self.inward & !(1 << lane) | u64::from(departure.inward) << lane;
-    }
-
-    /// The surface that one ray starts on; of a primitive whose surfaces need no telling apart.
-    pub fn get(&self, lane: usize) -> Departure {
-        Departure {
-            primitive: self.primitive.0[lane] as u32,
-            surface: 0,
-            inward: self.inward >> lane & 1 == 1,
-            off: self.off.0[lane],
-        }
-    }
-}
-
-impl<T: Real> Departures<T> {
-    /// Which rays start on a primitive, and which of these go to its inside.
-    pub fn here<S: Simd>(&self, simd: S, primitive: u32) -> (u64, u64) {
-        let here = simd.vectorize(
-            #[inline(always)]
-            || {
-                let index = T::all(simd, f64::from(primitive));
-                let mut here = 0;
-                for row in 0..T::ROWS {
-                    here |= T::bits_of(simd, self.primitive.load(simd, row).is_equal(index), row);
-                }
-                here
-            },
-        );
-        (here, here & self.inward)
-    }
-
-    /// Which rays leave a primitive to the outside: where that is convex, or a surface, they do not meet it again.
-    #[inline]
-    pub fn leaving<S: Simd>(&self, simd: S, primitive: u32) -> u64 {
-        let (here, inward) = self.here(simd, primitive);
-        here & !inward
-    }
-}
-
-/// The first crossings of a packet.
-#[derive(Clone, Debug)]
-pub struct PacketCrossings<T = f64> {
-    /// Which rays have one, a bit for each: of the others the numbers mean nothing.
-    pub any: u64,
-    /// Which rays are to be asked one by one: theirs is a place where no primitive alone makes the change; or by double precision.
-    pub unsure: u64,
-    /// Which rays go into the solid there.
-    pub entering: u64,
-    /// Where, and how far that may be off.
-    pub t: Lanes<T>,
-    /// How far `t` may be off.
-    pub error: Lanes<T>,
-    /// The primitive whose surface it is, by its index.
-    pub primitive: Lanes<T>,
-    /// The face of that primitive.
-    pub surface: Lanes<T>,
-}
-
-impl<T: Real> PacketCrossings<T> {
-    /// None.
-    pub const NONE: Self = Self {
-        any: 0,
-        unsure: 0,
-        entering: 0,
-        t: Lanes::filled(T::INFINITY),
-        error: Lanes::filled(T::ZERO),
-        primitive: Lanes::filled(T::ZERO),
-        surface: Lanes::filled(T::ZERO),
-    };
-}
-
-impl PacketCrossings {
-    /// Sets the crossing of one ray.
-    pub fn set(&mut self, lane: usize, crossing: &Crossing) {
-        self.any |= 1 << lane;
-        self.entering |= u64::from(crossing.entering) << lane;
-        self.t.0[lane] = crossing.t;
-        self.error.0[lane] = crossing.error;
-        self.primitive.0[lane] = f64::from(crossing.primitive);
-        self.surface.0[lane] = f64::from(crossing.surface);
-    }
-}
 
 /// Memory that is used again for every packet.
 #[derive(Clone, Debug, Default)]
@@ -140,19 +38,6 @@ impl<T: Real> PacketScratch<T> {
     }
 }
 
-/// What is asked of an expression.
-#[derive(Clone, Copy, Debug)]
-pub struct CsgQuery<'a, T> {
-    /// The rays.
-    pub packet: &'a RayPacket<T>,
-    /// Which of them ask, a bit for each.
-    pub wanted: u64,
-    /// The surfaces that they leave; none for rays from the eye.
-    pub departures: Option<&'a Departures<T>>,
-    /// The part of each.
-    pub reach: TRange,
-}
-
 /// The first crossings of an expression of convex primitives.
 ///
 /// Rays whose expression has a primitive that is not convex are unsure, all of them.
@@ -160,11 +45,11 @@ pub fn first_of_expressions<S: Simd, T: Real>(
     simd: S,
     asked: &CsgQuery<T>,
     expression: ExprView,
-    primitives: &[Primitive],
+    primitives: &[WorldPrimitive],
     scratch: &mut PacketScratch<T>,
     found: &mut PacketCrossings<T>,
 ) {
-    let CsgQuery { packet, wanted, departures, reach } = *asked;
+    let wanted = asked.wanted;
     (found.any, found.unsure, found.entering) = (0, 0, 0);
     let form = |leaf: usize| &primitives[expression.leaves[leaf].primitive as usize].form;
     let leaves = expression.leaves.len();
@@ -175,8 +60,7 @@ pub fn first_of_expressions<S: Simd, T: Real>(
     let (mut some, mut doubtful) = (0, 0);
     scratch.places.clear();
     for (leaf, place) in expression.leaves.iter().enumerate() {
-        let about = (place.primitive, form(leaf));
-        let (place, [ahead, may]) = scratch.known.look(simd, (packet, departures), about, wanted, reach);
+        let (place, [ahead, may]) = scratch.known.look(simd, asked, place.primitive, form(leaf));
         scratch.places.push(place);
         some |= ahead;
         doubtful |= may;
@@ -191,7 +75,7 @@ pub fn first_of_expressions<S: Simd, T: Real>(
         let negated = expression.is_negated();
         simd.vectorize(
             #[inline(always)]
-            || decide_alone(simd, (asked, some), known, (leaf.primitive, negated), found),
+            || decide_single(simd, asked, some, known, leaf.primitive, negated, found),
         );
         return;
     }
@@ -241,7 +125,7 @@ fn decide<S: Simd, T: Real>(
         let mut early = 0;
         for row in 0..T::ROWS {
             if T::has_any(open, row) {
-                let [ended, earlier, doubtful] = next_place((simd, row, open), &mut sides, departures, reach);
+                let [ended, earlier, doubtful] = next_place(simd, row, open, &mut sides, departures, reach);
                 done |= ended | doubtful;
                 early |= earlier;
                 found.unsure |= doubtful;
@@ -250,10 +134,10 @@ fn decide<S: Simd, T: Real>(
         open &= !done;
         for leaf in 0..leaves {
             let CachedSpans { enter, leave, .. } = sides.of_mut(leaf);
-            flipped[leaf] = (enter.now ^ leave.now) & open;
+            flipped[leaf] = (enter.crossing ^ leave.crossing) & open;
             inside[leaf] ^= flipped[leaf];
-            enter.ahead &= !enter.now;
-            leave.ahead &= !leave.now;
+            enter.ahead &= !enter.crossing;
+            leave.ahead &= !leave.crossing;
         }
         let value = |nodes: &[u64], inside: &[u64]| nodes.first().map_or_else(|| inside[0], |&root| root);
         evaluate(expression, inside, behind);
@@ -268,7 +152,7 @@ fn decide<S: Simd, T: Real>(
                 if why != 0 {
                     left &= !why;
                     let [enter, leave] = sides.of(leaf).sides();
-                    for (side, lanes) in [(enter, why & enter.now), (leave, why & !enter.now)] {
+                    for (side, lanes) in [(enter, why & enter.crossing), (leave, why & !enter.crossing)] {
                         take(simd, side, lanes, expression.leaves[leaf].primitive, found);
                     }
                 }
@@ -287,7 +171,9 @@ fn decide<S: Simd, T: Real>(
 /// double precision are to decide what is one place.
 #[inline(always)]
 fn next_place<S: Simd, T: Real>(
-    (simd, row, open): (S, usize, u64),
+    simd: S,
+    row: usize,
+    open: u64,
     sides: &mut Leaves<T>,
     departures: Option<&Departures<T>>,
     reach: TRange,
@@ -309,7 +195,7 @@ fn next_place<S: Simd, T: Real>(
             seeming = sooner.choose(T::all(simd, known.seeming), seeming);
         }
     }
-    let start = start_of(error, (off, seeming), departures.map(|d| d.off.load(simd, row)));
+    let start = start_of(error, PlaceError { off, seeming }, departures.map(|d| d.off.load(simd, row)));
     let open = T::row_of(simd, open, row);
     let ended = open & (t.is_equal(infinite) | t.is_above(T::all(simd, reach.to)));
     let (asking, limit) = (open & !ended, t + error);
@@ -319,14 +205,14 @@ fn next_place<S: Simd, T: Real>(
     for leaf in 0..sides.places.len() {
         for side in sides.of_mut(leaf).sides_mut() {
             if !T::has_any(side.ahead, row) {
-                side.now &= !(T::ROW << shift);
+                side.crossing &= !(T::ROW << shift);
                 continue;
             }
             let earliest = side.t.load(simd, row) - side.error.load(simd, row);
             let reaches = T::row_of(simd, side.ahead, row) & asking & earliest.is_at_most(limit);
             more = more | (some & reaches);
             some = some | reaches;
-            side.now = side.now & !(T::ROW << shift) | reaches.bits() << shift;
+            side.crossing = side.crossing & !(T::ROW << shift) | reaches.bits() << shift;
         }
     }
     let mut doubtful = 0;
@@ -335,7 +221,7 @@ fn next_place<S: Simd, T: Real>(
         doubtful = T::bits_of(simd, more | at_start, row);
         t.is_below(T::all(simd, reach.from))
     } else if more.any() {
-        one_place((simd, row, asking), sides, [t, error, off], reach)
+        one_place(simd, row, asking, sides, FirstEnds { t, error, off }, reach)
     } else {
         t.is_below(T::all(simd, reach.from))
     };
@@ -343,15 +229,27 @@ fn next_place<S: Simd, T: Real>(
     [T::bits_of(simd, ended, row), T::bits_of(simd, early, row), doubtful]
 }
 
+/// The first crossing that is yet to come on each ray of a row: where, how far that may be off, and how far its primitive may
+/// be off its place.
+#[derive(Clone, Copy)]
+struct FirstEnds<N> {
+    t: N,
+    error: N,
+    off: N,
+}
+
 /// Which crossings of those that reach back to the first of a row, where several do, are one place with it. Answers
 /// where all of these are before the reach.
 #[inline(always)]
 fn one_place<S: Simd, T: Real>(
-    (simd, row, asking): (S, usize, RealMask<T, S>),
+    simd: S,
+    row: usize,
+    asking: RealMask<T, S>,
     sides: &mut Leaves<T>,
-    [t, error, off]: [T::SimdReal<S>; 3],
+    first: FirstEnds<T::SimdReal<S>>,
     reach: TRange,
 ) -> RealMask<T, S> {
+    let FirstEnds { t, error, off } = first;
     let shift = row * T::LANES;
     let (infinite, zero) = (T::all(simd, f64::INFINITY), T::all(simd, 0.0));
     let limit = t + error;
@@ -370,25 +268,19 @@ fn one_place<S: Simd, T: Real>(
         let known = sides.of_mut(leaf);
         let own = T::all(simd, known.off);
         for side in known.sides_mut() {
-            if !T::has_any(side.now, row) {
+            if !T::has_any(side.crossing, row) {
                 continue;
             }
             let (their_t, their_error) = (side.t.load(simd, row), side.error.load(simd, row));
             let exact = error.is_equal(zero) | their_error.is_equal(zero);
-            let now = T::row_of(simd, side.now, row)
+            let now = T::row_of(simd, side.crossing, row)
                 & their_t.is_below(end)
                 & (have_one_slope(off / error, own / their_error) | exact);
             all_before = all_before & (!now | their_t.is_below(T::all(simd, reach.from)));
-            side.now = side.now & !(T::ROW << shift) | now.bits() << shift;
+            side.crossing = side.crossing & !(T::ROW << shift) | now.bits() << shift;
         }
     }
     all_before
-}
-
-/// Whether the sines of the angles at which rays meet two surfaces are as near as those of one place are.
-#[inline(always)]
-pub(super) fn have_one_slope<N: Number>(a: N, b: N) -> N::Mask {
-    a.larger(b).is_at_most(a.smaller(b) * SAME_SLOPE)
 }
 
 /// The value of each operator, a bit for each ray.

@@ -1,88 +1,56 @@
-//! Stage 8, CSG: an expression over primitives, pruned to a box.
+//! Stage 8, CSG: an expression over primitives.
 //!
 //! Union, intersection and difference become two operators, *any* and *all*, over children that may be negated.
-//! A box in which a primitive is certainly inside or outside replaces it by a constant, and the constants fold.
 
 use std::vec::Drain;
 
 use crate::math::{Bounds, DVec3};
 use crate::scene::Solid;
 
-use super::primitive::{Cover, Primitive};
+use super::primitive::WorldPrimitive;
 
 /// An expression over primitives.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub enum Tree {
+pub enum CsgTree {
     /// Inside this primitive, by its index.
     Leaf(u32),
     /// Inside any of these.
-    Any(Vec<Child>),
+    Any(Vec<Operand>),
     /// Inside all of these.
-    All(Vec<Child>),
+    All(Vec<Operand>),
 }
 
 /// A child, taken as it is or its complement.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct Child {
+pub struct Operand {
     /// The child.
-    pub tree: Tree,
+    pub tree: CsgTree,
     /// Whether its complement is meant.
     pub negated: bool,
 }
 
-/// What is left of an expression in a box.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub enum Pruned {
-    /// Nothing of the solid is in the box.
-    Out,
-    /// The whole box is in the solid.
-    In,
-    /// This decides.
-    Tree(Tree),
-}
-
-impl Tree {
+impl CsgTree {
     /// The expression of a solid whose primitives are numbered from `*next` in file order. `None` for a solid
     /// of nothing.
     pub fn new(solid: &Solid, next: &mut u32) -> Option<Self> {
-        let plain = |tree| Child { tree, negated: false };
+        let plain = |tree| Operand { tree, negated: false };
         let mut leaf = |_| {
             let leaf = Self::Leaf(*next);
             *next += 1;
             Some(leaf)
         };
         solid.fold(&mut leaf, &mut |solid, mut children| match solid {
-            Solid::Primitive(_) | Solid::Union(_) => {
-                fold(Self::Any(children.flatten().map(plain).collect()), false)
-            }
+            Solid::Primitive(_) | Solid::Union(_) => fold(Self::Any(children.flatten().map(plain).collect())),
             Solid::Intersection(_) => {
                 let children: Option<Vec<_>> = children.map(|c| c.map(plain)).collect();
-                fold(Self::All(children?), false)
+                fold(Self::All(children?))
             }
             Solid::Difference(_) => {
                 let first = children.next().flatten().map(plain);
-                let cuts = children.flatten().map(|tree| Child { tree, negated: true });
-                fold(Self::All(std::iter::once(first?).chain(cuts).collect()), false)
+                let cuts = children.flatten().map(|tree| Operand { tree, negated: true });
+                fold(Self::All(std::iter::once(first?).chain(cuts).collect()))
             }
         })
-    }
-
-    /// How many operators stand inside each other at most.
-    pub fn depth(&self) -> usize {
-        self.fold_up(|_| 0, |_, operands| 1 + operands.max().unwrap_or(0))
-    }
-
-    /// The expression inside a box.
-    pub fn pruned(&self, primitives: &[Primitive], b: &Bounds) -> Pruned {
-        match self {
-            Self::Leaf(index) => match primitives[*index as usize].form.cover(b) {
-                Cover::All => Pruned::In,
-                Cover::None => Pruned::Out,
-                Cover::Some => Pruned::Tree(self.clone()),
-            },
-            Self::Any(children) => prune_children(children, primitives, b, true),
-            Self::All(children) => prune_children(children, primitives, b, false),
-        }
     }
 
     /// The primitives it depends on, in file order.
@@ -128,7 +96,7 @@ impl Tree {
     }
 
     /// How far the solid reaches along `v` at most. A difference reaches no further than what it cuts from.
-    pub fn support(&self, primitives: &[Primitive], v: DVec3) -> f64 {
+    pub fn support(&self, primitives: &[WorldPrimitive], v: DVec3) -> f64 {
         self.fold_up(
             |index| primitives[index as usize].form.support(v),
             |tree, own| match tree {
@@ -153,7 +121,7 @@ impl Tree {
     }
 
     /// A box around the solid. A difference reaches no further than what it cuts from.
-    pub fn bounds(&self, primitives: &[Primitive]) -> Bounds {
+    pub fn bounds(&self, primitives: &[WorldPrimitive]) -> Bounds {
         self.fold_up(
             |index| primitives[index as usize].form.bounds(),
             |tree, own| match tree {
@@ -165,47 +133,28 @@ impl Tree {
 }
 
 /// Of the values of children those that are taken as they are.
-fn kept<T>(children: &[Child], values: impl Iterator<Item = T>) -> impl Iterator<Item = T> {
+fn kept<T>(children: &[Operand], values: impl Iterator<Item = T>) -> impl Iterator<Item = T> {
     children.iter().zip(values).filter(|(child, _)| !child.negated).map(|(_, value)| value)
 }
 
-/// `stop` is the value of a child that decides the operator: true for *any*, false for *all*.
-fn prune_children(children: &[Child], primitives: &[Primitive], b: &Bounds, stop: bool) -> Pruned {
-    let mut left = Vec::new();
-    for child in children {
-        let constant = match child.tree.pruned(primitives, b) {
-            Pruned::Tree(tree) => {
-                left.push(Child { tree, negated: child.negated });
-                continue;
-            }
-            Pruned::In => !child.negated,
-            Pruned::Out => child.negated,
-        };
-        if constant == stop {
-            return if stop { Pruned::In } else { Pruned::Out };
-        }
-    }
-    let empty = if stop { Pruned::Out } else { Pruned::In };
-    let tree = if stop { Tree::Any(left) } else { Tree::All(left) };
-    fold(tree, true).map_or(empty, Pruned::Tree)
-}
-
 /// An operator over one child is that child; over none it is nothing.
-fn fold(tree: Tree, keep_negated: bool) -> Option<Tree> {
+fn fold(tree: CsgTree) -> Option<CsgTree> {
     match tree {
-        Tree::Any(mut children) | Tree::All(mut children) if children.len() == 1 && !children[0].negated => {
+        CsgTree::Any(mut children) | CsgTree::All(mut children)
+            if children.len() == 1 && !children[0].negated =>
+        {
             children.pop().map(|c| c.tree)
         }
-        Tree::Any(ref children) | Tree::All(ref children) if children.is_empty() => None,
+        CsgTree::Any(ref children) | CsgTree::All(ref children) if children.is_empty() => None,
         tree => {
-            debug_assert!(keep_negated || !matches!(&tree, Tree::All(c) if c.iter().all(|c| c.negated)));
+            debug_assert!(!matches!(&tree, CsgTree::All(c) if c.iter().all(|c| c.negated)));
             Some(tree)
         }
     }
 }
 
 /// An expression laid out flat, for evaluation along a ray.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Expression {
     /// The primitives in file order.
     pub leaves: Box<[Leaf]>,
@@ -214,7 +163,7 @@ pub struct Expression {
 }
 
 /// One primitive of an expression.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Leaf {
     /// Its index in the assembly.
     pub primitive: u32,
@@ -222,7 +171,7 @@ pub struct Leaf {
 }
 
 /// The way up from a child.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Link {
     /// The operator; [`Link::ROOT`] above the root.
     pub node: u32,
@@ -231,10 +180,16 @@ pub(super) struct Link {
 
 impl Link {
     pub const ROOT: u32 = u32::MAX;
+
+    /// The link from a child whose own link, to an operator that has become this one, is `below`.
+    #[inline(always)]
+    pub fn over(self, below: Self) -> Self {
+        Self { node: self.node, negated: self.negated != below.negated }
+    }
 }
 
 /// An operator: true where at least `threshold` of its children, each negated or not, are true.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Node {
     pub parent: Link,
     pub threshold: u32,
@@ -244,9 +199,14 @@ pub(super) struct Node {
 
 impl Expression {
     /// Lays a tree out.
-    pub fn new(tree: &Tree) -> Self {
-        let (mut leaves, mut nodes) = (Vec::new(), Vec::new());
-        flatten(tree, &mut leaves, &mut nodes);
+    pub fn new(tree: &CsgTree) -> Self {
+        let (leaves, nodes) = flatten(tree);
+        Self::of(leaves, nodes)
+    }
+
+    /// The expression of these primitives under these operators, whose `initial` is 0.
+    pub(super) fn of(leaves: Vec<Leaf>, mut nodes: Vec<Node>) -> Self {
+        count_initial(&leaves, &mut nodes);
         Self { leaves: leaves.into(), nodes: nodes.into() }
     }
 
@@ -256,40 +216,46 @@ impl Expression {
     }
 }
 
-/// An operator that is laid out, while its children are.
-struct Laying<'t> {
-    node: usize,
-    rest: std::slice::Iter<'t, Child>,
-    negated: bool,
+/// An operator whose children are being laid out.
+struct OpenOperator<'t> {
+    node: u32,
+    rest: std::slice::Iter<'t, Operand>,
 }
 
 /// Lays a tree out: operators before their children, primitives in file order.
-fn flatten(tree: &Tree, leaves: &mut Vec<Leaf>, nodes: &mut Vec<Node>) {
-    let mut open: Vec<Laying<'_>> = Vec::new();
+fn flatten(tree: &CsgTree) -> (Vec<Leaf>, Vec<Node>) {
+    let (mut leaves, mut nodes) = (Vec::new(), Vec::new());
+    let mut open: Vec<OpenOperator<'_>> = Vec::new();
     let mut next = Some((tree, false));
     loop {
-        let node = open.last().map_or(Link::ROOT, |laying| laying.node as u32);
-        // The value outside of all primitives, of what ends here.
-        let ended = match next {
-            Some((Tree::Leaf(primitive), negated)) => {
+        let node = open.last().map_or(Link::ROOT, |operator| operator.node);
+        match next {
+            Some((CsgTree::Leaf(primitive), negated)) => {
                 leaves.push(Leaf { primitive: *primitive, parent: Link { node, negated } });
-                Some(negated)
             }
-            Some((operator @ (Tree::Any(children) | Tree::All(children)), negated)) => {
-                let threshold = if matches!(operator, Tree::All(_)) { children.len() as u32 } else { 1 };
-                open.push(Laying { node: nodes.len(), rest: children.iter(), negated });
+            Some((operator @ (CsgTree::Any(children) | CsgTree::All(children)), negated)) => {
+                let threshold = if matches!(operator, CsgTree::All(_)) { children.len() as u32 } else { 1 };
+                open.push(OpenOperator { node: nodes.len() as u32, rest: children.iter() });
                 nodes.push(Node { parent: Link { node, negated }, threshold, initial: 0 });
-                None
             }
-            None => open.pop().map(|laying| {
-                let node = &nodes[laying.node];
-                (node.initial >= node.threshold) != laying.negated
-            }),
-        };
-        let Some(laying) = open.last_mut() else { return };
-        if ended == Some(true) {
-            nodes[laying.node].initial += 1;
+            None => {
+                open.pop();
+            }
         }
-        next = laying.rest.next().map(|child| (&child.tree, child.negated));
+        let Some(operator) = open.last_mut() else { return (leaves, nodes) };
+        next = operator.rest.next().map(|child| (&child.tree, child.negated));
+    }
+}
+
+/// Counts the children of each operator that are true outside of all primitives.
+fn count_initial(leaves: &[Leaf], nodes: &mut [Node]) {
+    for leaf in leaves.iter().filter(|leaf| leaf.parent.node != Link::ROOT) {
+        nodes[leaf.parent.node as usize].initial += u32::from(leaf.parent.negated);
+    }
+    // Children stand behind their parents.
+    for place in (1..nodes.len()).rev() {
+        let node = &nodes[place];
+        let (parent, value) = (node.parent, node.initial >= node.threshold);
+        nodes[parent.node as usize].initial += u32::from(value != parent.negated);
     }
 }

@@ -3,13 +3,13 @@
 use crate::math::{Bounds, DVec3, Mask, Number, Placement, Rays};
 use crate::scene;
 
-use super::primitive::Cover;
+use super::classification::Classification;
 use super::span::{Ends, Spans, rounding_at};
 use super::unit_space::norm;
 
 /// An intersection of half-spaces, in the world.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Facets {
+pub struct ConvexPolyhedron {
     /// The points `p` with `normal · (p − center) ≤ offset`; normals have length 1.
     faces: Box<[scene::HalfSpace]>,
     center: DVec3,
@@ -29,7 +29,7 @@ pub struct Facets {
 /// itself, 4 half-ulps.
 const STILL: f64 = 2.0 * f64::EPSILON;
 
-impl Facets {
+impl ConvexPolyhedron {
     /// The faces of `unit`, put at `place`, which may be off by `map_error`.
     pub fn new(unit: &scene::Facets, place: &Placement, map_error: DVec3) -> Self {
         let turn = place.inverse.transpose();
@@ -144,20 +144,20 @@ impl Facets {
     }
 
     /// How it lies to a box.
-    pub fn cover(&self, b: &Bounds) -> Cover {
+    pub fn classify(&self, b: &Bounds) -> Classification {
         if self.bounds.meet(b).is_empty() {
-            return Cover::None;
+            return Classification::Outside;
         }
         let (center, half) = (b.center() - self.center, b.half());
         let mut all = true;
         for face in &self.faces {
             let (middle, reach) = (face.normal.dot(center), face.normal.abs().dot(half));
             if middle - reach > face.offset {
-                return Cover::None;
+                return Classification::Outside;
             }
             all &= middle + reach < face.offset;
         }
-        if all { Cover::All } else { Cover::Some }
+        if all { Classification::Inside } else { Classification::Mixed }
     }
 }
 

@@ -3,8 +3,8 @@
 use crate::math::{Bounds, DVec3, Placement, Ray};
 use crate::scene;
 
-use super::facets::Facets;
-use super::mesh::Mesh;
+use super::facets::ConvexPolyhedron;
+use super::mesh::TriangleMesh;
 
 /// A mesh of more triangles than this is left to its tree of boxes, which tests fewer of them than there are half-spaces.
 const MOST_TRIANGLES: usize = 128;
@@ -15,7 +15,7 @@ const MOST_TRIANGLES: usize = 128;
 const ON_PLANE: f64 = 4.0 * f64::EPSILON;
 
 /// The solid within a mesh at `place`, which may be off by `map_error`, where that is convex.
-pub(super) fn convex(unit: &scene::Mesh, place: &Placement, map_error: DVec3) -> Option<Facets> {
+pub(super) fn convex(unit: &scene::Mesh, place: &Placement, map_error: DVec3) -> Option<ConvexPolyhedron> {
     if unit.triangles.len() > MOST_TRIANGLES {
         return None;
     }
@@ -26,14 +26,14 @@ pub(super) fn convex(unit: &scene::Mesh, place: &Placement, map_error: DVec3) ->
     let (faces, bent) = half_spaces(unit, &points)?;
     let linear = &place.linear;
     let bent = (linear.x_axis.abs() + linear.y_axis.abs() + linear.z_axis.abs()) * bent;
-    let mesh = Mesh::new(unit, place, map_error);
+    let mesh = TriangleMesh::new(unit, place, map_error);
     let middle = points.iter().fold(DVec3::ZERO, |sum, &p| sum + p / points.len() as f64);
     if !has_one_layer(&mesh, *linear * middle + place.center) {
         return None;
     }
     let unit = scene::Facets { faces, bounds: Bounds::around(points.iter().copied()) };
     let corners = points.iter().map(|&p| *linear * p + place.center).collect();
-    Some(Facets::new(&unit, place, map_error + bent).with_corners(corners))
+    Some(ConvexPolyhedron::new(&unit, place, map_error + bent).with_corners(corners))
 }
 
 /// The half-spaces that have a face in their plane and all points in them, and how far a point may be off. None where a
@@ -80,7 +80,7 @@ fn half_spaces(mesh: &scene::Mesh, points: &[DVec3]) -> Option<(Vec<scene::HalfS
 
 /// Whether a closed surface, all of which lies on the hull around `middle`, covers it: an even number of layers is
 /// nothing. Since it is closed, one line tells.
-fn has_one_layer(mesh: &Mesh, middle: DVec3) -> bool {
+fn has_one_layer(mesh: &TriangleMesh, middle: DVec3) -> bool {
     let mut sides = [0, 0];
     let ray = Ray::new(middle, DVec3::new(0.36, 0.48, 0.8));
     mesh.crossings(&ray, |end| sides[usize::from(end.t > 0.0)] += 1);
@@ -103,7 +103,7 @@ mod tests {
     const PRISM: [[u32; 3]; 8] =
         [[0, 1, 2], [5, 4, 3], [0, 3, 4], [0, 4, 1], [1, 4, 5], [1, 5, 2], [2, 5, 3], [2, 3, 0]];
 
-    fn hull(corners: &[[f64; 3]], triangles: &[[u32; 3]]) -> Option<Facets> {
+    fn hull(corners: &[[f64; 3]], triangles: &[[u32; 3]]) -> Option<ConvexPolyhedron> {
         let points = corners.iter().map(|&p| DVec3::from(p)).collect();
         let mesh = scene::Mesh { points, triangles: triangles.to_vec() };
         convex(&mesh, &Placement::new(&DAffine3::IDENTITY).unwrap(), DVec3::ZERO)

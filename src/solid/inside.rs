@@ -5,7 +5,7 @@ use crate::stage::{Meter, Silent};
 
 use super::assembly::{Assembly, Body};
 use super::crossing::{Scratch, TRange, first_of_expression, first_of_span};
-use super::expression::Tree;
+use super::expression::CsgTree;
 
 /// A direction of length 1, to the bit, that runs along no axis and in no plane of two.
 const PROBE: DVec3 = DVec3::new(0.48, 0.6, 0.64);
@@ -39,7 +39,7 @@ impl Assembly {
     pub fn bounds_of(&self, object: u32, kind: impl Fn(u32) -> bool) -> Bounds {
         let object = &self.objects[object as usize];
         let Body::Composite { tree, .. } = &object.body else { return object.bounds };
-        let of_kind = |part: &&Tree| part.leaves().into_iter().any(&kind);
+        let of_kind = |part: &&CsgTree| part.leaves().into_iter().any(&kind);
         let parts = tree.parts().into_iter().filter(of_kind).map(|part| part.bounds(&self.primitives));
         parts.fold(Bounds::EMPTY, |all, part| all.join(&part))
     }

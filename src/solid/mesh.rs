@@ -14,7 +14,7 @@ const LEAF: usize = 4;
 
 /// A closed surface of triangles, in the world.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Mesh {
+pub struct TriangleMesh {
     triangles: Vec<Triangle>,
     nodes: Vec<Node>,
     /// How far a corner may seem off its place.
@@ -37,7 +37,7 @@ struct Node {
     count: u32,
 }
 
-impl Mesh {
+impl TriangleMesh {
     /// The triangles of `unit`, put at `place`, which may be off by `map_error`.
     pub fn new(unit: &scene::Mesh, place: &Placement, map_error: DVec3) -> Self {
         let points: Vec<DVec3> = unit.points.iter().map(|&p| place.linear * p + place.center).collect();

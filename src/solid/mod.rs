@@ -1,12 +1,12 @@
 //! Stages 7 and 8, SOLID and CSG: ray × primitive → interval, intervals × expression → hit, and an expression
 //! pruned to a box.
 
-mod alone;
 mod assembly;
 mod ball;
+mod classification;
 mod crossing;
 mod crossings;
-mod eight;
+mod csg_query;
 mod expression;
 mod face;
 mod facets;
@@ -17,8 +17,10 @@ mod packet_shear;
 mod patch;
 mod primitive;
 mod prune;
+mod ray_batch;
 mod ray_shear;
 mod round;
+mod single;
 mod slabs;
 mod span;
 mod span_cache;
@@ -31,19 +33,21 @@ mod tests;
 mod tube;
 mod unit_space;
 
-pub use assembly::{Assembly, AssemblyError, AssemblyStats, Body, Kind, Object, SceneFrame};
+pub use assembly::{Assembly, AssemblyError, AssemblyStats, BatchKind, Body, SceneFrame, WorldObject};
 pub use ball::Ball;
+pub use classification::Classification;
 pub use crossing::{
-    Crossing, FirstCrossings, Scratch, Starts, TRange, first_of_expression, first_of_span, firsts_of_spans,
+    Crossing, FirstCrossings, RayStarts, Scratch, TRange, first_of_expression, first_of_span, firsts_of_spans,
 };
-pub use crossings::{CsgQuery, Departures, PacketCrossings, PacketScratch, first_of_expressions};
-pub use eight::Eight;
-pub use expression::{Child, Expression, Leaf, Pruned, Tree};
+pub use crossings::{PacketScratch, first_of_expressions};
+pub use csg_query::{CsgQuery, Departures, PacketCrossings};
+pub use expression::{CsgTree, Expression, Leaf, Operand};
 pub use packet_shear::PacketShear;
-pub use primitive::{Cover, Primitive, WorldShape};
-pub use prune::{Classification, ExprView, PrunedExpr, Pruning};
+pub use primitive::{WorldPrimitive, WorldShape};
+pub use prune::{ExprView, PrunedExpr, Pruning};
+pub use ray_batch::RayBatch;
 pub use span::{Departure, End, Ends, LIMIT, ROUNDING, Span, Spans, WORLD};
 pub(crate) use span_cache::with_spans;
 pub use surface::first_of_surface;
-pub use surfaces::firsts_of_surface;
+pub use surfaces::{SurfaceQuery, firsts_of_surface};
 pub use tube::Bar;

@@ -74,7 +74,7 @@ impl PacketShear {
         self.main[axis]
     }
 
-    /// Eight of them; those of the packet's rays that go farthest along another axis mean nothing.
+    /// One row of them; those of the packet's rays that go farthest along another axis mean nothing.
     #[inline(always)]
     pub(super) fn row<S: Simd, const MAIN: usize>(
         &self,

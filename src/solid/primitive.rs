@@ -6,10 +6,11 @@ use crate::math::{Bounds, DAffine3, DMat3, DVec3, Number, Placement, Ray, Rays, 
 use crate::scene::{MaterialId, Shape};
 
 use super::ball::Ball;
+use super::classification::Classification;
 use super::face::Face;
-use super::facets::Facets;
+use super::facets::ConvexPolyhedron;
 use super::hull::convex;
-use super::mesh::Mesh;
+use super::mesh::TriangleMesh;
 use super::patch::Patch;
 use super::round::Round;
 use super::slabs::{AxisBox, SkewBox};
@@ -18,7 +19,7 @@ use super::tube::Tube;
 
 /// A primitive in the world.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Primitive {
+pub struct WorldPrimitive {
     /// Its form.
     pub form: WorldShape,
     /// Its surface.
@@ -35,29 +36,18 @@ pub enum WorldShape {
     AxisBox(Box<AxisBox>),
     /// A box in any position.
     SkewBox(Box<SkewBox>),
-    /// An ellipsoid or frustum in any position.
+    /// An ellipsoid or truncated cone in any position.
     Round(Box<Round>),
     /// A convex solid of flat faces.
-    Facets(Box<Facets>),
+    Facets(Box<ConvexPolyhedron>),
     /// A closed surface of triangles.
-    Mesh(Box<Mesh>),
+    Mesh(Box<TriangleMesh>),
     /// A polygon: a surface.
     Face(Box<Face>),
     /// A polygon with a normal at each corner: a surface.
     Patch(Box<Patch>),
-    /// The side of a frustum: a surface.
+    /// The side of a truncated cone: a surface.
     Tube(Box<Tube>),
-}
-
-/// How a primitive lies to a box.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Cover {
-    /// The whole box is inside the primitive.
-    All,
-    /// The box and the primitive do not meet.
-    None,
-    /// Neither is certain.
-    Some,
 }
 
 /// Radii whose inverse maps are far from the limits of f64.
@@ -82,16 +72,16 @@ impl WorldShape {
                 None => Self::Round(Box::new(Round::ellipsoid(&place, error))),
             },
             Shape::Frustum { bottom, top } => {
-                Self::Round(Box::new(Round::frustum(&place, *bottom, *top, error)))
+                Self::Round(Box::new(Round::cone(&place, *bottom, *top, error)))
             }
             Shape::Cube => match axis_half(&place.linear) {
                 Some(half) => Self::AxisBox(Box::new(AxisBox::new(place.center, half, error))),
                 None => Self::SkewBox(Box::new(SkewBox::new(place, error))),
             },
-            Shape::Facets(unit) => Self::Facets(Box::new(Facets::new(unit, &place, error))),
+            Shape::Facets(unit) => Self::Facets(Box::new(ConvexPolyhedron::new(unit, &place, error))),
             Shape::Mesh(unit) => match convex(unit, &place, error) {
                 Some(facets) => Self::Facets(Box::new(facets)),
-                None => Self::Mesh(Box::new(Mesh::new(unit, &place, error))),
+                None => Self::Mesh(Box::new(TriangleMesh::new(unit, &place, error))),
             },
             Shape::Face(corners) => Self::Face(Box::new(Face::new(corners.iter().copied(), &place, error))),
             Shape::Patch(corners) => Self::Patch(Box::new(Patch::new(corners, &place, error))),
@@ -252,35 +242,23 @@ impl WorldShape {
         }
     }
 
-    /// How it lies to a box.
-    pub fn cover(&self, b: &Bounds) -> Cover {
+    /// How a box lies to it.
+    pub fn classify(&self, b: &Bounds) -> Classification {
         match self {
-            Self::Ball(ball) => ball.cover(b),
+            Self::Ball(ball) => ball.classify(b),
             Self::AxisBox(slabs) => {
                 let own = slabs.bounds();
-                Cover::of(own.meet(b).is_empty(), || own.lo.cmplt(b.lo).all() && b.hi.cmplt(own.hi).all())
+                Classification::of(own.meet(b).is_empty(), || {
+                    own.lo.cmplt(b.lo).all() && b.hi.cmplt(own.hi).all()
+                })
             }
-            Self::SkewBox(slabs) => slabs.cover(b),
-            Self::Round(round) => round.cover(b),
-            Self::Facets(facets) => facets.cover(b),
-            Self::Mesh(mesh) => Cover::of(mesh.misses(b), || false),
-            Self::Face(face) => Cover::of(face.misses(b), || false),
-            Self::Patch(patch) => Cover::of(patch.face.misses(b), || false),
-            Self::Tube(tube) => Cover::of(tube.misses(b), || false),
-        }
-    }
-}
-
-impl Cover {
-    /// Where a box is certainly outside, or certainly inside.
-    #[inline(always)]
-    pub(super) fn of(misses: bool, covers: impl FnOnce() -> bool) -> Self {
-        if misses {
-            Self::None
-        } else if covers() {
-            Self::All
-        } else {
-            Self::Some
+            Self::SkewBox(slabs) => slabs.classify(b),
+            Self::Round(round) => round.classify(b),
+            Self::Facets(facets) => facets.classify(b),
+            Self::Mesh(mesh) => Classification::of(mesh.misses(b), || false),
+            Self::Face(face) => Classification::of(face.misses(b), || false),
+            Self::Patch(patch) => Classification::of(patch.face.misses(b), || false),
+            Self::Tube(tube) => Classification::of(tube.misses(b), || false),
         }
     }
 }

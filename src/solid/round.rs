@@ -1,17 +1,17 @@
-//! Curved solids in their unit space: ellipsoids, and cylinders, cones and frustums of any slant.
+//! Curved solids in their unit space: ellipsoids, and cylinders, cones and truncated cones of any slant.
 
 use crate::math::{Bounds, DMat3, DVec3, Mask, Number, Placement, Rays, Vector};
 
-use super::primitive::Cover;
+use super::classification::Classification;
 use super::span::{Ends, STILL, Spans};
 use super::taper::Taper;
 use super::unit_space::{Centred, UnitSpace};
 
-/// The other face numbers of a frustum.
+/// The other face numbers of a truncated cone.
 const BOTTOM: u32 = 1;
 const TOP: u32 = 2;
 
-/// A unit sphere or frustum under an affine map.
+/// A unit sphere or truncated cone under an affine map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Round {
     space: UnitSpace,
@@ -24,7 +24,7 @@ pub struct Round {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Profile {
     Sphere,
-    Frustum(Taper),
+    Cone(Taper),
 }
 
 impl Round {
@@ -33,9 +33,9 @@ impl Round {
         Self { space: UnitSpace::new(place, map_error), linear: place.linear, profile: Profile::Sphere }
     }
 
-    /// The unit frustum at `place`, which may be off by `map_error`, of radius `bottom` at z = −1 and `top` at z = 1.
-    pub fn frustum(place: &Placement, bottom: f64, top: f64, map_error: DVec3) -> Self {
-        let profile = Profile::Frustum(Taper::new(bottom, top));
+    /// The unit truncated cone at `place`, which may be off by `map_error`, of radius `bottom` at z = −1 and `top` at z = 1.
+    pub fn cone(place: &Placement, bottom: f64, top: f64, map_error: DVec3) -> Self {
+        let profile = Profile::Cone(Taper::new(bottom, top));
         Self { space: UnitSpace::new(place, map_error), linear: place.linear, profile }
     }
 
@@ -45,7 +45,7 @@ impl Round {
         let rays = self.space.centred(rays);
         match &self.profile {
             Profile::Sphere => sphere_spans(&rays),
-            Profile::Frustum(taper) => frustum_spans(&rays, taper),
+            Profile::Cone(taper) => cone_spans(&rays, taper),
         }
     }
 
@@ -65,9 +65,9 @@ impl Round {
         let q = self.space.points(p);
         self.space.normals(match (self.profile, surface) {
             (Profile::Sphere, _) => q,
-            (Profile::Frustum(_), BOTTOM) => q.same(DVec3::NEG_Z),
-            (Profile::Frustum(_), TOP) => q.same(DVec3::Z),
-            (Profile::Frustum(taper), _) => taper.gradient(q),
+            (Profile::Cone(_), BOTTOM) => q.same(DVec3::NEG_Z),
+            (Profile::Cone(_), TOP) => q.same(DVec3::Z),
+            (Profile::Cone(taper), _) => taper.gradient(q),
         })
     }
 
@@ -84,7 +84,7 @@ impl Round {
                 let half = DVec3::from_array([0, 1, 2].map(|axis| self.linear.row(axis).length()));
                 Bounds::new(center - half, center + half)
             }
-            Profile::Frustum(taper) => taper.bounds(&self.linear, center),
+            Profile::Cone(taper) => taper.bounds(&self.linear, center),
         }
     }
 
@@ -93,19 +93,21 @@ impl Round {
         let unit = self.linear.transpose() * v;
         let reach = match self.profile {
             Profile::Sphere => unit.length(),
-            Profile::Frustum(taper) => taper.support(unit),
+            Profile::Cone(taper) => taper.support(unit),
         };
         self.space.center.dot(v) + reach
     }
 
     /// How it lies to a box.
-    pub fn cover(&self, b: &Bounds) -> Cover {
+    pub fn classify(&self, b: &Bounds) -> Classification {
         let u = self.space.bounds(b);
         match self.profile {
-            Profile::Sphere => Cover::of(DVec3::ZERO.clamp(u.lo, u.hi).length_squared() > 1.0, || {
-                u.farthest().length_squared() < 1.0
-            }),
-            Profile::Frustum(taper) => Cover::of(taper.misses(&u), || taper.covers(&u)),
+            Profile::Sphere => {
+                Classification::of(DVec3::ZERO.clamp(u.lo, u.hi).length_squared() > 1.0, || {
+                    u.farthest().length_squared() < 1.0
+                })
+            }
+            Profile::Cone(taper) => Classification::of(taper.misses(&u), || taper.covers(&u)),
         }
     }
 }
@@ -144,7 +146,7 @@ fn sphere_spans<N: Number>(rays: &Centred<N>) -> Spans<N> {
 
 /// The lines against the side, then against `|z| ≤ 1`.
 #[inline(always)]
-fn frustum_spans<N: Number>(rays: &Centred<N>, taper: &Taper) -> Spans<N> {
+fn cone_spans<N: Number>(rays: &Centred<N>, taper: &Taper) -> Spans<N> {
     let (o, d) = (rays.o, rays.d);
     let mut spans = Spans::line(rays.t);
     let zero = rays.t.same(0.0);

@@ -5,7 +5,7 @@
 
 use crate::math::{Bounds, DMat3, DVec3, Mask, Number, Placement, Rays, two_sum};
 
-use super::primitive::Cover;
+use super::classification::Classification;
 use super::span::{Ends, ROUNDING, STILL, Spans, WORLD, rounding_at};
 
 /// A box along the axes of the world.
@@ -178,9 +178,9 @@ impl SkewBox {
     }
 
     /// How it lies to a box.
-    pub fn cover(&self, b: &Bounds) -> Cover {
+    pub fn classify(&self, b: &Bounds) -> Classification {
         let extents = self.extents(b);
-        Cover::of(extents.iter().any(|&(lo, hi)| lo > 1.0 || hi < -1.0), || {
+        Classification::of(extents.iter().any(|&(lo, hi)| lo > 1.0 || hi < -1.0), || {
             extents.iter().all(|&(lo, hi)| lo > -1.0 && hi < 1.0)
         })
     }

@@ -6,7 +6,7 @@ use fearless_simd::Simd;
 use crate::math::{Lanes, Mask, Number, RayPacket, Rays, Real};
 
 use super::crossing::TRange;
-use super::crossings::Departures;
+use super::csg_query::CsgQuery;
 use super::primitive::WorldShape;
 use super::span::{Ends, Spans};
 
@@ -40,7 +40,7 @@ pub(super) struct SpanEnds<T> {
     /// The rays that are yet to cross here.
     pub ahead: u64,
     /// The rays that cross here in the place that is looked at.
-    pub now: u64,
+    pub crossing: u64,
 }
 
 /// The spans in one primitive.
@@ -63,7 +63,7 @@ impl<T: Real> SpanEnds<T> {
         error: Lanes::filled(T::ZERO),
         surface: Lanes::filled(T::ZERO),
         ahead: 0,
-        now: 0,
+        crossing: 0,
     };
 
     /// Those of a row.
@@ -118,7 +118,7 @@ impl<T: Real> CachedSpans<T> {
         }
         ahead &= rays;
         (self.enter.ahead, self.leave.ahead) = (ahead, ahead);
-        (self.enter.now, self.leave.now) = (0, 0);
+        (self.enter.crossing, self.leave.crossing) = (0, 0);
         ahead
     }
 }
@@ -142,16 +142,16 @@ impl<T: Real> SpanCache<T> {
         &mut self.spans[..self.count]
     }
 
-    /// Looks ahead at the spans in a primitive, and gives their place, which rays have one that can matter, and of which more
-    /// digits are to say whether they have one. Until it is cleared no ray is wanted that was not wanted before.
+    /// Looks ahead at the spans in a primitive, and gives their place, which rays have one that can matter, and of which
+    /// double precision is to say whether they have one. Until it is cleared no ray is wanted that was not wanted before.
     pub fn look<S: Simd>(
         &mut self,
         simd: S,
-        (packet, departures): (&RayPacket<T>, Option<&Departures<T>>),
-        (primitive, form): (u32, &WorldShape),
-        wanted: u64,
-        reach: TRange,
+        asked: &CsgQuery<T>,
+        primitive: u32,
+        form: &WorldShape,
     ) -> (u32, [u64; 2]) {
+        let CsgQuery { packet, wanted, departures, reach } = *asked;
         let known = self.spans[..self.count].iter().position(|known| known.primitive == primitive);
         let place = known.unwrap_or_else(|| {
             if self.count == self.spans.len() {
@@ -161,8 +161,8 @@ impl<T: Real> SpanCache<T> {
             let known = &mut self.spans[self.count - 1];
             (known.primitive, known.any, known.doubtful) = (primitive, 0, 0);
             (known.off, known.seeming) = (form.off() * T::COARSER, form.seeming());
-            let here = departures.map_or((0, 0), |d| d.here(simd, primitive));
-            with_spans!(simd, form, learn, (packet, wanted, here), known);
+            let (here, inward) = departures.map_or((0, 0), |d| d.here(simd, primitive));
+            with_spans!(simd, form, learn, packet, wanted, here, inward, known);
             self.count - 1
         });
         let spans = &mut self.spans[place];
@@ -177,7 +177,10 @@ impl<T: Real> SpanCache<T> {
 #[inline(always)]
 fn learn<S: Simd, T: Real>(
     simd: S,
-    (packet, wanted, (here, inward)): (&RayPacket<T>, u64, (u64, u64)),
+    packet: &RayPacket<T>,
+    wanted: u64,
+    here: u64,
+    inward: u64,
     known: &mut CachedSpans<T>,
     spans: impl Fn(&Rays<T::SimdReal<S>>) -> Spans<T::SimdReal<S>>,
 ) {

@@ -3,8 +3,8 @@
 use crate::math::{Number, Ray, Rays};
 use crate::stage::{Meter, Probe};
 
-use super::crossing::{Crossing, FirstCrossings, Starts, at_start};
-use super::primitive::{Primitive, WorldShape};
+use super::crossing::{Crossing, FirstCrossings, RayStarts, at_start};
+use super::primitive::{WorldPrimitive, WorldShape};
 use super::span::{Departure, End, Ends};
 use super::tube::{SideCrossings, Tube};
 
@@ -12,7 +12,7 @@ use super::tube::{SideCrossings, Tube};
 #[inline]
 pub fn first_of_surface(
     ray: &Ray,
-    primitive: &Primitive,
+    primitive: &WorldPrimitive,
     index: u32,
     departure: Option<Departure>,
     meter: &mut Meter<impl Probe>,
@@ -38,7 +38,7 @@ pub fn first_of_surface(
             end.filter(|end| !at_start(end)).map(|end| crossing(end, patch.face.normal().dot(ray.d) < 0.0))
         }
         WorldShape::Tube(tube) => {
-            let starts = Starts {
+            let starts = RayStarts {
                 here: here.is_some(),
                 inward: here.is_some_and(|d| d.inward),
                 off: departure.map(|d| d.off),
@@ -56,7 +56,7 @@ pub(super) fn firsts_of_tube<N: Number>(
     rays: &Rays<N>,
     tube: &Tube,
     form: &WorldShape,
-    starts: &Starts<N>,
+    starts: &RayStarts<N>,
 ) -> FirstCrossings<N> {
     firsts_of_sides(tube.crossings(rays), form, starts)
 }
@@ -66,7 +66,7 @@ pub(super) fn firsts_of_tube<N: Number>(
 pub(super) fn firsts_of_sides<N: Number>(
     found: SideCrossings<N>,
     form: &WorldShape,
-    starts: &Starts<N>,
+    starts: &RayStarts<N>,
 ) -> FirstCrossings<N> {
     let (enter, leave) = (&found.enter, &found.leave);
     let enter_ahead = !starts.before(enter, form);
@@ -194,7 +194,7 @@ mod tests {
             {
                 for (o, d) in [(eye, (target - eye).normalize()), (target + DVec3::Z, DVec3::NEG_Z)] {
                     let ray = assembly.ray(&Ray::new(o, d));
-                    let meets = |p: &&Primitive| {
+                    let meets = |p: &&WorldPrimitive| {
                         first_of_surface(&ray, p, 0, None, &mut Meter::new(Silent)).is_some()
                     };
                     assert_eq!(assembly.primitives.iter().filter(meets).count(), 1, "{i} {j} {o} {d}");
@@ -239,6 +239,6 @@ mod tests {
     fn sizes_stay_small_for_scenes_of_millions() {
         // 700 bytes for a sphere in all: the scene's object, the assembly's, its primitive, and the structure.
         assert!(size_of::<Object>() <= 160);
-        assert!(size_of::<Primitive>() + size_of::<crate::solid::Object>() <= 160);
+        assert!(size_of::<WorldPrimitive>() + size_of::<crate::solid::WorldObject>() <= 160);
     }
 }

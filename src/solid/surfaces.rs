@@ -8,30 +8,41 @@ use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 use crate::math::{LANES, Mask, Number, ROWS, RayPacket};
 use crate::stage::{Meter, Silent};
 
-use super::crossing::{FirstCrossings, Starts, start_of};
-use super::crossings::{Departures, PacketCrossings};
+use super::crossing::{FirstCrossings, PlaceError, RayStarts, start_of};
+use super::csg_query::{Departures, PacketCrossings};
 use super::face::{Face, SteepCrossings};
 use super::packet_shear::{Around, PacketShear};
-use super::primitive::{Primitive, WorldShape};
+use super::primitive::{WorldPrimitive, WorldShape};
 use super::surface::{first_of_surface, firsts_of_tube};
 use super::tube::Tube;
+
+/// What is asked of a surface that bounds no solid.
+#[derive(Clone, Copy, Debug)]
+pub struct SurfaceQuery<'a> {
+    /// The rays.
+    pub packet: &'a RayPacket,
+    /// Which of them ask, a bit for each.
+    pub wanted: u64,
+    /// The surfaces that they leave; none for rays from the eye.
+    pub departures: Option<&'a Departures>,
+}
 
 /// The first crossings of a surface, a primitive with its index, for the rays of `wanted`. `sheared` are the planes across the packet's rays.
 pub fn firsts_of_surface<S: Simd>(
     simd: S,
-    packet: &RayPacket,
-    wanted: u64,
-    (primitive, index): (&Primitive, u32),
-    departures: Option<&Departures>,
+    asked: &SurfaceQuery,
+    primitive: &WorldPrimitive,
+    index: u32,
     sheared: &mut PacketShear,
     found: &mut PacketCrossings,
 ) {
+    let SurfaceQuery { packet, wanted, departures } = *asked;
     (found.any, found.unsure, found.entering) = (0, 0, 0);
     simd.vectorize(
         #[inline(always)]
         || {
             let (here, inward) = departures.map_or((0, 0), |d| d.here(simd, index));
-            let asking = Asking { packet, form: &primitive.form, index, here, inward, departures };
+            let asking = SurfaceRays { packet, form: &primitive.form, index, here, inward, departures };
             match &primitive.form {
                 WorldShape::Face(face) => asking.polygon(simd, face, wanted, sheared, found),
                 WorldShape::Patch(patch) => asking.polygon(simd, &patch.face, wanted, sheared, found),
@@ -58,8 +69,8 @@ fn rays_of_row<S: Simd>(simd: S, row: usize, rays: u64) -> mask64x8<S> {
     mask64x8::from_bitmask(simd, rays >> (row * LANES) & 0xFF)
 }
 
-/// Who asks one surface.
-struct Asking<'a> {
+/// One surface, and the rays of a packet that may meet it.
+struct SurfaceRays<'a> {
     packet: &'a RayPacket,
     form: &'a WorldShape,
     index: u32,
@@ -69,7 +80,7 @@ struct Asking<'a> {
     departures: Option<&'a Departures>,
 }
 
-impl Asking<'_> {
+impl SurfaceRays<'_> {
     #[inline(always)]
     fn polygon<S: Simd>(
         &self,
@@ -119,11 +130,8 @@ impl Asking<'_> {
                 let SteepCrossings { end, against, steep } =
                     face.steep_crossings(&self.packet.load(simd, row));
                 unsure |= odd & !steep;
-                let before = end.t.is_at_most(start_of(
-                    end.error,
-                    (self.form.off(), self.form.seeming()),
-                    self.off(simd, row),
-                ));
+                let before =
+                    end.t.is_at_most(start_of(end.error, PlaceError::of(self.form), self.off(simd, row)));
                 let any = odd & steep & !before;
                 self.put(simd, row, &FirstCrossings { end, entering: against, any }, found);
             }
@@ -137,7 +145,7 @@ impl Asking<'_> {
             let asking = rays_of_row(simd, row, wanted);
             if asking.any_true() {
                 let (here, inward) = (rays_of_row(simd, row, self.here), rays_of_row(simd, row, self.inward));
-                let starts = Starts { here, inward, off: self.off(simd, row) };
+                let starts = RayStarts { here, inward, off: self.off(simd, row) };
                 let firsts = firsts_of_tube(&self.packet.load(simd, row), tube, self.form, &starts);
                 self.put(simd, row, &FirstCrossings { any: firsts.any & asking, ..firsts }, found);
             }
@@ -238,7 +246,7 @@ mod tests {
     }
 
     fn assert_like_alone(
-        primitive: &Primitive,
+        primitive: &WorldPrimitive,
         rays: &[Ray],
         wanted: u64,
         departures: Option<&Departures>,
@@ -251,7 +259,7 @@ mod tests {
         for level in [Level::new(), Level::baseline()] {
             let (mut sheared, mut found) = (PacketShear::UNKNOWN, PacketCrossings::NONE);
             dispatch!(level, simd => firsts_of_surface(
-                simd, &packet, wanted, (primitive, 3), departures, &mut sheared, &mut found,
+                simd, &SurfaceQuery { packet: &packet, wanted, departures }, primitive, 3, &mut sheared, &mut found,
             ));
             prop_assert_eq!((found.unsure, found.any & !wanted), (0, 0));
             for (lane, ray) in rays.iter().enumerate().filter(|(lane, _)| wanted >> lane & 1 == 1) {
@@ -273,9 +281,9 @@ mod tests {
         Ok(met)
     }
 
-    fn primitive(shape: &Shape, map: &DAffine3) -> Primitive {
+    fn primitive(shape: &Shape, map: &DAffine3) -> WorldPrimitive {
         let form = WorldShape::new(shape, Placement::new(map).unwrap(), DVec3::splat(1e-15));
-        Primitive { form, material: MaterialId(0) }
+        WorldPrimitive { form, material: MaterialId(0) }
     }
 
     proptest! {

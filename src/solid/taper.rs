@@ -1,11 +1,11 @@
-//! The outline of a frustum: a radius that is linear in z, turned about the z axis.
+//! The outline of a truncated cone: a radius that is linear in z, turned about the z axis.
 
 use crate::math::{Bounds, DMat3, DVec3, Mask, Number, Rays, Vector};
 
 use super::span::{Ends, STILL, Spans};
 use super::unit_space::Centred;
 
-/// The face number of the side of a frustum.
+/// The face number of the side of a truncated cone.
 pub(super) const SIDE: u32 = 0;
 
 /// `r(z) = middle + slope · z` for `|z| ≤ 1`.
@@ -78,12 +78,12 @@ impl Taper {
     #[inline(always)]
     pub fn sides<N: Number>(&self, rays: &Centred<N>) -> Spans<N> {
         let tapers = Tapers { middle: rays.t.same(self.middle), slope: rays.t.same(self.slope) };
-        let (lines, off) =
-            (Rays { o: rays.o, d: rays.d }, (rays.o.same(rays.off), rays.t.same(rays.seeming)));
+        let lines = Rays { o: rays.o, d: rays.d };
+        let (off, seeming) = (rays.o.same(rays.off), rays.t.same(rays.seeming));
         if self.slope == 0.0 {
-            tapers.of_kind::<true>(&lines, off)
+            tapers.of_kind::<true>(&lines, off, seeming)
         } else {
-            tapers.of_kind::<false>(&lines, off)
+            tapers.of_kind::<false>(&lines, off, seeming)
         }
     }
 }
@@ -100,13 +100,13 @@ impl<N: Number> Tapers<N> {
     /// point closest to the unit origin, which may be `off` its place; `seeming` is the share of that that is our own
     /// rounding. An end that there is not is infinite.
     #[inline(always)]
-    pub fn sides(&self, rays: &Rays<N>, off: (Vector<N>, N)) -> Spans<N> {
-        self.of_kind::<false>(rays, off)
+    pub fn sides(&self, rays: &Rays<N>, off: Vector<N>, seeming: N) -> Spans<N> {
+        self.of_kind::<false>(rays, off, seeming)
     }
 
     /// The same. `STRAIGHT`: all slopes are 0, and the terms that have them are left out.
     #[inline(always)]
-    fn of_kind<const STRAIGHT: bool>(&self, rays: &Rays<N>, (off, seeming): (Vector<N>, N)) -> Spans<N> {
+    fn of_kind<const STRAIGHT: bool>(&self, rays: &Rays<N>, off: Vector<N>, seeming: N) -> Spans<N> {
         let Self { middle, slope } = *self;
         let Rays { o, d } = *rays;
         let zero = middle.same(0.0);

@@ -215,13 +215,16 @@ fn pruning_keeps_what_a_point_sees() {
     let scene =
         scene::Scene { objects: vec![scene::Object { name: None, solid }], ..scene::Scene::default() };
     let assembly = Assembly::new(&scene).unwrap();
-    let Body::Composite { tree, .. } = &assembly.objects[0].body else { panic!("a composite") };
+    let Body::Composite { whole, .. } = &assembly.objects[0].body else { panic!("a composite") };
     let at = |x: f64, y: f64, z: f64| {
         let p = assembly.scene_frame.inward(DVec3::new(x, y, z));
-        tree.pruned(&assembly.primitives, &Bounds::new(p - 1e-3, p + 1e-3))
+        let (b, mut remains) = (Bounds::new(p - 1e-3, p + 1e-3), PrunedExpr::default());
+        let whole = ExprView::from(&**whole);
+        let found = whole.pruned(&assembly.primitives, &b, &mut Pruning::default(), &mut remains);
+        (found, Expression::from(&remains))
     };
-    assert_eq!(at(0.0, 0.0, 0.0), Pruned::Out);
-    assert_eq!(at(0.7, 0.7, 0.0), Pruned::In);
+    assert_eq!(at(0.0, 0.0, 0.0).0, Classification::Outside);
+    assert_eq!(at(0.7, 0.7, 0.0).0, Classification::Inside);
     // Above the sphere, the cube's face alone is left.
-    assert_eq!(at(1.0, 0.9, 0.0), Pruned::Tree(Tree::Leaf(0)));
+    assert_eq!(at(1.0, 0.9, 0.0), (Classification::Mixed, Expression::new(&CsgTree::Leaf(0))));
 }

@@ -1,4 +1,4 @@
-//! Open tubes: the sides of cylinders, cones and frustums, seen from both sides.
+//! Open tubes: the sides of cylinders, cones and truncated cones, seen from both sides.
 
 use crate::math::{Bounds, DAffine3, DMat3, DVec3, Mask, Number, Placement, Rays, Vector};
 
@@ -6,7 +6,7 @@ use super::span::{Ends, ROUNDING, Spans};
 use super::taper::{Taper, Tapers};
 use super::unit_space::{UnitSpace, at_closest, is_finite, pass_by};
 
-/// The side of a unit frustum under an affine map. Scenes of a million are made of them: the map out of the unit space,
+/// The side of a unit truncated cone under an affine map. Scenes of a million are made of them: the map out of the unit space,
 /// which no ray asks for, is not kept.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tube {
@@ -29,7 +29,7 @@ pub struct Bar {
     pub radius: f64,
 }
 
-/// Where a line crosses the side of a frustum between its caps.
+/// Where a line crosses the side of a truncated cone between its caps.
 #[derive(Clone, Copy, Debug)]
 pub struct SideCrossings<N: Number> {
     /// Into it.
@@ -107,7 +107,7 @@ impl<N: Number> Tubes<N> {
         if !near.any() {
             return SideCrossings::none(t);
         }
-        let side = self.taper.sides(&rays, (self.off, self.seeming));
+        let side = self.taper.sides(&rays, self.off, self.seeming);
         let met = side.any & near;
         SideCrossings {
             enter: Ends { t: t + side.enter.t, ..side.enter },

@@ -99,7 +99,7 @@ impl UnitSpace {
 }
 
 impl<N: Number> Centred<N> {
-    /// Whether the line is certainly beside a frustum.
+    /// Whether the line is certainly beside a truncated cone.
     #[inline(always)]
     pub fn pass_by(&self) -> N::Mask {
         pass_by(self.o, self.t.same(self.off.element_sum()))
@@ -120,7 +120,7 @@ pub(super) fn at_closest<N: Number>(rays: &Rays<N>) -> (Rays<N>, N, N) {
     (Rays { o, d }, d_squared, first + second)
 }
 
-/// Whether lines whose points closest to the unit origin are `o` are certainly beside a frustum, which lies within √2 of
+/// Whether lines whose points closest to the unit origin are `o` are certainly beside a truncated cone, which lies within √2 of
 /// that origin; `off` is the sum of how far a point may be off along each axis.
 #[inline(always)]
 pub(super) fn pass_by<N: Number>(o: Vector<N>, off: N) -> N::Mask {

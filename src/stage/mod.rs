@@ -7,7 +7,7 @@ mod progress;
 use std::ops::{Add, AddAssign, Index, IndexMut};
 use std::time::{Duration, Instant};
 
-pub use progress::{Progress, Step, Task};
+pub use progress::{Progress, Task, WorkStep};
 
 /// One stage of the flow chart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

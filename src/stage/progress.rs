@@ -56,7 +56,7 @@ struct State {
 
 /// How far a task was at some time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Step {
+pub struct WorkStep {
     /// What is at work.
     pub task: Task,
     /// What of it is done, in 0 to 100 of a hundred; absent where it is not known how much there is.
@@ -83,10 +83,10 @@ impl Progress {
     }
 
     /// How far it is now.
-    pub fn now(&self) -> Step {
+    pub fn now(&self) -> WorkStep {
         let [done, total] = [&self.0.done, &self.0.total].map(|count| count.load(Ordering::Relaxed));
         let task = Task::ALL.get(usize::from(self.0.task.load(Ordering::Relaxed)));
-        Step {
+        WorkStep {
             task: task.copied().unwrap_or(Task::Reading),
             // In 128 bits no number of parts overflows.
             percent: (total > 0).then(|| (u128::from(done.min(total)) * 100 / u128::from(total)) as u8),
@@ -110,7 +110,7 @@ mod tests {
     #[test]
     fn a_task_goes_from_nothing_to_all() {
         let progress = Progress::default();
-        assert_eq!(progress.now(), Step { task: Task::Reading, percent: None });
+        assert_eq!(progress.now(), WorkStep { task: Task::Reading, percent: None });
         progress.begin(Task::Cutting, 3);
         let steps = [1, 1, 1, 1].map(|parts| {
             progress.clone().advance(parts);
@@ -119,7 +119,7 @@ mod tests {
         assert_eq!(steps, [33, 66, 100, 100].map(Some));
         progress.begin(Task::Tracing, u64::MAX);
         progress.reach(u64::MAX / 2);
-        assert_eq!(progress.now(), Step { task: Task::Tracing, percent: Some(49) });
+        assert_eq!(progress.now(), WorkStep { task: Task::Tracing, percent: Some(49) });
     }
 
     #[test]

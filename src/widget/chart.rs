@@ -11,7 +11,7 @@ use super::figures;
 use crate::frame::{Frame, Space};
 use crate::math::{Grid, Size};
 use crate::plan::Shading;
-use crate::stage::{Counts, Stage, StageTimes, Step};
+use crate::stage::{Counts, Stage, StageTimes, WorkStep};
 
 /// Columns of a stage's number and name, and the blank before each.
 const NAME_COLUMNS: u16 = 11;
@@ -30,7 +30,7 @@ pub struct FlowChart {
     field: [f64; 2],
     shading: Option<Shading>,
     bytes: Option<usize>,
-    working: Option<Step>,
+    working: Option<WorkStep>,
     /// Whether there is a frame that it is of.
     counted: bool,
     lit: Style,
@@ -70,7 +70,7 @@ impl FlowChart {
 
     /// What is at work: its stage has a mark, its part of the whole in place of its count, and a bar for that.
     #[must_use]
-    pub const fn working(mut self, step: Option<Step>) -> Self {
+    pub const fn working(mut self, step: Option<WorkStep>) -> Self {
         self.working = step;
         self
     }
@@ -161,7 +161,7 @@ impl Line {
         Self { count: "-".to_owned(), busy: false }
     }
 
-    fn at_work(step: Step) -> Self {
+    fn at_work(step: WorkStep) -> Self {
         let count =
             step.percent.map_or_else(|| step.task.name().to_owned(), |percent| format!("{percent} %"));
         Self { count, busy: true }
@@ -277,13 +277,13 @@ mod tests {
 
     #[test]
     fn the_stage_at_work_has_a_mark_and_a_bar() {
-        let step = Step { task: Task::Cutting, percent: Some(50) };
+        let step = WorkStep { task: Task::Cutting, percent: Some(50) };
         let (_, lines) = drawn(&FlowChart::idle().working(Some(step)), 24, 3);
         assert_eq!(
             lines,
             [" 1 OBJECTS        - ░░░░", " 2►LATTICE     50 % ██░░", " 3 VIEW           - ░░░░"]
         );
-        let (_, lines) = drawn(&FlowChart::idle().working(Some(Step { percent: None, ..step })), 24, 2);
+        let (_, lines) = drawn(&FlowChart::idle().working(Some(WorkStep { percent: None, ..step })), 24, 2);
         assert_eq!(lines[1], " 2►LATTICE building ░░░░");
     }
 

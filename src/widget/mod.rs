@@ -8,7 +8,7 @@
 //! use ray13::plan::Options;
 //! use ray13::scene::Scene;
 //! use ray13::tone::Tone;
-//! use ray13::widget::{FlowChart, Picture};
+//! use ray13::widget::{FlowChart, PictureWidget};
 //!
 //! let studio = Studio::new(Scene::default())?;
 //! let frame = studio.draw(&Request {
@@ -25,7 +25,7 @@
 //! let mut buffer = Buffer::empty(Rect::new(0, 0, 46, 11));
 //! FlowChart::new(&frame).render(Rect::new(0, 0, 25, 11), &mut buffer);
 //! if let Some(cells) = &frame.cells {
-//!     Picture(cells).render(Rect::new(26, 0, 20, 10), &mut buffer);
+//!     PictureWidget(cells).render(Rect::new(26, 0, 20, 10), &mut buffer);
 //! }
 //! assert_eq!(buffer[(3, 0)].symbol(), "O"); // of " 1 OBJECTS"
 //! # Ok::<(), ray13::solid::AssemblyError>(())
@@ -36,4 +36,4 @@ pub(crate) mod figures;
 mod picture;
 
 pub use chart::FlowChart;
-pub use picture::Picture;
+pub use picture::PictureWidget;

@@ -10,15 +10,15 @@ use crate::math::Grid;
 
 /// The cells of a finished frame, from the top left corner of the area; what does not fit is cut off.
 #[derive(Clone, Copy, Debug)]
-pub struct Picture<'a>(pub &'a Grid<Cell>);
+pub struct PictureWidget<'a>(pub &'a Grid<Cell>);
 
-impl Widget for Picture<'_> {
+impl Widget for PictureWidget<'_> {
     fn render(self, area: Rect, buffer: &mut Buffer) {
         (&self).render(area, buffer);
     }
 }
 
-impl Widget for &Picture<'_> {
+impl Widget for &PictureWidget<'_> {
     fn render(self, area: Rect, buffer: &mut Buffer) {
         let area = area.intersection(buffer.area);
         for (y, row) in (area.top()..area.bottom()).zip(self.0.rows()) {
@@ -68,7 +68,7 @@ mod tests {
     #[test]
     fn a_cell_keeps_its_glyph_ink_and_paper() {
         let mut buffer = Buffer::empty(Rect::new(0, 0, 4, 3));
-        Picture(&cells(1, 1)).render(Rect::new(2, 1, 2, 2), &mut buffer);
+        PictureWidget(&cells(1, 1)).render(Rect::new(2, 1, 2, 2), &mut buffer);
         let cell = &buffer[(2, 1)];
         assert_eq!((cell.symbol(), cell.fg, cell.bg), ("▓", Color::White, Color::Gray));
         assert_eq!(buffer[(3, 1)].symbol(), " ", "nothing beyond the picture is touched");
@@ -77,9 +77,9 @@ mod tests {
     #[test]
     fn a_picture_larger_than_the_area_is_cut_off() {
         let mut buffer = Buffer::empty(Rect::new(0, 0, 4, 3));
-        Picture(&cells(9, 9)).render(Rect::new(1, 1, 2, 9), &mut buffer);
+        PictureWidget(&cells(9, 9)).render(Rect::new(1, 1, 2, 9), &mut buffer);
         assert_eq!(buffer[(2, 2)].symbol(), "▓");
         assert_eq!(buffer[(3, 2)].symbol(), " ");
-        Picture(&cells(0, 0)).render(buffer.area, &mut buffer);
+        PictureWidget(&cells(0, 0)).render(buffer.area, &mut buffer);
     }
 }

@@ -34,7 +34,11 @@ fn is_also_a_file_that_is_not_there_or_no_text() {
     assert!(message.contains("hanyang"), "the embedded scenes are not named: {message}");
     let bytes = folder.join("bytes.scene");
     fs::write(&bytes, b"sphere(1);\xff\xfe").unwrap();
-    fails(&run(&["check", bytes.to_str().unwrap()]), 2);
+    let message = fails(&run(&["check", bytes.to_str().unwrap()]), 2);
+    assert!(message.contains("the scene language is UTF-8 text"), "{message}");
+    fs::write(&bytes, b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR").unwrap();
+    let message = fails(&run(&["check", bytes.to_str().unwrap()]), 2);
+    assert!(message.contains("this is a PNG picture, not a scene"), "{message}");
 }
 
 #[test]

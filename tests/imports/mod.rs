@@ -1,5 +1,11 @@
 //! Finds the rooms that a source file names, by `crate::` and by `super::`, anywhere in its code.
 
+pub mod circles;
+pub mod names;
+mod tokens;
+
+use tokens::{Token, tokens};
+
 /// One room named in a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Import {
@@ -13,12 +19,6 @@ pub struct Import {
 pub struct Source<'a> {
     name: &'a str,
     tokens: Vec<Token<'a>>,
-}
-
-#[derive(Clone, Copy)]
-struct Token<'a> {
-    line: usize,
-    text: &'a str,
 }
 
 /// The `mod` lines of lib.rs, in their order.
@@ -132,102 +132,6 @@ impl<'a> Source<'a> {
             }
         }
     }
-}
-
-/// Words, `::` and single signs. Comments, strings and character literals are left out.
-fn tokens(text: &str) -> Vec<Token<'_>> {
-    let mut found = Vec::new();
-    let mut line = 1;
-    let mut rest = text;
-    while let Some(first) = rest.chars().next() {
-        let length = if rest.starts_with("//") {
-            rest.find('\n').unwrap_or(rest.len())
-        } else if rest.starts_with("/*") {
-            block_comment(rest)
-        } else if let Some(length) = literal(rest) {
-            length
-        } else if rest.starts_with("::") {
-            found.push(Token { line, text: "::" });
-            2
-        } else if first.is_alphanumeric() || first == '_' {
-            let word = rest.strip_prefix("r#").unwrap_or(rest);
-            let prefix = rest.len() - word.len();
-            let end = word.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(word.len());
-            found.push(Token { line, text: &rest[..prefix + end] });
-            prefix + end
-        } else {
-            if !first.is_whitespace() {
-                found.push(Token { line, text: &rest[..first.len_utf8()] });
-            }
-            first.len_utf8()
-        };
-        line += rest[..length].matches('\n').count();
-        rest = &rest[length..];
-    }
-    found
-}
-
-/// The length of the block comment, with those nested in it, at the start of `text`.
-fn block_comment(text: &str) -> usize {
-    let mut depth = 0_usize;
-    let mut at = 0;
-    while at < text.len() {
-        let rest = &text[at..];
-        if rest.starts_with("/*") {
-            depth += 1;
-            at += 2;
-        } else if rest.starts_with("*/") {
-            depth -= 1;
-            at += 2;
-            if depth == 0 {
-                return at;
-            }
-        } else {
-            at += rest.chars().next().map_or(1, char::len_utf8);
-        }
-    }
-    text.len()
-}
-
-/// The length of the string or character literal at the start of `text`, if there is one.
-fn literal(text: &str) -> Option<usize> {
-    let body = text.trim_start_matches(['b', 'c']);
-    let prefix = text.len() - body.len();
-    if prefix > 1 {
-        return None;
-    }
-    if let Some(raw) = body.strip_prefix('r') {
-        let hashes = raw.len() - raw.trim_start_matches('#').len();
-        if let Some(inside) = raw[hashes..].strip_prefix('"') {
-            let close = format!("\"{}", "#".repeat(hashes));
-            let end = inside.find(&close).map_or(inside.len(), |e| e + close.len());
-            return Some(text.len() - inside.len() + end);
-        }
-        return None;
-    }
-    if body.starts_with('"') {
-        return Some(prefix + quoted(body, '"')?);
-    }
-    let inside = body.strip_prefix('\'')?;
-    // A lifetime has no closing quote after its first character.
-    let first = inside.chars().next()?;
-    (first == '\\' || inside[first.len_utf8()..].starts_with('\''))
-        .then(|| quoted(body, '\'').map(|n| prefix + n))?
-}
-
-/// The length up to the closing quote, escapes skipped.
-fn quoted(text: &str, quote: char) -> Option<usize> {
-    let mut escaped = false;
-    for (at, c) in text.char_indices().skip(1) {
-        if escaped {
-            escaped = false;
-        } else if c == '\\' {
-            escaped = true;
-        } else if c == quote {
-            return Some(at + c.len_utf8());
-        }
-    }
-    None
 }
 
 mod the_finder_itself {

@@ -43,10 +43,7 @@ mod reader {
         thread::Builder::new().name("keys".to_owned()).spawn(read).map(drop)
     }
 }
-
-use std::io;
-
-use ratatui::crossterm::event::KeyEvent;
+mod received;
 
 #[cfg(test)]
 pub use answers::in_command;
@@ -54,19 +51,4 @@ pub use answers::{Answer, Colored};
 #[cfg(unix)]
 pub use reader::discard;
 pub use reader::start;
-
-/// What the terminal sent.
-#[derive(Debug)]
-pub enum Input {
-    /// A key was pressed, or repeats.
-    Key(KeyEvent),
-    /// An answer to something that we may have asked.
-    Answer(Answer),
-    /// The terminal has another size.
-    #[cfg(not(unix))]
-    Resized,
-    /// The terminal is gone.
-    HungUp,
-    /// The terminal cannot be read.
-    Failed(io::Error),
-}
+pub use received::Input;

@@ -1,6 +1,6 @@
 //! Text to tokens, one at a time; blanks and comments are passed over.
 
-use super::syntax::Span;
+use super::syntax::TextSpan;
 
 /// A token and its place.
 #[derive(Clone, Copy, Debug)]
@@ -8,7 +8,7 @@ pub struct Token<'a> {
     pub kind: TokenKind,
     /// As it is written.
     pub text: &'a str,
-    pub span: Span,
+    pub span: TextSpan,
 }
 
 /// What a token is.
@@ -75,7 +75,7 @@ impl<'a> Lexer<'a> {
     }
 
     fn token(&self, start: usize, kind: TokenKind) -> Token<'a> {
-        let span = Span { start: start as u32, end: self.at as u32 };
+        let span = TextSpan { start: start as u32, end: self.at as u32 };
         Token { kind, text: &self.source[start..self.at], span }
     }
 

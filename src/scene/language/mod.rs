@@ -6,6 +6,7 @@
 
 mod build;
 mod css_colors;
+mod dictionary;
 mod lexer;
 mod nearest;
 mod parser;
@@ -23,11 +24,12 @@ pub use reference::reference;
 
 use super::diagnostic::{Reported, Sink};
 use super::memory::Memory;
-use super::{Diagnostics, ReadOptions, Scene};
+use super::options::ReadOptions;
+use super::{Diagnostics, Scene};
 use crate::stage::{Progress, Task};
 use build::{Builder, Flow};
 use parser::{Parser, Reading};
-use syntax::Event;
+use syntax::SyntaxEvent;
 
 /// Reads a scene. `text` must be no longer than [`super::MAX_FILE_BYTES`]: places are kept in 32 bits.
 pub(super) fn read(name: &str, text: &str, options: &ReadOptions) -> Result<Scene, Diagnostics> {
@@ -59,7 +61,7 @@ fn each(
     progress: Option<&Progress>,
     builder: &mut Builder,
     grammar: &mut Sink,
-    f: impl Fn(&mut Builder, &Event<'_>) -> Flow,
+    f: impl Fn(&mut Builder, &SyntaxEvent<'_>) -> Flow,
 ) -> Result<Flow, Reported> {
     if let Some(progress) = progress {
         progress.begin(Task::Reading, text.len() as u64);
@@ -72,7 +74,7 @@ fn each(
             Flow::On => {}
             flow => return Ok(flow),
         }
-        if let Event::Open(call) = event {
+        if let SyntaxEvent::Open(call) = event {
             if let Some(progress) = progress {
                 progress.reach(u64::from(call.name.span.start));
             }

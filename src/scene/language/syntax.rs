@@ -5,20 +5,20 @@ use std::ops::Range;
 
 /// Bytes of the source, `start..end`. 32 bits hold every place, because files are limited to 256 MiB.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Span {
+pub struct TextSpan {
     pub start: u32,
     pub end: u32,
 }
 
-impl Span {
+impl TextSpan {
     /// From the start of this to the end of `last`.
     pub fn to(self, last: Self) -> Self {
         Self { start: self.start, end: last.end }
     }
 }
 
-impl From<Span> for Range<usize> {
-    fn from(span: Span) -> Self {
+impl From<TextSpan> for Range<usize> {
+    fn from(span: TextSpan) -> Self {
         span.start as usize..span.end as usize
     }
 }
@@ -27,13 +27,13 @@ impl From<Span> for Range<usize> {
 #[derive(Clone, Copy, Debug)]
 pub struct Name<'a> {
     pub text: &'a str,
-    pub span: Span,
+    pub span: TextSpan,
 }
 
 /// What the parser comes upon, in file order. Nothing holds a whole file: what is read is used and forgotten.
 #[derive(Debug)]
-pub enum Event<'a> {
-    /// A call begins; its children, if any, come before its [`Event::Close`].
+pub enum SyntaxEvent<'a> {
+    /// A call begins; its children, if any, come before its [`SyntaxEvent::Close`].
     Open(Call<'a>),
     /// The call that was opened last, and not yet closed, ends.
     Close,
@@ -47,7 +47,7 @@ pub struct Call<'a> {
     pub modifiers: Modifiers,
     pub name: Name<'a>,
     /// From the opening to the closing parenthesis.
-    pub parentheses: Span,
+    pub parentheses: TextSpan,
     pub arguments: Vec<Argument<'a>>,
     /// Whether a `;` ends it, so that it has no children.
     pub is_ended: bool,
@@ -75,7 +75,7 @@ pub struct Argument<'a> {
 #[derive(Debug)]
 pub struct Spanned<'a> {
     pub value: Value<'a>,
-    pub span: Span,
+    pub span: TextSpan,
 }
 
 /// A literal.

@@ -1,9 +1,6 @@
 //! What a word of the language is: its arguments, what they take, their defaults. The words themselves are
 //! in [`super::words`]; the builder, the messages and a test of `docs/scene-language.md` all read that table.
 
-use super::nearest::nearest;
-use super::words::{UNSUPPORTED, WORDS};
-
 /// The settings that OpenSCAD passes down to every word.
 pub const FRAGMENT_SETTINGS: [&str; 3] = ["$fn", "$fa", "$fs"];
 
@@ -152,30 +149,4 @@ impl Takes {
             Self::Ignored => "anything",
         }
     }
-}
-
-/// What a name in the text is.
-pub enum Known {
-    /// A word of the language.
-    Word(&'static Word),
-    /// A word of OpenSCAD that has no solid here, and why.
-    Unsupported(&'static str),
-    /// No word.
-    Unknown,
-}
-
-/// Looks a name up.
-pub fn look_up(name: &str) -> Known {
-    if let Some(word) = WORDS.iter().find(|word| word.name == name) {
-        return Known::Word(word);
-    }
-    if let Some((_, why)) = UNSUPPORTED.iter().find(|(word, _)| *word == name) {
-        return Known::Unsupported(why);
-    }
-    Known::Unknown
-}
-
-/// The word nearest to a name that is none.
-pub fn nearest_word(name: &str) -> Option<&'static str> {
-    nearest(name, WORDS.iter().map(|word| word.name))
 }

@@ -5,7 +5,7 @@ use crate::scene::Diagnostic;
 use crate::scene::diagnostic::{Reported, Sink};
 
 use super::ignored::{Extra, Ignored};
-use super::tokens::{Token, Tokens};
+use super::tokens::{NffToken, Tokens};
 
 /// The words that begin entities, with what each is.
 pub const ENTITIES: [(&str, &str); 8] = [
@@ -42,18 +42,18 @@ pub fn begins_an_entity(word: &[u8]) -> bool {
 
 /// A number and where it stands.
 #[derive(Clone, Copy, Debug)]
-pub struct Number<'a> {
+pub struct NumberToken<'a> {
     /// Finite.
     pub value: f64,
     /// Its word.
-    pub token: Token<'a>,
+    pub token: NffToken<'a>,
 }
 
 /// An entity whose numbers are being read.
 #[derive(Debug)]
 pub struct Entity<'r, 'a> {
     /// The word that began it.
-    pub keyword: Token<'a>,
+    pub keyword: NffToken<'a>,
     /// What follows.
     pub tokens: &'r mut Tokens<'a>,
     /// Where remarks go.
@@ -65,21 +65,21 @@ pub struct Entity<'r, 'a> {
 impl<'a> Entity<'_, 'a> {
     /// Takes a finite number, or reports what stands in its place. A word that is no number stays the next.
     #[inline]
-    pub fn number(&mut self, name: impl Fn() -> String) -> Result<Number<'a>, Reported> {
+    pub fn number(&mut self, name: impl Fn() -> String) -> Result<NumberToken<'a>, Reported> {
         let Some(token) = self.tokens.peek() else { return Err(self.cut_off(&name())) };
         match token.number() {
             // `inf` and `nan` are numbers for Rust; here they are words.
             Some(value) if value.is_finite() && token.begins_a_number() => {
                 self.tokens.take();
-                Ok(Number { value, token })
+                Ok(NumberToken { value, token })
             }
             _ => Err(self.no_number(token, &name())),
         }
     }
 
     /// Takes one number for each name.
-    pub fn numbers<const N: usize>(&mut self, names: [&str; N]) -> Result<[Number<'a>; N], Reported> {
-        let mut found = [Number { value: 0.0, token: self.keyword }; N];
+    pub fn numbers<const N: usize>(&mut self, names: [&str; N]) -> Result<[NumberToken<'a>; N], Reported> {
+        let mut found = [NumberToken { value: 0.0, token: self.keyword }; N];
         for (number, name) in found.iter_mut().zip(names) {
             *number = self.number(|| name.to_owned())?;
         }
@@ -119,12 +119,12 @@ impl<'a> Entity<'_, 'a> {
     }
 
     /// Reports a number that breaks a rule.
-    pub fn check(&mut self, number: Number, holds: bool, rule: &str) -> Result<(), Reported> {
+    pub fn check(&mut self, number: NumberToken, holds: bool, rule: &str) -> Result<(), Reported> {
         if holds { Ok(()) } else { Err(self.wrong(number.token, rule)) }
     }
 
     /// Reports a number that breaks a rule, or the whole entity by its keyword.
-    pub fn wrong(&mut self, token: Token, rule: &str) -> Reported {
+    pub fn wrong(&mut self, token: NffToken, rule: &str) -> Reported {
         let error = Diagnostic::error(token.span(), format!("`{}`: {rule}", self.keyword.word));
         let is_number = token != self.keyword;
         let label = if is_number { format!("this is {}", token.shown()) } else { String::new() };
@@ -138,7 +138,7 @@ impl<'a> Entity<'_, 'a> {
         self.sink.report(error.help("the file is cut off: get it again whole, or take this entity out"))
     }
 
-    fn no_number(&mut self, token: Token<'a>, missing: &str) -> Reported {
+    fn no_number(&mut self, token: NffToken<'a>, missing: &str) -> Reported {
         let entity = self.keyword.word;
         if begins_an_entity(token.word.as_bytes()) {
             let message = format!("`{entity}` ends too early: {missing} is missing");

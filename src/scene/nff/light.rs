@@ -9,7 +9,7 @@ use crate::scene::{Anchor, Diagnostic, Light, Material, MaterialId, Scene};
 
 use super::entity::{Entity, begins_an_entity};
 use super::ignored::Extra;
-use super::tokens::Token;
+use super::tokens::NffToken;
 
 /// The lights, some perhaps without an intensity of their own.
 #[derive(Debug, Default)]
@@ -68,7 +68,7 @@ fn intensity(entity: &mut Entity) -> Result<DVec3, Reported> {
 
 /// Ignores what programs write behind the index, on its line: a share of ambient light, and the name of a
 /// texture. Blanks part a name into words, so all of them are passed over.
-fn ignore_rest(entity: &mut Entity, index: &Token) {
+fn ignore_rest(entity: &mut Entity, index: &NffToken) {
     let mut end = index.span().end;
     let (mut numbers, mut words) = (0, 0);
     while let Some(token) = entity.tokens.peek_on_line(end) {

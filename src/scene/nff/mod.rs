@@ -29,7 +29,7 @@ use entity::{ENTITIES, Entity, OTHER_SHAPES, begins_an_entity};
 use ignored::{Extra, Ignored};
 use light::{Fills, Lamps};
 use solids::Solids;
-use tokens::{Token, Tokens};
+use tokens::{NffToken, Tokens};
 
 /// Reads a scene.
 pub(super) fn read(name: &str, text: &str, options: &ReadOptions) -> Result<Scene, Diagnostics> {
@@ -46,7 +46,7 @@ pub(super) fn read(name: &str, text: &str, options: &ReadOptions) -> Result<Scen
 
 /// The word `nff`, with which a file of Sense8's `WorldToolKit` begins, whose format has the same name.
 /// Comments there begin with `//`.
-fn sense8_keyword(text: &str) -> Option<Token<'_>> {
+fn sense8_keyword(text: &str) -> Option<NffToken<'_>> {
     let mut tokens = Tokens::new(text, 0..text.len());
     loop {
         let token = tokens.take()?;
@@ -157,7 +157,7 @@ impl Reader {
     }
 
     /// Reads nothing of a file of Sense8's, and says so.
-    fn of_another_format(keyword: Token) -> Self {
+    fn of_another_format(keyword: NffToken) -> Self {
         let mut reader = Self::default();
         let message = "this is another format that is called NFF: that of Sense8's WorldToolKit";
         let error = Diagnostic::error(keyword.span(), message).label("here it says so");
@@ -178,7 +178,7 @@ impl Reader {
         self.ignored.append(next.ignored);
     }
 
-    fn entity<'a>(&mut self, keyword: Token<'a>, tokens: &mut Tokens<'a>) -> Result<(), Reported> {
+    fn entity<'a>(&mut self, keyword: NffToken<'a>, tokens: &mut Tokens<'a>) -> Result<(), Reported> {
         let mut entity = Entity { keyword, tokens, sink: &mut self.sink, ignored: &mut self.ignored };
         match keyword.word {
             "v" => self.views.push(view::camera(&mut entity)?),
@@ -205,7 +205,7 @@ impl Reader {
         Ok(())
     }
 
-    fn other_shape(&mut self, keyword: Token, tokens: &mut Tokens, what: &str) -> Result<(), Reported> {
+    fn other_shape(&mut self, keyword: NffToken, tokens: &mut Tokens, what: &str) -> Result<(), Reported> {
         if self.skip_unsupported {
             self.ignored.add(Extra::Shape, keyword.span());
             pass_over(tokens);
@@ -219,7 +219,7 @@ impl Reader {
             .report(error.help("write its faces as `p`, the number of corners and their coordinates")))
     }
 
-    fn no_entity(&mut self, token: Token) -> Reported {
+    fn no_entity(&mut self, token: NffToken) -> Reported {
         let message = if token.begins_a_number() {
             "a number stands where an entity begins"
         } else {

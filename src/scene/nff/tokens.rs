@@ -4,14 +4,14 @@ use std::ops::Range;
 
 /// One word of the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Token<'a> {
+pub struct NffToken<'a> {
     /// The word itself, never empty.
     pub word: &'a str,
     /// Where it begins, in bytes.
     pub start: usize,
 }
 
-impl Token<'_> {
+impl NffToken<'_> {
     /// The bytes that it takes.
     pub fn span(&self) -> Range<usize> {
         self.start..self.start + self.word.len()
@@ -72,7 +72,7 @@ pub struct Tokens<'a> {
     text: &'a str,
     /// Where the search for the word behind `next` begins.
     at: usize,
-    next: Option<Token<'a>>,
+    next: Option<NffToken<'a>>,
 }
 
 impl<'a> Tokens<'a> {
@@ -88,18 +88,18 @@ impl<'a> Tokens<'a> {
 
     /// The next word, which stays the next.
     #[inline]
-    pub fn peek(&self) -> Option<Token<'a>> {
+    pub fn peek(&self) -> Option<NffToken<'a>> {
         self.next
     }
 
     /// The next word, if no line ends between it and a place before it, in bytes.
-    pub fn peek_on_line(&self, after: usize) -> Option<Token<'a>> {
+    pub fn peek_on_line(&self, after: usize) -> Option<NffToken<'a>> {
         self.next.filter(|token| !self.text[after..token.start].contains('\n'))
     }
 
     /// Takes the next word.
     #[inline]
-    pub fn take(&mut self) -> Option<Token<'a>> {
+    pub fn take(&mut self) -> Option<NffToken<'a>> {
         let token = self.next;
         self.next = self.scan();
         token
@@ -110,7 +110,7 @@ impl<'a> Tokens<'a> {
         self.next.map_or(0, |token| self.text.len() - token.start)
     }
 
-    fn scan(&mut self) -> Option<Token<'a>> {
+    fn scan(&mut self) -> Option<NffToken<'a>> {
         let bytes = self.text.as_bytes();
         let until = |from: usize, stop: fn(&u8) -> bool| {
             bytes[from..].iter().position(stop).map_or(bytes.len(), |length| from + length)
@@ -122,7 +122,7 @@ impl<'a> Tokens<'a> {
         }
         self.at = until(start, u8::is_ascii_whitespace);
         // Blanks are ASCII, so both ends are on character boundaries.
-        (start < self.at).then(|| Token { word: &self.text[start..self.at], start })
+        (start < self.at).then(|| NffToken { word: &self.text[start..self.at], start })
     }
 }
 
@@ -143,7 +143,7 @@ mod tests {
     #[test]
     fn numbers_are_those_that_rust_reads() {
         let agrees = |word: &str| {
-            let read = Token { word, start: 0 }.number().map(f64::to_bits);
+            let read = NffToken { word, start: 0 }.number().map(f64::to_bits);
             assert_eq!(read, word.parse::<f64>().ok().map(f64::to_bits), "{word}");
         };
         // All words of up to four of these.

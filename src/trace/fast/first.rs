@@ -9,8 +9,8 @@ use fearless_simd::Simd;
 use crate::lattice::{Child, FRUSTA, SLACK};
 use crate::math::{Bounds, Mask, Number, RayPacket, Rays, Real};
 use crate::solid::{
-    Ball, Body, CsgQuery, Ends, ExprView, FirstCrossings, PacketCrossings, Spans, Starts, TRange, WorldShape,
-    first_of_expressions, firsts_of_spans, firsts_of_surface, with_spans,
+    Ball, Body, CsgQuery, Ends, ExprView, FirstCrossings, PacketCrossings, RayStarts, Spans, SurfaceQuery,
+    TRange, WorldShape, first_of_expressions, firsts_of_spans, firsts_of_surface, with_spans,
 };
 
 use super::Fast;
@@ -177,7 +177,8 @@ impl Fast<'_> {
                     return false;
                 }
                 let (rays, departures) = (source.full_rays, source.full_departures);
-                firsts_of_surface(simd, rays, wanted, (primitive, *index), departures, sheared, found);
+                let asked = SurfaceQuery { packet: rays, wanted, departures };
+                firsts_of_surface(simd, &asked, primitive, *index, sheared, found);
                 if found.any != 0 {
                     offer_found(simd, found, object, nearest);
                 }
@@ -237,7 +238,7 @@ impl Fast<'_> {
 
 /// Which rays may have a span, or start on a surface, and may not: of these none is left.
 #[inline(always)]
-fn doubts<N: Number>(spans: &mut Spans<N>, form: &WorldShape, starts: &Starts<N>) -> N::Mask {
+fn doubts<N: Number>(spans: &mut Spans<N>, form: &WorldShape, starts: &RayStarts<N>) -> N::Mask {
     let at_start = starts.near(&spans.enter, form) | starts.near(&spans.leave, form);
     let doubtful = spans.may & (!spans.any | at_start);
     spans.any = spans.any & !doubtful;

@@ -9,8 +9,8 @@ use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
 use crate::lattice::{BoundingSphere, Child, FRUSTA, Frustum, FrustumHits, SLACK};
 use crate::math::{Bounds, DVec3, LANES, Lanes, Mask, Number, ROWS, RayPacket, Rays, lanes, row_of};
 use crate::solid::{
-    Ball, Body, Crossing, CsgQuery, Departures, ExprView, FirstCrossings, PacketCrossings, Spans, Starts,
-    TRange, WorldShape, first_of_expressions, firsts_of_spans, firsts_of_surface, with_spans,
+    Ball, Body, Crossing, CsgQuery, Departures, ExprView, FirstCrossings, PacketCrossings, RayStarts, Spans,
+    SurfaceQuery, TRange, WorldShape, first_of_expressions, firsts_of_spans, firsts_of_surface, with_spans,
 };
 
 use super::Fast;
@@ -299,7 +299,7 @@ impl Fast<'_> {
                 let inward = mask64x8::from_bitmask(simd, departures.inward >> (row * LANES) & 0xFF);
                 let off = Some(departures.off.load(simd, row));
                 let FirstCrossings { end, any, .. } =
-                    firsts_of_spans(spans, form, &Starts { here, inward, off });
+                    firsts_of_spans(spans, form, &RayStarts { here, inward, off });
                 blocked = any & (end.t + end.error).is_below(distance);
             }
             shadow_packet.blocked |= (blocked.bits() << (row * LANES)) & near;
@@ -355,7 +355,8 @@ impl Fast<'_> {
                 let wanted = wanted & !departures.leaving(simd, *index);
                 if wanted != 0 {
                     let (rays, from) = (&shadow_packet.rays, Some(departures));
-                    firsts_of_surface(simd, rays, wanted, (primitive, *index), from, sheared, found);
+                    let asked = SurfaceQuery { packet: rays, wanted, departures: from };
+                    firsts_of_surface(simd, &asked, primitive, *index, sheared, found);
                     shadow_packet.block(found);
                 }
             }
@@ -438,7 +439,7 @@ fn single<S: Simd>(
             }
             let here = departures.primitive.load(simd, row).is_equal(f64x8::splat(simd, f64::from(index)));
             let off = Some(departures.off.load(simd, row));
-            let starts = Starts { here, inward: row_of(simd, departures.inward, row), off };
+            let starts = RayStarts { here, inward: row_of(simd, departures.inward, row), off };
             let FirstCrossings { end, any, .. } = firsts_of_spans(spans, form, &starts);
             let blocked = any & (end.t + end.error).is_below(shadow_packet.distance.load(simd, row));
             shadow_packet.blocked |= blocked.bits() << (row * LANES) & wanted;

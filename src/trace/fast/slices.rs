@@ -2,7 +2,7 @@
 
 use crate::lattice::{LooseOctree, MANY};
 use crate::math::{Bounds, DVec3};
-use crate::solid::{Classification, ExprView, Primitive};
+use crate::solid::{Classification, ExprView, WorldPrimitive};
 
 use super::Fast;
 use super::memory::TileMemory;
@@ -73,7 +73,7 @@ fn slice<R: Slices>(
         return;
     }
     let mut remains = memory.remains.pop().unwrap_or_default();
-    if expression.pruned(primitives, &b, &mut memory.pruning, &mut remains) == Classification::Some {
+    if expression.pruned(primitives, &b, &mut memory.pruning, &mut remains) == Classification::Mixed {
         let left = ExprView::from(&remains);
         let few = if halvings + CUTS > HALVINGS { R::FEW } else { SOME };
         if left.leaves.len() <= few || halvings == 0 {
@@ -95,7 +95,7 @@ pub type Whole<'a> = (&'a LooseOctree, ExprView<'a>);
 fn begin<'e>(
     whole: Option<Whole<'e>>,
     left: ExprView<'e>,
-    primitives: &[Primitive],
+    primitives: &[WorldPrimitive],
     b: &Bounds,
 ) -> Option<ExprView<'e>> {
     let Some((loose, whole)) = whole.filter(|_| left.leaves.len() >= MANY) else { return Some(left) };

@@ -5,7 +5,7 @@ use fearless_simd::{Level, Simd};
 
 use crate::lattice::{Basis, FRUSTA, Frustum, FrustumSoa, Spread};
 use crate::math::{LaneVector, Lanes, Number, RayPacket, Real};
-use crate::solid::{Departures, Starts};
+use crate::solid::{Departures, RayStarts};
 use crate::view::TileCamera;
 
 use super::super::exact::most_moved;
@@ -34,10 +34,15 @@ impl<'a, T: Real> PacketSource<'a, T> {
 
     /// The surfaces that the rays of a row start on, as seen from a primitive.
     #[inline(always)]
-    pub fn starts<S: Simd>(&self, simd: S, row: usize, primitive: T::SimdReal<S>) -> Starts<T::SimdReal<S>> {
+    pub fn starts<S: Simd>(
+        &self,
+        simd: S,
+        row: usize,
+        primitive: T::SimdReal<S>,
+    ) -> RayStarts<T::SimdReal<S>> {
         let no = T::row_of(simd, 0, row);
-        let Some(departures) = self.departures else { return Starts { here: no, inward: no, off: None } };
-        Starts {
+        let Some(departures) = self.departures else { return RayStarts { here: no, inward: no, off: None } };
+        RayStarts {
             here: departures.primitive.load(simd, row).is_equal(primitive),
             inward: T::row_of(simd, departures.inward, row),
             off: Some(departures.off.load(simd, row)),

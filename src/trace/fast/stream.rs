@@ -4,7 +4,7 @@
 
 use crate::lattice::{Candidate, Stream, StreamRays, entry};
 use crate::math::{LANES, Ray, RayIndex, RayPacket, lanes, places};
-use crate::solid::{Crossing, Departure, Departures, Eight, Kind, Scratch, WorldShape};
+use crate::solid::{BatchKind, Crossing, Departure, Departures, RayBatch, Scratch, WorldShape};
 use crate::stage::{Counts, Meter, Silent};
 
 use super::Fast;
@@ -25,7 +25,7 @@ pub struct Apart {
     leaves: Vec<u32>,
     balls: Queue,
     tubes: Queue,
-    eight: Eight,
+    batch: RayBatch,
     scratch: Scratch,
 }
 
@@ -205,7 +205,7 @@ impl Fast<'_> {
 
     /// Asks all rays of a stream.
     fn ask_stream(&self, apart: &mut Apart, asking: &mut impl Asking, counts: &mut Counts) {
-        let Apart { stream, rays, leaves, balls, tubes, eight, scratch } = apart;
+        let Apart { stream, rays, leaves, balls, tubes, batch, scratch } = apart;
         let mut visited = 0;
         let mut meter = Meter::new(Silent);
         self.boxes.walk_stream(stream, &mut visited, &mut |met: &[Candidate], ways: &mut StreamRays| {
@@ -215,10 +215,10 @@ impl Fast<'_> {
                 }
                 let Candidate { ray: number, object, .. } = *meeting;
                 let (kind, index) = self.assembly.kind(object);
-                if kind != Kind::Other {
+                if kind != BatchKind::Other {
                     // What is convex is not met again by a ray that leaves it.
                     if leaves[number as usize] != index {
-                        let queue = if kind == Kind::Ball { &mut *balls } else { &mut *tubes };
+                        let queue = if kind == BatchKind::Ball { &mut *balls } else { &mut *tubes };
                         queue.0.push(Question { meeting: *meeting, index });
                     }
                     continue;
@@ -235,7 +235,7 @@ impl Fast<'_> {
                 while queue.0.len() >= least {
                     let some = queue.0.len().saturating_sub(LANES);
                     meter.counts.primitive_tests += (queue.0.len() - some) as u64;
-                    self.ask_eight((&queue.0[some..], is_tubes), rays, eight, asking, ways);
+                    self.ask_batch((&queue.0[some..], is_tubes), rays, batch, asking, ways);
                     queue.0.truncate(some);
                 }
             }
@@ -245,28 +245,28 @@ impl Fast<'_> {
     }
 
     /// Asks up to eight rays about a primitive each, all of one form.
-    fn ask_eight(
+    fn ask_batch(
         &self,
         (questions, tubes): (&[Question], bool),
         rays: &[Alone],
-        eight: &mut Eight,
+        batch: &mut RayBatch,
         asking: &mut impl Asking,
         ways: &mut StreamRays,
     ) {
         let primitives = &self.assembly.primitives;
         for (lane, Question { meeting, index }) in questions.iter().enumerate() {
-            eight.set(lane, &rays[meeting.ray as usize].ray, &primitives[*index as usize]);
+            batch.set(lane, &rays[meeting.ray as usize].ray, &primitives[*index as usize]);
         }
         if tubes {
-            eight.meet_tubes(self.level);
+            batch.meet_tubes(self.level);
         } else {
-            eight.meet_balls(self.level);
+            batch.meet_balls(self.level);
         }
-        let met = eight.met(tubes);
+        let met = batch.met(tubes);
         for (lane, Question { meeting, index }) in questions.iter().enumerate() {
             if met >> lane & 1 == 1 && ways.matters(meeting) {
                 let Alone { at, departure, .. } = &rays[meeting.ray as usize];
-                if let Some(crossing) = eight.first(lane, &primitives[*index as usize], *index, *departure) {
+                if let Some(crossing) = batch.first(lane, &primitives[*index as usize], *index, *departure) {
                     ways.look(meeting.ray, asking.meet(*at, meeting.object, &crossing));
                 }
             }

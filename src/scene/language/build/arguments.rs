@@ -6,11 +6,11 @@ use crate::math::DVec3;
 use crate::scene::Diagnostic;
 use crate::scene::diagnostic::{Reported, Sink};
 use crate::scene::language::nearest::{nearest, quoted};
-use crate::scene::language::syntax::{Argument, Call, Span, Spanned, Value};
+use crate::scene::language::syntax::{Argument, Call, Spanned, TextSpan, Value};
 use crate::scene::language::vocabulary::{FRAGMENT_SETTINGS, Meaning, Parameter, Takes, Word};
 
 /// The arguments of one call, each at its parameter.
-pub struct Arguments<'c, 'a> {
+pub struct BoundArguments<'c, 'a> {
     word: &'static Word,
     call: &'c Call<'a>,
     /// One place for each parameter; `undef` counts as not given.
@@ -19,7 +19,7 @@ pub struct Arguments<'c, 'a> {
     pub fragments: Option<f64>,
 }
 
-impl<'c, 'a> Arguments<'c, 'a> {
+impl<'c, 'a> BoundArguments<'c, 'a> {
     /// Matches names and positions. All mismatches are reported, not the first only.
     pub fn bind(call: &'c Call<'a>, word: &'static Word, sink: &mut Sink) -> Result<Self, Reported> {
         let mut bound = Self { word, call, values: vec![None; word.arguments.len()], fragments: None };
@@ -107,7 +107,7 @@ impl<'c, 'a> Arguments<'c, 'a> {
     }
 
     /// The first argument given that is none of `names`.
-    pub fn other_than(&self, names: &[&str]) -> Option<(&'static str, Span)> {
+    pub fn other_than(&self, names: &[&str]) -> Option<(&'static str, TextSpan)> {
         let mut given = self.word.arguments.iter().zip(&self.values);
         given.find_map(|(parameter, value)| match value {
             Some(value) if !names.contains(&parameter.name) => Some((parameter.name, value.span)),
@@ -121,7 +121,7 @@ impl<'c, 'a> Arguments<'c, 'a> {
     }
 
     /// The place of an argument, or of the word where it is not given.
-    pub fn place_of(&self, name: &str) -> Span {
+    pub fn place_of(&self, name: &str) -> TextSpan {
         self.value(name).map_or(self.call.name.span, |value| value.span)
     }
 
@@ -284,7 +284,7 @@ fn clamped(number: f64) -> f64 {
     if number > 0.0 { number.min(1.0) } else { 0.0 }
 }
 
-fn no_color(name: &str, place: Span) -> Diagnostic {
+fn no_color(name: &str, place: TextSpan) -> Diagnostic {
     let error = Diagnostic::error(place, format!("there is no colour \"{}\"", quoted(name)));
     error.help(match colors::nearest_name(name) {
         Some(right) => format!("did you mean \"{right}\"?"),
@@ -295,7 +295,7 @@ fn no_color(name: &str, place: Span) -> Diagnostic {
 /// `$fn`, `$fa` or `$fs`: a number, or `undef` for none.
 pub fn setting(
     name: &str,
-    place: Span,
+    place: TextSpan,
     value: &Spanned<'_>,
     sink: &mut Sink,
 ) -> Result<Option<f64>, Reported> {

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use crate::math::{Bounds, DAffine3, DMat3, DVec3, is_singular, product_rest};
 use crate::scene::Diagnostic;
-use crate::scene::language::syntax::Span;
+use crate::scene::language::syntax::TextSpan;
 
 /// What the numbers of a turn lost before they were there, as a share of 1: three turns by Rodrigues' formula, 9 roundings
 /// of sine, cosine and axis each, are 27 half-ulps, rounded up to 28.
@@ -43,7 +43,7 @@ struct Link {
 
 impl Chain {
     /// The chain with `own` below it, where that is finite and can be undone; `place` is the word of `own`.
-    pub fn then(&self, own: DAffine3, numbers: Numbers, place: Span) -> Result<Self, Diagnostic> {
+    pub fn then(&self, own: DAffine3, numbers: Numbers, place: TextSpan) -> Result<Self, Diagnostic> {
         let product = self.product * own;
         if !product.is_finite() {
             let error =
@@ -114,7 +114,7 @@ mod tests {
         let mut chain = Chain::default();
         for &map in maps {
             chain = chain
-                .then(map, numbers, Span { start: 0, end: 0 })
+                .then(map, numbers, TextSpan { start: 0, end: 0 })
                 .unwrap_or_else(|error| panic!("{map}: {error:?}"));
         }
         chain

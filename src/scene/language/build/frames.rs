@@ -3,96 +3,13 @@
 //! An operator takes its operands off the stack only where it becomes an operand of another kind of operator: so no list is
 //! copied from level to level, and reading stays linear in the length of the text however the text is nested.
 
-use std::rc::Rc;
-
+use super::Builder;
+use super::frame::{BuiltCall, OpenCall, Run};
 use super::lost::Lost;
-use super::{Builder, Context};
-use crate::scene::language::syntax::Span;
+use crate::scene::language::syntax::TextSpan;
 use crate::scene::language::vocabulary::OperatorWord;
 use crate::scene::memory::ASSEMBLED_OPERATOR;
 use crate::scene::{Diagnostic, Object, Solid};
-
-/// A call that is open.
-#[derive(Debug)]
-pub struct Frame {
-    pub role: Role,
-    /// The place of its word.
-    pub place: Span,
-    pub context: Rc<Context>,
-    /// Where its solids begin on the stack.
-    pub start: usize,
-    /// What its solids are to each other, where there are any.
-    run: Run,
-    /// How many children OpenSCAD would see, so far.
-    present: usize,
-    /// What the first child is, where it is no solid.
-    first_lost: Option<Lost>,
-    any_empty: bool,
-    any_missing: bool,
-    /// Whether a child is there, but without some part of it.
-    any_incomplete: bool,
-}
-
-/// What the children of a call are for.
-#[derive(Debug)]
-pub enum Role {
-    /// Each is an object of the lattice.
-    Objects,
-    /// All are one object of this name; none where the name is an error.
-    Object(Option<Box<str>>),
-    /// They are operands.
-    Operator(OperatorWord),
-    /// There may be none, because the call is a primitive.
-    Primitive(&'static str, Built),
-}
-
-/// Solids one after the other on the stack.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Run {
-    /// One solid.
-    One,
-    /// The operands of an operator that is still to be made of them.
-    Operands(OperatorWord),
-}
-
-/// What became of a call.
-#[derive(Clone, Copy, Debug)]
-pub enum Built {
-    /// What is last on the stack; and whether a part of it was left out.
-    Solids(Run, bool),
-    Nothing(Lost),
-}
-
-impl Frame {
-    /// The scene itself.
-    pub fn scene(context: Rc<Context>) -> Self {
-        Self::new(Role::Objects, Span { start: 0, end: 0 }, context, 0)
-    }
-
-    pub fn new(role: Role, place: Span, context: Rc<Context>, start: usize) -> Self {
-        Self {
-            role,
-            place,
-            context,
-            start,
-            run: Run::One,
-            present: 0,
-            first_lost: None,
-            any_empty: false,
-            any_missing: false,
-            any_incomplete: false,
-        }
-    }
-
-    /// The operator over its children, where they are operands.
-    fn operator(&self) -> Option<OperatorWord> {
-        match self.role {
-            Role::Operator(operator) => Some(operator),
-            Role::Object(_) => Some(OperatorWord::Union),
-            Role::Objects | Role::Primitive(..) => None,
-        }
-    }
-}
 
 impl Builder {
     /// Before another child of the innermost call: makes one solid of the child before it, where its operands would not
@@ -117,7 +34,7 @@ impl Builder {
     }
 
     /// What an operator makes of its children.
-    pub(super) fn ended(&mut self, frame: &Frame) -> Built {
+    pub(super) fn ended(&mut self, frame: &OpenCall) -> BuiltCall {
         let any_left_out = frame.any_missing || frame.any_incomplete;
         let none = if any_left_out { Lost::Missing } else { Lost::Empty };
         let lost = match frame.operator() {
@@ -130,17 +47,17 @@ impl Builder {
             if frame.run != Run::One && frame.operator() != Some(OperatorWord::Union) {
                 self.memory.take(ASSEMBLED_OPERATOR);
             }
-            return Built::Solids(frame.run, any_left_out);
+            return BuiltCall::Solids(frame.run, any_left_out);
         };
         self.solids.truncate(frame.start);
         if lost == Lost::Missing && frame.present > 1 {
             self.note_left_out(frame);
         }
-        Built::Nothing(lost)
+        BuiltCall::Nothing(lost)
     }
 
     /// Says that an operator went with a child that it needs.
-    fn note_left_out(&mut self, frame: &Frame) {
+    fn note_left_out(&mut self, frame: &OpenCall) {
         let message = match frame.operator() {
             Some(OperatorWord::Intersection) => "`intersection` is left out whole: a part of it is missing",
             Some(OperatorWord::Difference) => "`difference` is left out whole: what it cuts from is missing",
@@ -153,10 +70,10 @@ impl Builder {
     }
 
     /// Gives what became of a call, whose solids begin at `start` on the stack, to the call that holds it.
-    pub(super) fn give(&mut self, built: Built, start: usize, place: Span) {
+    pub(super) fn give(&mut self, built: BuiltCall, start: usize, place: TextSpan) {
         let Some(frame) = self.frames.last_mut() else { return };
         let Some(operator) = frame.operator() else {
-            if let Built::Solids(run, _) = built {
+            if let BuiltCall::Solids(run, _) = built {
                 self.open_up(start, run);
             }
             return;
@@ -165,7 +82,7 @@ impl Builder {
         frame.present += 1;
         let is_cutter = operator == OperatorWord::Difference && !is_first;
         match built {
-            Built::Nothing(lost) => {
+            BuiltCall::Nothing(lost) => {
                 if is_first {
                     frame.first_lost = Some(lost);
                 }
@@ -177,10 +94,10 @@ impl Builder {
                 }
             }
             // The others are read even where there is nothing to take them from: their errors are errors.
-            Built::Solids(..) if operator == OperatorWord::Difference && frame.first_lost.is_some() => {
+            BuiltCall::Solids(..) if operator == OperatorWord::Difference && frame.first_lost.is_some() => {
                 self.solids.truncate(start);
             }
-            Built::Solids(run, is_incomplete) => {
+            BuiltCall::Solids(run, is_incomplete) => {
                 frame.any_incomplete |= is_incomplete;
                 if is_cutter && is_incomplete && self.sink.is_clean() {
                     let message =

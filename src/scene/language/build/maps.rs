@@ -1,6 +1,6 @@
 //! The words that move their children, as affine maps.
 
-use super::arguments::{Arguments, numbers};
+use super::arguments::{BoundArguments, numbers};
 use super::degrees;
 use super::lost::Lost;
 use crate::math::{DAffine3, DMat3, DVec3};
@@ -10,7 +10,7 @@ use crate::scene::language::syntax::{Spanned, Value};
 use crate::scene::language::vocabulary::MapWord;
 
 /// The map of a call alone.
-pub fn map_of(word: MapWord, arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<DAffine3, Lost> {
+pub fn map_of(word: MapWord, arguments: &BoundArguments<'_, '_>, sink: &mut Sink) -> Result<DAffine3, Lost> {
     match word {
         MapWord::Multmatrix => multmatrix(arguments, sink),
         MapWord::Translate => {
@@ -29,7 +29,7 @@ pub fn map_of(word: MapWord, arguments: &Arguments<'_, '_>, sink: &mut Sink) -> 
     }
 }
 
-fn multmatrix(arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<DAffine3, Lost> {
+fn multmatrix(arguments: &BoundArguments<'_, '_>, sink: &mut Sink) -> Result<DAffine3, Lost> {
     let Some(value) = arguments.value("m") else { return Err(arguments.missing("m", sink)) };
     let Some(rows) = rows(value) else {
         let error = Diagnostic::error(value.span, "`m` of `multmatrix` takes 4 or 3 rows of 4 numbers");
@@ -59,7 +59,7 @@ fn rows(value: &Spanned<'_>) -> Option<Vec<[f64; 4]>> {
     items.iter().map(|item| numbers(&item.value)?.try_into().ok()).collect()
 }
 
-fn rotate(arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<DAffine3, Lost> {
+fn rotate(arguments: &BoundArguments<'_, '_>, sink: &mut Sink) -> Result<DAffine3, Lost> {
     let Some(value) = arguments.value("a") else { return Err(arguments.missing("a", sink)) };
     let Value::Number(_) = value.value else {
         // `a` is there, so that the triple is, too, unless it is an error. OpenSCAD ignores `v` here.

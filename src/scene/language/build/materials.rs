@@ -5,7 +5,7 @@
 
 use std::collections::HashMap;
 
-use super::arguments::{Arguments, numbers};
+use super::arguments::{BoundArguments, numbers};
 use super::lost::Lost;
 use crate::math::DVec3;
 use crate::scene::diagnostic::{Reported, Sink};
@@ -49,7 +49,7 @@ impl Surfaces {
     }
 
     /// `material(name = …, …);`
-    pub fn define(&mut self, arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<(), Reported> {
+    pub fn define(&mut self, arguments: &BoundArguments<'_, '_>, sink: &mut Sink) -> Result<(), Reported> {
         let name = arguments.text("name", sink)?.ok_or_else(|| arguments.missing("name", sink))?;
         let material =
             changed(Material { name: Some(name.to_owned()), ..Material::default() }, arguments, sink)?;
@@ -69,7 +69,7 @@ impl Surfaces {
     pub fn apply(
         &mut self,
         above: Surface,
-        arguments: &Arguments<'_, '_>,
+        arguments: &BoundArguments<'_, '_>,
         sink: &mut Sink,
     ) -> Result<Surface, Lost> {
         let base = match arguments.text("name", sink)? {
@@ -87,7 +87,7 @@ impl Surfaces {
         Ok(Surface { kind: self.kinds.len() - 1, ..above })
     }
 
-    fn unknown(&self, name: &str, arguments: &Arguments<'_, '_>) -> Diagnostic {
+    fn unknown(&self, name: &str, arguments: &BoundArguments<'_, '_>) -> Diagnostic {
         let message = format!("there is no material \"{}\"", quoted(name));
         let error = Diagnostic::error(arguments.place_of("name"), message);
         let names = self.kinds.iter().filter_map(|material| material.name.as_deref());
@@ -122,7 +122,7 @@ impl Surfaces {
 }
 
 /// The surface under a `color`.
-pub fn tinted(above: Surface, arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<Surface, Lost> {
+pub fn tinted(above: Surface, arguments: &BoundArguments<'_, '_>, sink: &mut Sink) -> Result<Surface, Lost> {
     // OpenSCAD writes a `color` that names no colour this way, and it has no effect there.
     const NO_COLOR: [f64; 3] = [-1.0; 3];
     let rgba = arguments.value("c").and_then(|value| numbers(&value.value));
@@ -135,7 +135,11 @@ pub fn tinted(above: Surface, arguments: &Arguments<'_, '_>, sink: &mut Sink) ->
 }
 
 /// `material` with what the arguments say in place of its own.
-fn changed(material: Material, arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<Material, Lost> {
+fn changed(
+    material: Material,
+    arguments: &BoundArguments<'_, '_>,
+    sink: &mut Sink,
+) -> Result<Material, Lost> {
     let mut number = |name: &str, own: f64| arguments.number(name, sink).map(|given| given.unwrap_or(own));
     let (kd, ks) = (number("kd", material.kd)?, number("ks", material.ks)?);
     let (n, kr) = (number("n", material.n)?, number("kr", material.kr)?);

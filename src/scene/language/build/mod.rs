@@ -3,8 +3,11 @@
 mod arguments;
 mod chain;
 mod colors;
+mod context;
+mod definitions;
 mod degrees;
 mod facets;
+mod frame;
 mod frames;
 mod lost;
 mod maps;
@@ -18,28 +21,19 @@ mod views;
 use std::collections::HashSet;
 use std::rc::Rc;
 
+use super::dictionary::{Known, look_up, nearest_word};
 use super::nearest::quoted;
-use super::syntax::{Call, Event};
-use super::vocabulary::{Known, Meaning, Word, look_up, nearest_word};
+use super::syntax::{Call, SyntaxEvent};
+use super::vocabulary::Word;
 use crate::scene::diagnostic::Sink;
 use crate::scene::memory::Memory;
 use crate::scene::{Diagnostic, ReadOptions, Scene, Solid};
-use chain::Chain;
+use context::Context;
 use facets::Polygons;
-use frames::Frame;
-use materials::{Surface, Surfaces};
+use frame::OpenCall;
+use materials::Surfaces;
 use polyhedron::EarClipper;
-use survey::Survey;
-
-/// What the words above hand down to a word.
-#[derive(Clone, Debug, Default)]
-struct Context {
-    /// From the word's coordinates to the world's.
-    maps: Chain,
-    surface: Surface,
-    /// `$fn`: how many sides stand for a circle, where they are few.
-    fragments: f64,
-}
+use survey::{Survey, is_definition};
 
 /// Whether to read on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,7 +59,7 @@ pub struct Builder {
     /// What is known of the whole file.
     survey: Survey,
     /// The calls that are open, the outermost first; below them all the scene itself.
-    frames: Vec<Frame>,
+    frames: Vec<OpenCall>,
     /// The solids that wait for their operators, in file order.
     solids: Vec<Solid>,
     /// How many of the open calls, the innermost ones, are passed over.
@@ -86,7 +80,7 @@ impl Builder {
             polygons: Polygons::default(),
             clipper: EarClipper::default(),
             survey: Survey::default(),
-            frames: vec![Frame::scene(Rc::new(Context::default()))],
+            frames: vec![OpenCall::scene(Rc::new(Context::default()))],
             solids: Vec::new(),
             passed_over: 0,
             is_out_of_memory: false,
@@ -95,17 +89,17 @@ impl Builder {
 
     /// Takes an event, as if the text had neither definitions nor assignments nor a root, or with what a survey found
     /// of them.
-    pub fn take(&mut self, event: &Event<'_>) -> Flow {
+    pub fn take(&mut self, event: &SyntaxEvent<'_>) -> Flow {
         match event {
-            Event::Assignment(..) if self.survey.is_done() => {}
-            Event::Assignment(..) => return Flow::Again,
-            Event::Close => {
+            SyntaxEvent::Assignment(..) if self.survey.is_done() => {}
+            SyntaxEvent::Assignment(..) => return Flow::Again,
+            SyntaxEvent::Close => {
                 self.close();
                 if self.survey.ends_with(self.frames.len()) {
                     return Flow::Done;
                 }
             }
-            Event::Open(call) => return self.open(call),
+            SyntaxEvent::Open(call) => return self.open(call),
         }
         Flow::On
     }
@@ -192,17 +186,5 @@ fn empty(sink: &Sink) -> Diagnostic {
             };
             error.help(format!("{}{more}", first.message))
         }
-    }
-}
-
-/// Whether a call at the top level is no solid: a view, a light, the world, or a material with a name.
-fn is_definition(call: &Call<'_>) -> bool {
-    match look_up(call.name.text) {
-        Known::Word(word) => match word.meaning {
-            Meaning::Camera | Meaning::Light | Meaning::World => true,
-            Meaning::Material => call.is_ended,
-            _ => false,
-        },
-        _ => false,
     }
 }

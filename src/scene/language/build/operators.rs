@@ -2,12 +2,13 @@
 
 use std::rc::Rc;
 
-use super::arguments::Arguments;
+use super::arguments::BoundArguments;
 use super::chain::Numbers;
-use super::frames::{Built, Frame, Role, Run};
+use super::context::Context;
+use super::frame::{BuiltCall, OpenCall, Role, Run};
 use super::lost::Lost;
 use super::materials::tinted;
-use super::{Builder, Context, maps};
+use super::{Builder, maps};
 use crate::scene::diagnostic::Reported;
 use crate::scene::language::syntax::Call;
 use crate::scene::language::vocabulary::{MapWord, Meaning, OperatorWord, Word};
@@ -16,7 +17,7 @@ use crate::scene::{Diagnostic, Object};
 impl Builder {
     /// Begins the scene, with `$fn` of the whole file.
     pub(super) fn begin(&mut self, fragments: f64) {
-        self.frames = vec![Frame::scene(Rc::new(Context { fragments, ..Context::default() }))];
+        self.frames = vec![OpenCall::scene(Rc::new(Context { fragments, ..Context::default() }))];
     }
 
     /// Whether a call takes part; says so where it is left out.
@@ -55,14 +56,14 @@ impl Builder {
                     }
                     Ok(solid) => {
                         self.solids.push(solid);
-                        Built::Solids(Run::One, false)
+                        BuiltCall::Solids(Run::One, false)
                     }
-                    Err(lost) => Built::Nothing(lost),
+                    Err(lost) => BuiltCall::Nothing(lost),
                 };
                 if call.is_ended {
                     return self.give(built, start, call.name.span);
                 }
-                self.frames.push(Frame::new(
+                self.frames.push(OpenCall::new(
                     Role::Primitive(word.name, built),
                     call.name.span,
                     context,
@@ -81,7 +82,7 @@ impl Builder {
                     }
                     Err(_) => context,
                 };
-                self.frames.push(Frame::new(role, call.name.span, inner, start));
+                self.frames.push(OpenCall::new(role, call.name.span, inner, start));
                 if call.is_ended {
                     self.close_frame();
                 }
@@ -91,7 +92,7 @@ impl Builder {
 
     /// Passes over a call that is an operand without a solid.
     fn lose(&mut self, lost: Lost, call: &Call<'_>) {
-        self.give(Built::Nothing(lost), self.solids.len(), call.name.span);
+        self.give(BuiltCall::Nothing(lost), self.solids.len(), call.name.span);
         self.pass_over(call);
     }
 
@@ -129,7 +130,7 @@ impl Builder {
     }
 
     fn object_name(&mut self, call: &Call<'_>, word: &'static Word) -> Result<String, Reported> {
-        let arguments = Arguments::bind(call, word, &mut self.sink)?;
+        let arguments = BoundArguments::bind(call, word, &mut self.sink)?;
         let name = arguments.text("name", &mut self.sink)?;
         self.memory.take(name.map_or(0, str::len) as u64);
         name.map(str::to_owned).ok_or_else(|| arguments.missing("name", &mut self.sink).into())
@@ -143,7 +144,7 @@ impl Builder {
         above: &Rc<Context>,
     ) -> Result<Rc<Context>, Lost> {
         let sink = &mut self.sink;
-        let arguments = Arguments::bind(call, word, sink)?;
+        let arguments = BoundArguments::bind(call, word, sink)?;
         let fragments = arguments.fragments.unwrap_or(above.fragments);
         let mut inner = match word.meaning {
             // Most groups hand down what they were given.
@@ -194,7 +195,7 @@ impl Builder {
             }
             Role::Object(ref name) => {
                 let name = name.clone();
-                if let Built::Solids(run, _) = self.ended(&frame) {
+                if let BuiltCall::Solids(run, _) = self.ended(&frame) {
                     let solid = self.solid(start, run);
                     let objects = solid.map(|solid| Object { name: name.map(String::from), solid });
                     self.scene.objects.extend(objects);

@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use earcut::Earcut;
 
-use super::arguments::{Arguments, numbers};
+use super::arguments::{BoundArguments, numbers};
 use super::lost::Lost;
 use super::maps::unit;
 use crate::math::{Bounds, DVec2, DVec3};
 use crate::scene::diagnostic::Sink;
-use crate::scene::language::syntax::{Span, Spanned, Value, short};
+use crate::scene::language::syntax::{Spanned, TextSpan, Value, short};
 use crate::scene::{Diagnostic, Mesh, Shape};
 
 /// Cuts faces that are not convex, as far as its budget goes.
@@ -49,7 +49,7 @@ impl EarClipper {
 }
 
 /// Bytes that reading a `polyhedron` call takes at most beside its values, by the number of those.
-pub fn bytes(arguments: &Arguments<'_, '_>) -> u64 {
+pub fn bytes(arguments: &BoundArguments<'_, '_>) -> u64 {
     // A point, its places in the lists and in the map of points; a corner's share of triangles, and of the sets of them
     // and of their edges.
     const OF_POINT: u64 = 120;
@@ -68,7 +68,7 @@ pub fn bytes(arguments: &Arguments<'_, '_>) -> u64 {
 
 /// The mesh of a `polyhedron` call.
 pub fn polyhedron(
-    arguments: &Arguments<'_, '_>,
+    arguments: &BoundArguments<'_, '_>,
     clipper: &mut EarClipper,
     sink: &mut Sink,
 ) -> Result<Shape, Lost> {
@@ -102,7 +102,7 @@ pub fn polyhedron(
 
 /// The arguments of a `polyhedron`.
 struct Call<'c, 'a> {
-    arguments: &'c Arguments<'c, 'a>,
+    arguments: &'c BoundArguments<'c, 'a>,
     points: &'c Spanned<'a>,
     faces: &'c Spanned<'a>,
 }
@@ -126,7 +126,7 @@ fn bits(point: DVec3) -> Bits {
 /// The triangles of a polyhedron, and an edge that is open, if there is one.
 struct Surface {
     points: Vec<DVec3>,
-    triangles: Vec<([u32; 3], Span)>,
+    triangles: Vec<([u32; 3], TextSpan)>,
     open: Option<OpenEdge>,
 }
 
@@ -134,7 +134,7 @@ struct OpenEdge {
     from: String,
     to: String,
     /// The face that has it.
-    face: Span,
+    face: TextSpan,
 }
 
 impl Surface {
@@ -387,7 +387,7 @@ struct EdgeSet(HashSet<[u32; 2]>);
 
 impl EdgeSet {
     /// Those of triangles: the edges that are open.
-    fn of(triangles: &[([u32; 3], Span)]) -> Self {
+    fn of(triangles: &[([u32; 3], TextSpan)]) -> Self {
         let mut odd = Self::default();
         for &(triangle, _) in triangles {
             odd.toggle_triangle(triangle);
@@ -445,7 +445,7 @@ impl EdgeSet {
 }
 
 /// Takes out triangles of the same three points, two by two: between two equal surfaces lies nothing.
-fn cancel_pairs(triangles: &mut Vec<([u32; 3], Span)>) {
+fn cancel_pairs(triangles: &mut Vec<([u32; 3], TextSpan)>) {
     let sorted = |mut triangle: [u32; 3]| {
         triangle.sort_unstable();
         triangle
@@ -461,7 +461,7 @@ fn cancel_pairs(triangles: &mut Vec<([u32; 3], Span)>) {
 }
 
 /// The first edge, in file order, that an odd number of triangles share; and the face that has it.
-fn open_edge(triangles: &[([u32; 3], Span)]) -> Option<([u32; 2], Span)> {
+fn open_edge(triangles: &[([u32; 3], TextSpan)]) -> Option<([u32; 2], TextSpan)> {
     let edges = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [c, a]];
     let odd = EdgeSet::of(triangles);
     if odd.0.is_empty() {

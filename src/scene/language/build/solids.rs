@@ -1,10 +1,11 @@
 //! The words for primitives: a unit shape, and the map that gives it its place and size.
 
-use super::arguments::Arguments;
+use super::arguments::BoundArguments;
 use super::chain::Numbers;
+use super::context::Context;
 use super::facets::Polygons;
 use super::lost::Lost;
-use super::{Builder, Context, facets, polyhedron};
+use super::{Builder, facets, polyhedron};
 use crate::math::{DAffine3, DMat3, DVec3, Placement};
 use crate::scene::diagnostic::Sink;
 use crate::scene::language::syntax::Call;
@@ -23,7 +24,7 @@ impl Builder {
         context: &Context,
     ) -> Result<Solid, Lost> {
         let sink = &mut self.sink;
-        let arguments = Arguments::bind(call, word, sink)?;
+        let arguments = BoundArguments::bind(call, word, sink)?;
         let mut round = Round {
             sides: facets::sides(arguments.fragments.unwrap_or(context.fragments)),
             polygons: &mut self.polygons,
@@ -111,7 +112,7 @@ fn placed(at: DVec3, semi: DVec3) -> DAffine3 {
 
 /// The paper's parameters, where they are used: centre and half-sizes.
 fn centre_and_half_sizes(
-    arguments: &Arguments<'_, '_>,
+    arguments: &BoundArguments<'_, '_>,
     sink: &mut Sink,
 ) -> Result<Option<(DVec3, DVec3)>, Lost> {
     let (at, semi) = (arguments.triple("at", 0.0, sink)?, arguments.triple("semi", 0.0, sink)?);
@@ -129,7 +130,7 @@ fn centre_and_half_sizes(
     }
 }
 
-fn cube(arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<(Shape, DAffine3), Lost> {
+fn cube(arguments: &BoundArguments<'_, '_>, sink: &mut Sink) -> Result<(Shape, DAffine3), Lost> {
     if let Some((at, semi)) = centre_and_half_sizes(arguments, sink)? {
         return Ok((Shape::Cube, placed(at, semi)));
     }
@@ -140,7 +141,7 @@ fn cube(arguments: &Arguments<'_, '_>, sink: &mut Sink) -> Result<(Shape, DAffin
 }
 
 fn sphere(
-    arguments: &Arguments<'_, '_>,
+    arguments: &BoundArguments<'_, '_>,
     round: &mut Round<'_>,
     sink: &mut Sink,
 ) -> Result<(Shape, DAffine3), Lost> {
@@ -154,7 +155,7 @@ fn sphere(
 
 /// The radius, given as that or as a diameter; both together contradict each other.
 fn radius(
-    arguments: &Arguments<'_, '_>,
+    arguments: &BoundArguments<'_, '_>,
     diameter: &str,
     radius: &str,
     sink: &mut Sink,
@@ -170,7 +171,7 @@ fn radius(
 }
 
 fn cylinder(
-    arguments: &Arguments<'_, '_>,
+    arguments: &BoundArguments<'_, '_>,
     round: &mut Round<'_>,
     sink: &mut Sink,
 ) -> Result<(Shape, DAffine3), Lost> {
@@ -192,7 +193,7 @@ fn cylinder(
 
 /// A shape of height 2 put onto the plane z = 0, or with its middle into it.
 fn upright(
-    arguments: &Arguments<'_, '_>,
+    arguments: &BoundArguments<'_, '_>,
     shape: Shape,
     radius: f64,
     sink: &mut Sink,
@@ -203,7 +204,7 @@ fn upright(
 }
 
 fn cone(
-    arguments: &Arguments<'_, '_>,
+    arguments: &BoundArguments<'_, '_>,
     round: &mut Round<'_>,
     sink: &mut Sink,
 ) -> Result<(Shape, DAffine3), Lost> {

@@ -3,28 +3,25 @@
 //! Most long files have none of them, because a program wrote them: they are read once, and again only where the first
 //! of them turns up.
 
-use super::arguments::{Arguments, setting};
-use super::{Builder, Flow, is_definition};
-use crate::scene::Diagnostic;
-use crate::scene::diagnostic::Reported;
-use crate::scene::language::syntax::{Call, Event, Value};
-use crate::scene::language::vocabulary::{Known, Meaning, Word, look_up};
+use crate::scene::language::dictionary::{Known, look_up};
+use crate::scene::language::syntax::{Call, Value};
+use crate::scene::language::vocabulary::Meaning;
 
 /// What is known of a whole file.
 #[derive(Debug, Default)]
 pub struct Survey {
-    is_done: bool,
+    pub is_done: bool,
     /// `$fn` of the whole file: the last assignment counts, as in OpenSCAD.
-    fragments: f64,
+    pub fragments: f64,
     /// Where the first call marked `!` has its name.
-    root: Option<u32>,
+    pub root: Option<u32>,
     /// While the root is looked for: `$fn` at each of the open calls.
     above: Vec<f64>,
     is_root_found: bool,
     /// While surveying: how many calls are open.
-    depth: usize,
+    pub depth: usize,
     /// While surveying: the definition that is open, which takes no children.
-    definition: Option<&'static str>,
+    pub definition: Option<&'static str>,
 }
 
 /// What a call is on the way to the root.
@@ -80,77 +77,14 @@ impl Survey {
     }
 }
 
-impl Builder {
-    /// Takes an event of the survey.
-    pub fn survey(&mut self, event: &Event<'_>) -> Flow {
-        match event {
-            Event::Assignment(name, value) => {
-                if let Ok(number) = setting(name.text, name.span, value, &mut self.sink)
-                    && name.text == "$fn"
-                {
-                    self.survey.fragments = number.unwrap_or(0.0);
-                }
-            }
-            Event::Close => {
-                self.survey.depth -= usize::from(self.survey.depth > 0);
-                self.passed_over = self.passed_over.saturating_sub(1);
-                if self.survey.depth == 0 {
-                    self.survey.definition = None;
-                }
-            }
-            Event::Open(call) => {
-                self.survey_call(call);
-                self.survey.depth += usize::from(!call.is_ended);
-            }
-        }
-        if self.sink.is_full() || self.is_out_of_memory { Flow::Done } else { Flow::On }
-    }
-
-    fn survey_call(&mut self, call: &Call<'_>) {
-        if let Some(name) = self.survey.definition.take() {
-            self.no_children(name, call);
-        }
-        if self.passed_over > 0 || call.modifiers.disable {
-            self.pass_over(call);
-        } else if is_definition(call) {
-            if self.survey.depth == 0
-                && self.is_present(call)
-                && let Known::Word(word) = look_up(call.name.text)
-            {
-                // What is wrong has gone to the sink; the other definitions are looked at, too.
-                let _ = self.define(call, word);
-                if !self.memory.has_room_for(0) {
-                    let _ = self.no_room(0, call);
-                }
-                self.survey.definition = (!call.is_ended).then_some(word.name);
-            }
-            self.pass_over(call);
-        } else if call.modifiers.root && self.survey.root.is_none() {
-            self.survey.root = Some(call.name.span.start);
-        }
-    }
-
-    fn define(&mut self, call: &Call<'_>, word: &'static Word) -> Result<(), Reported> {
-        let arguments = Arguments::bind(call, word, &mut self.sink)?;
-        match word.meaning {
-            Meaning::Camera => self.camera(&arguments),
-            Meaning::Light => self.light(&arguments),
-            Meaning::World => self.world(call, &arguments),
-            _ => self.surfaces.define(&arguments, &mut self.sink),
-        }
-    }
-
-    /// The error of a child where there may be none.
-    pub(super) fn no_children(&mut self, name: &str, child: &Call<'_>) {
-        let error = Diagnostic::error(child.name.span, format!("`{name}` takes no children"));
-        self.sink.report(error.help(format!("end `{name}(…)` with a `;`")));
-    }
-
-    /// Makes what the survey found known to what is built.
-    pub fn surveyed(&mut self) {
-        self.survey.is_done = true;
-        self.passed_over = 0;
-        let fragments = self.survey.fragments;
-        self.begin(fragments);
+/// Whether a call at the top level is no solid: a view, a light, the world, or a material with a name.
+pub fn is_definition(call: &Call<'_>) -> bool {
+    match look_up(call.name.text) {
+        Known::Word(word) => match word.meaning {
+            Meaning::Camera | Meaning::Light | Meaning::World => true,
+            Meaning::Material => call.is_ended,
+            _ => false,
+        },
+        _ => false,
     }
 }

@@ -1,7 +1,7 @@
 //! What belongs to no object: views, lights, the world.
 
 use super::Builder;
-use super::arguments::Arguments;
+use super::arguments::BoundArguments;
 use crate::math::DVec3;
 use crate::scene::diagnostic::Reported;
 use crate::scene::language::nearest::quoted;
@@ -9,7 +9,7 @@ use crate::scene::language::syntax::Call;
 use crate::scene::{Anchor, Camera, CameraError, Diagnostic, FieldSpan, Light, World};
 
 impl Builder {
-    pub(super) fn camera(&mut self, arguments: &Arguments<'_, '_>) -> Result<(), Reported> {
+    pub(super) fn camera(&mut self, arguments: &BoundArguments<'_, '_>) -> Result<(), Reported> {
         let sink = &mut self.sink;
         let name = arguments.text("name", sink)?;
         let eye = arguments.triple("eye", 0.0, sink)?.ok_or_else(|| arguments.missing("eye", sink))?;
@@ -44,7 +44,7 @@ impl Builder {
         Ok(())
     }
 
-    pub(super) fn light(&mut self, arguments: &Arguments<'_, '_>) -> Result<(), Reported> {
+    pub(super) fn light(&mut self, arguments: &BoundArguments<'_, '_>) -> Result<(), Reported> {
         let sink = &mut self.sink;
         let at = arguments.triple("at", 0.0, sink)?.ok_or_else(|| arguments.missing("at", sink))?;
         let intensity = arguments.number("intensity", sink)?.unwrap_or(1.0);
@@ -54,7 +54,11 @@ impl Builder {
         Ok(())
     }
 
-    pub(super) fn world(&mut self, call: &Call<'_>, arguments: &Arguments<'_, '_>) -> Result<(), Reported> {
+    pub(super) fn world(
+        &mut self,
+        call: &Call<'_>,
+        arguments: &BoundArguments<'_, '_>,
+    ) -> Result<(), Reported> {
         let sink = &mut self.sink;
         if std::mem::replace(&mut self.has_world, true) {
             let error = Diagnostic::error(call.name.span, "there are two worlds").label("the second one");
@@ -71,7 +75,7 @@ impl Builder {
 }
 
 /// What is wrong with a camera, at the argument that can mend it.
-fn blind(error: CameraError, arguments: &Arguments<'_, '_>) -> Diagnostic {
+fn blind(error: CameraError, arguments: &BoundArguments<'_, '_>) -> Diagnostic {
     match error {
         CameraError::NoSight => {
             let error = Diagnostic::error(arguments.place_of("eye"), "`eye` and `target` are the same point");

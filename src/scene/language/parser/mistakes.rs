@@ -5,7 +5,7 @@ use crate::scene::Diagnostic;
 use crate::scene::diagnostic::{Reported, Sink};
 use crate::scene::language::lexer::TokenKind;
 use crate::scene::language::nearest::quoted;
-use crate::scene::language::syntax::Span;
+use crate::scene::language::syntax::TextSpan;
 
 impl Parser<'_> {
     pub(super) fn unit(&self, sink: &mut Sink) -> Reported {
@@ -22,7 +22,7 @@ impl Parser<'_> {
     }
 
     /// As [`Parser::expected`], but at the end of the text the opener is what needs a look.
-    pub(super) fn expected_in(&self, what: &str, opener: Span, sign: char, sink: &mut Sink) -> Reported {
+    pub(super) fn expected_in(&self, what: &str, opener: TextSpan, sign: char, sink: &mut Sink) -> Reported {
         if self.token.kind != TokenKind::End {
             return self.expected(what, sink);
         }

@@ -9,7 +9,7 @@ mod value;
 
 use super::lexer::{Lexer, Token, TokenKind};
 use super::nearest::{nearest, quoted};
-use super::syntax::{Argument, Call, Event, Modifiers, Name, Span};
+use super::syntax::{Argument, Call, Modifiers, Name, SyntaxEvent, TextSpan};
 use super::vocabulary::{FRAGMENT_SETTINGS, PROGRAM_WORDS};
 use crate::scene::Diagnostic;
 use crate::scene::diagnostic::{Reported, Sink};
@@ -27,7 +27,7 @@ pub struct Parser<'a> {
     /// The token that comes next.
     token: Token<'a>,
     /// The place of the token taken last.
-    previous: Span,
+    previous: TextSpan,
     /// The calls that are open, the outermost first.
     open: Vec<Level>,
     /// Whether the call that ended last ends those in whose chain it stands, too.
@@ -42,7 +42,7 @@ pub struct Parser<'a> {
 #[derive(Clone, Copy, Debug)]
 enum Level {
     /// In braces, of which this is the first.
-    Block(Span),
+    Block(TextSpan),
     /// As one call.
     Chain,
 }
@@ -62,12 +62,12 @@ impl<'a> Parser<'a> {
     }
 
     /// The next event; none after the last.
-    pub fn next(&mut self, reading: &mut Reading<'_>) -> Result<Option<Event<'a>>, Reported> {
+    pub fn next(&mut self, reading: &mut Reading<'_>) -> Result<Option<SyntaxEvent<'a>>, Reported> {
         loop {
             match self.open.last() {
                 Some(Level::Chain) if self.is_ending => {
                     self.open.pop();
-                    return Ok(Some(Event::Close));
+                    return Ok(Some(SyntaxEvent::Close));
                 }
                 Some(Level::Chain) => return self.call(reading).map(Some),
                 Some(&Level::Block(opener)) => {
@@ -75,7 +75,7 @@ impl<'a> Parser<'a> {
                     if self.takes('}') {
                         self.open.pop();
                         self.is_ending = true;
-                        return Ok(Some(Event::Close));
+                        return Ok(Some(SyntaxEvent::Close));
                     }
                     if self.token.kind == TokenKind::End {
                         let error =
@@ -137,7 +137,7 @@ impl<'a> Parser<'a> {
     }
 
     /// Whether one more level may be opened, with the place that a message about too many levels points at.
-    fn descend(&self, lists: usize, place: Span, sink: &mut Sink) -> Result<(), Reported> {
+    fn descend(&self, lists: usize, place: TextSpan, sink: &mut Sink) -> Result<(), Reported> {
         if self.open.len() + lists < MAX_DEPTH {
             return Ok(());
         }
@@ -147,7 +147,7 @@ impl<'a> Parser<'a> {
     }
 
     /// An assignment, which is an event where it has a meaning.
-    fn assignment(&mut self, reading: &mut Reading<'_>) -> Result<Option<Event<'a>>, Reported> {
+    fn assignment(&mut self, reading: &mut Reading<'_>) -> Result<Option<SyntaxEvent<'a>>, Reported> {
         let word = self.take();
         let name = Name { text: word.text, span: word.span };
         let quoted = quoted(name.text);
@@ -177,10 +177,10 @@ impl<'a> Parser<'a> {
             reading.sink.note(Diagnostic::note(name.span, format!("`{quoted}` has no effect")));
             return Ok(None);
         }
-        Ok(Some(Event::Assignment(name, value)))
+        Ok(Some(SyntaxEvent::Assignment(name, value)))
     }
 
-    fn call(&mut self, reading: &mut Reading<'_>) -> Result<Event<'a>, Reported> {
+    fn call(&mut self, reading: &mut Reading<'_>) -> Result<SyntaxEvent<'a>, Reported> {
         let mut modifiers = Modifiers::default();
         while let TokenKind::Sign(sign @ ('*' | '!' | '#' | '%')) = self.token.kind {
             modifiers.disable |= sign == '*';
@@ -194,7 +194,7 @@ impl<'a> Parser<'a> {
             let span = self.token.span;
             let is_ended = self.children(reading.sink)?;
             let name = Name { text: "group", span };
-            return Ok(Event::Open(Call { modifiers, name, parentheses: span, arguments, is_ended }));
+            return Ok(SyntaxEvent::Open(Call { modifiers, name, parentheses: span, arguments, is_ended }));
         }
         if self.token.kind != TokenKind::Word {
             return Err(self.expected("a word such as `sphere` or `union`", reading.sink));
@@ -208,7 +208,7 @@ impl<'a> Parser<'a> {
         }
         let parentheses = self.arguments(name, &mut arguments, reading)?;
         let is_ended = self.children(reading.sink)?;
-        Ok(Event::Open(Call { modifiers, name, parentheses, arguments, is_ended }))
+        Ok(SyntaxEvent::Open(Call { modifiers, name, parentheses, arguments, is_ended }))
     }
 
     fn arguments(
@@ -216,7 +216,7 @@ impl<'a> Parser<'a> {
         name: Name<'a>,
         arguments: &mut Vec<Argument<'a>>,
         reading: &mut Reading<'_>,
-    ) -> Result<Span, Reported> {
+    ) -> Result<TextSpan, Reported> {
         let opener = self.token.span;
         if !self.takes('(') {
             return Err(self.expected(&format!("`(` after `{}`", quoted(name.text)), reading.sink));

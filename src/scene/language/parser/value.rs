@@ -6,7 +6,7 @@ use crate::scene::Diagnostic;
 use crate::scene::diagnostic::{Reported, Sink};
 use crate::scene::language::lexer::{Token, TokenKind};
 use crate::scene::language::nearest::{nearest, quoted};
-use crate::scene::language::syntax::{Span, Spanned, Value};
+use crate::scene::language::syntax::{Spanned, TextSpan, Value};
 
 /// Lists inside so many lists are not kept: the deepest that a word takes are the rows of a list.
 const KEPT_LISTS: usize = 4;
@@ -52,7 +52,7 @@ impl<'a> Parser<'a> {
     }
 
     /// What stands between two items of a list.
-    fn between(&mut self, opener: Span, reading: &mut Reading<'_>) -> Result<(), Reported> {
+    fn between(&mut self, opener: TextSpan, reading: &mut Reading<'_>) -> Result<(), Reported> {
         self.keep(size_of::<Spanned<'_>>(), reading)?;
         if self.takes(',') || self.is(']') {
             return Ok(());
@@ -61,7 +61,7 @@ impl<'a> Parser<'a> {
     }
 
     /// A value that is no list.
-    fn single(&mut self, start: Span, reading: &mut Reading<'_>) -> Result<Spanned<'a>, Reported> {
+    fn single(&mut self, start: TextSpan, reading: &mut Reading<'_>) -> Result<Spanned<'a>, Reported> {
         let sink = &mut *reading.sink;
         let mut negative = None;
         while let TokenKind::Sign(sign @ ('-' | '+')) = self.token.kind {
@@ -90,7 +90,7 @@ impl<'a> Parser<'a> {
     }
 
     /// A value with its place, where no arithmetic follows it.
-    fn ended(&self, value: Value<'a>, span: Span, sink: &mut Sink) -> Result<Spanned<'a>, Reported> {
+    fn ended(&self, value: Value<'a>, span: TextSpan, sink: &mut Sink) -> Result<Spanned<'a>, Reported> {
         if let TokenKind::Sign(
             '+' | '-' | '*' | '/' | '%' | '^' | '<' | '>' | '?' | ':' | '.' | '[' | '&' | '|' | '!',
         ) = self.token.kind

@@ -22,12 +22,12 @@ fn files_that_are_no_text() {
         |bytes: &[u8]| read("test", bytes, &ReadOptions::default()).map_err(|errors| errors.to_string());
     assert_eq!(
         answer(b"cube(1);\ncube(\xff);"),
-        Err("test: error: the file is not text: byte 14, in line 2, is not UTF-8\n  help: a scene is UTF-8 text"
+        Err("test: error: the file is not text: byte 14, in line 2, is not UTF-8\n  help: the scene language is UTF-8 text"
             .into())
     );
     assert_eq!(
         answer(b"cube(1);\0"),
-        Err("test: error: the file is not text: byte 8, in line 1, is 0\n  help: a scene is UTF-8 text"
+        Err("test: error: the file is not text: byte 8, in line 1, is 0\n  help: the scene language is UTF-8 text"
             .into())
     );
 }

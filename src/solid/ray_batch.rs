@@ -8,8 +8,8 @@ use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
 use crate::math::{LANES, Mask, Ray, Rays, Vector};
 
 use super::ball::Balls;
-use super::crossing::{Crossing, FirstCrossings, Starts, firsts_of_spans};
-use super::primitive::{Primitive, WorldShape};
+use super::crossing::{Crossing, FirstCrossings, RayStarts, firsts_of_spans};
+use super::primitive::{WorldPrimitive, WorldShape};
 use super::span::{Departure, Ends, Spans};
 use super::surface::firsts_of_sides;
 use super::tube::{NUMBERS_OF_TUBE, SideCrossings, Tubes};
@@ -20,7 +20,7 @@ const OF_RAY: usize = 6;
 /// What eight rays are asked.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
-pub struct Eight {
+pub struct RayBatch {
     rays: [[f64; LANES]; OF_RAY],
     forms: [[f64; LANES]; NUMBERS_OF_TUBE],
     enter: [[f64; LANES]; 2],
@@ -29,7 +29,7 @@ pub struct Eight {
     any: [u8; 3],
 }
 
-impl Default for Eight {
+impl Default for RayBatch {
     #[inline]
     fn default() -> Self {
         Self {
@@ -42,10 +42,10 @@ impl Default for Eight {
     }
 }
 
-impl Eight {
+impl RayBatch {
     /// The ray and the primitive of a lane, which is a ball or a tube as are those of the other lanes.
     #[inline]
-    pub fn set(&mut self, lane: usize, ray: &Ray, primitive: &Primitive) {
+    pub fn set(&mut self, lane: usize, ray: &Ray, primitive: &WorldPrimitive) {
         let lane = lane % LANES;
         let Ray { o, d } = ray;
         for (to, x) in self.rays.iter_mut().zip([o.x, o.y, o.z, d.x, d.y, d.z]) {
@@ -138,14 +138,14 @@ impl Eight {
     pub fn first(
         &self,
         lane: usize,
-        primitive: &Primitive,
+        primitive: &WorldPrimitive,
         index: u32,
         departure: Option<Departure>,
     ) -> Option<Crossing> {
         let lane = lane % LANES;
         let here = departure.is_some_and(|d| d.primitive == index);
         let inward = here && departure.is_some_and(|d| d.inward);
-        let starts = Starts { here, inward, off: departure.map(|d| d.off) };
+        let starts = RayStarts { here, inward, off: departure.map(|d| d.off) };
         // Balls and tubes have one face.
         let enter = Ends { t: self.enter[0][lane], error: self.enter[1][lane], surface: 0.0 };
         let leave = Ends { t: self.leave[0][lane], error: self.leave[1][lane], surface: 0.0 };

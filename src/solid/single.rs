@@ -5,18 +5,20 @@ use fearless_simd::Simd;
 
 use crate::math::{Mask, Number, Real};
 
-use super::crossing::start_of;
-use super::crossings::{CsgQuery, PacketCrossings, have_one_slope};
+use super::crossing::{PlaceError, have_one_slope, start_of};
+use super::csg_query::{CsgQuery, PacketCrossings};
 use super::span::Ends;
 use super::span_cache::CachedSpans;
 
 /// The first crossings of the rays that are `open` with their spans in one primitive, which may be `negated`.
 #[inline(always)]
-pub(super) fn decide_alone<S: Simd, T: Real>(
+pub(super) fn decide_single<S: Simd, T: Real>(
     simd: S,
-    (asked, open): (&CsgQuery<T>, u64),
+    asked: &CsgQuery<T>,
+    open: u64,
     known: &CachedSpans<T>,
-    (primitive, negated): (u32, bool),
+    primitive: u32,
+    negated: bool,
     found: &mut PacketCrossings<T>,
 ) {
     let CsgQuery { departures, reach, .. } = *asked;
@@ -44,7 +46,7 @@ pub(super) fn decide_alone<S: Simd, T: Real>(
             #[inline(always)]
             |d| d.off.load(simd, row),
         );
-        let own = (known.off, known.seeming);
+        let own = PlaceError { off: known.off, seeming: known.seeming };
         let starts = [start_of(enter.error, own, offs), start_of(leave.error, own, offs)];
         if !T::DECIDES {
             let near = enter.t.magnitude().is_at_most(starts[0]) | leave.t.magnitude().is_at_most(starts[1]);

@@ -1,0 +1,41 @@
+//! With what the viewer starts.
+
+use crate::glyph::{GlyphMode, Ground, Palette};
+use crate::output::Capabilities;
+use crate::plan::Options;
+use crate::scene::Camera;
+use crate::tone::Tone;
+
+/// With what the viewer starts.
+#[derive(Clone, Debug, Default)]
+pub struct Settings {
+    /// The name of the scene, as the frame shows it (in capitals).
+    pub title: String,
+    /// The index of the first view.
+    pub view: usize,
+    /// A camera of one's own, in place of the view; the first press of Tab leaves it for the view.
+    pub camera: Option<Camera>,
+    /// Shading model, shadows, structure, threads.
+    pub options: Options,
+    /// Characters.
+    pub glyphs: GlyphMode,
+    /// Colours, of the picture and of the panels.
+    pub palette: Palette,
+    /// What the terminal's own paper is, where there is only that.
+    pub ground: Ground,
+    /// What of these two the terminal has a say in.
+    pub questions: Questions,
+    /// Light to level.
+    pub tone: Tone,
+    /// What the terminal can be told and what it can draw.
+    pub terminal: Capabilities,
+}
+
+/// What a terminal's answers may decide.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Questions {
+    /// The grays of [`Palette::Dos`].
+    pub grays: bool,
+    /// Where ink goes that is the terminal's own.
+    pub ground: bool,
+}

@@ -122,7 +122,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
             meter.at(Stage::Cell);
         };
         let made = self.engine.first_seen(sight, rays, &mut make, &mut nearest[..count], trace);
-        self.engine.first_apart(&wave.rays, None, &mut wave.nearest[..count], trace);
+        self.engine.first_of_incoherent(&wave.rays, None, &mut wave.nearest[..count], trace);
         for k in 0..count {
             meter.counts.primary_rays += u64::from(sight.block(k).live().count_ones());
             if made >> k & 1 == 0 {
@@ -211,7 +211,12 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
             }
         }
         let count = wave.rays.len();
-        self.engine.first_apart(&wave.rays, Some(&wave.from[..count]), &mut wave.nearest[..count], trace);
+        self.engine.first_of_incoherent(
+            &wave.rays,
+            Some(&wave.from[..count]),
+            &mut wave.nearest[..count],
+            trace,
+        );
         for kind in &kinds {
             for (number, leg) in kind.rays.iter().enumerate() {
                 let at = kind.place(number);

@@ -54,7 +54,7 @@ impl FastEngine {
         let mut nearest = vec![PacketHits::NOTHING; packets.len()];
         let from = leave.then_some(&from[..]);
         engine.first_of(&packets, from, &mut nearest, tile);
-        engine.first_apart(&packets, from, &mut nearest, tile);
+        engine.first_of_incoherent(&packets, from, &mut nearest, tile);
         let mut answer = |(place, (ray, departure)): (usize, &(Ray, Option<Departure>))| {
             let (k, lane) = (place / RAYS, place % RAYS);
             // What the exact engine says of its error holds for the same bits.

@@ -149,16 +149,16 @@ impl StreamRays {
         self.ends.is_empty()
     }
 
-    /// A ray looks no farther than this; below 0 it looks for nothing any more.
+    /// Sets how far away what a ray meets may be to matter; below 0 where nothing matters any more.
     #[inline]
-    pub fn look(&mut self, ray: u32, to: f64) {
+    pub fn limit(&mut self, ray: u32, to: f64) {
         self.ends[ray as usize] = upper(to);
     }
 
-    /// Whether a meeting still matters.
+    /// Whether a candidate still matters.
     #[inline]
-    pub fn matters(&self, meeting: &Candidate) -> bool {
-        meeting.near <= self.ends[meeting.ray as usize]
+    pub fn matters(&self, candidate: &Candidate) -> bool {
+        candidate.near <= self.ends[candidate.ray as usize]
     }
 }
 
@@ -186,7 +186,7 @@ impl Stream {
 
 impl Bvh8 {
     /// Calls `visit` again and again with some rays and the objects whose boxes they meet, each pair once, of one ray the
-    /// nearer nodes first; at last with none. `visit` says by [`StreamRays::look`] how far a ray still matters.
+    /// nearer nodes first; at last with none. `visit` says by [`StreamRays::limit`] how far a ray still matters.
     #[inline]
     pub fn walk_stream(
         &self,

@@ -364,7 +364,7 @@ fn a_ray_of_a_stream_that_looks_no_farther_meets_no_more() {
         for meeting in some.iter().filter(|meeting| ways.matters(meeting)).copied().collect::<Vec<_>>() {
             if ways.matters(&meeting) {
                 asked[meeting.ray as usize] += 1;
-                ways.look(meeting.ray, -1.0);
+                ways.limit(meeting.ray, -1.0);
             }
         }
     });

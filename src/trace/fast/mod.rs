@@ -1,18 +1,23 @@
-//! The fast engine: the rays of a tile side by side, with the bits that the exact engine finds for each alone, unless half the
-//! digits are enough.
+//! The fast engine: the rays of a tile side by side, with the bits that the exact engine finds for each single ray, unless
+//! single precision is enough.
 //!
 //! A tile of rays is bounded by frustums, which walk a hierarchy of boxes; what they leave is computed for eight rays
-//! at a time, by the same formulas in the same order. Where a ray's answer needs more than that, two surfaces in one
-//! place or a solid that is not convex, the exact engine is asked for that ray; and so are rays that have no
-//! company.
+//! at a time, by the same formulas in the same order. Rays that are incoherent are traced as a stream. Where a ray's answer
+//! needs more than that, two surfaces in one place or a solid that is not convex, that ray is left to the exact engine.
 
+mod blocked;
+mod composite;
 mod first;
+mod glass;
+mod incoherent;
 mod memory;
+mod object;
 mod packet_culler;
 mod packet_hits;
+mod precision;
 mod reordering;
 mod shadow_packet;
-mod slices;
+mod sink;
 mod source;
 mod stream;
 mod transmittance;
@@ -29,7 +34,8 @@ use crate::view::TileCamera;
 use super::exact::all_moved_nearer;
 use super::{Engine, Exact, Hit, Memory};
 
-use memory::Asks;
+use first::{TracedPackets, TracedTile};
+use precision::Precision;
 use source::PacketSources;
 
 pub use memory::TileMemory;
@@ -102,12 +108,8 @@ impl<'a> Fast<'a> {
         nearest: &mut [PacketHits],
         memory: &mut TileMemory,
     ) -> usize {
-        self.first_of_sources::<f64>(
-            &mut PacketSources::Made { packets, departures },
-            (&mut [], nearest),
-            memory,
-        )
-        .1
+        let sources = &mut PacketSources::Made { packets, departures };
+        self.first_of_sources::<f64>(sources, &mut TracedPackets { own: &mut [], nearest }, memory).given_up
     }
 
     /// The first hits of the rays from the eye through a tile, as [`Fast::first_of`] finds them. `packets` and `nearest` have
@@ -123,13 +125,15 @@ impl<'a> Fast<'a> {
     ) -> u16 {
         let sources = &mut PacketSources::PrimaryHit { sight, packets, make };
         if !self.singles {
-            return self.first_of_sources::<f64>(sources, (&mut [], nearest), memory).0;
+            let traced = &mut TracedPackets { own: &mut [], nearest };
+            return self.first_of_sources::<f64>(sources, traced, memory).touched;
         }
         let (mut own, mut met) =
             (std::mem::take(&mut memory.singles.rays), std::mem::take(&mut memory.singles.nearest));
         own.resize(nearest.len(), RayPacket::EMPTY);
         met.resize(nearest.len(), PacketHits::NOTHING);
-        let touched = self.first_of_sources::<f32>(sources, (&mut own, &mut met), memory).0;
+        let traced = &mut TracedPackets { own: &mut own, nearest: &mut met };
+        let touched = self.first_of_sources::<f32>(sources, traced, memory).touched;
         dispatch!(self.level, simd => for (k, found) in nearest.iter_mut().enumerate() {
             found.forget_rays();
             if touched >> k & 1 == 1 {
@@ -143,19 +147,20 @@ impl<'a> Fast<'a> {
         touched
     }
 
-    fn first_of_sources<T: Asks>(
+    fn first_of_sources<T: Precision>(
         &self,
         sources: &mut PacketSources,
-        (own, nearest): (&mut [RayPacket<T>], &mut [PacketHits<T>]),
+        traced: &mut TracedPackets<T>,
         memory: &mut TileMemory,
-    ) -> (u16, usize) {
+    ) -> TracedTile {
         dispatch!(self.level, simd => {
-            let (touched, given_up) = self.first_of_tile(simd, sources, (own, nearest), memory);
-            for (k, found) in nearest.iter_mut().enumerate().filter(|(k, _)| touched >> k & 1 == 1) {
+            let tile = self.first_of_tile(simd, sources, traced, memory);
+            let nearest = traced.nearest.iter_mut().enumerate();
+            for (k, found) in nearest.filter(|(k, _)| tile.touched >> k & 1 == 1) {
                 found.doubt(simd, self.slack_of::<T>());
                 found.unsure &= sources.get(k).rays.live & !found.apart;
             }
-            (touched, given_up)
+            tile
         })
     }
 
@@ -171,7 +176,7 @@ impl<'a> Fast<'a> {
     ) -> bool {
         let rays: u32 = shadow_packets.iter().map(|shadow_packet| shadow_packet.rays.live.count_ones()).sum();
         if rays < FEW_OF_TILE {
-            self.blocked_alone(shadow_packets, departures, lamp, memory);
+            self.blocked_of_incoherent(shadow_packets, departures, lamp, memory);
             return false;
         }
         let mut reordering = std::mem::take(&mut memory.reordering);
@@ -206,7 +211,7 @@ impl<'a> Fast<'a> {
             let given_up = dispatch!(self.level, simd => self.blocked_of_tile(simd, shadow_packets, departures, lamp, memory));
             apart = 2 * given_up > asking;
         }
-        self.blocked_apart(shadow_packets, departures, lamp, memory);
+        self.stream_blocked(shadow_packets, departures, lamp, memory);
         apart
     }
 }

@@ -1,4 +1,4 @@
-//! The rays of a tile: those that surfaces sent on are there, those from the eye are made where anything may lie in their
+//! The rays of a tile: those that surfaces scatter are there, those from the eye are made where anything may lie in their
 //! way.
 
 use fearless_simd::{Level, Simd};
@@ -10,7 +10,7 @@ use crate::view::TileCamera;
 
 use super::super::exact::most_moved;
 
-/// A packet, and the surfaces that its rays leave: none from the eye. In the precision in which it is asked, and in double.
+/// A packet, and the surfaces that its rays leave: none from the eye. In the precision in which it is traced, and in double.
 #[derive(Clone, Copy)]
 pub(super) struct PacketSource<'a, T = f64> {
     pub rays: &'a RayPacket<T>,
@@ -30,6 +30,12 @@ impl<'a, T: Real> PacketSource<'a, T> {
     /// The same in double precision.
     pub fn full(&self) -> PacketSource<'a> {
         PacketSource::new(self.full_rays, self.full_departures)
+    }
+
+    /// Which rays leave a primitive to the outside, a bit for each: what is convex, or a surface, they do not meet again.
+    #[inline]
+    pub fn leaving<S: Simd>(&self, simd: S, primitive: u32) -> u64 {
+        self.departures.map_or(0, |departures| departures.leaving(simd, primitive))
     }
 
     /// The surfaces that the rays of a row start on, as seen from a primitive.
@@ -58,12 +64,12 @@ pub(super) enum PacketSources<'a> {
 }
 
 impl PacketSources<'_> {
-    /// Whether none of a packet's rays looks for anything. Of those that are still to be made some does.
+    /// Whether a packet has no live ray. Those that are still to be made have some.
     pub fn is_blind(&self, k: usize) -> bool {
         matches!(self, Self::Made { packets, .. } if packets[k].live == 0)
     }
 
-    /// Makes what is to be made of a packet.
+    /// Makes the rays of a packet, if that is to be done late.
     pub fn make(&mut self, k: usize) {
         if let Self::PrimaryHit { packets, make, .. } = self {
             make(k, &mut packets[k]);
@@ -99,7 +105,8 @@ impl PacketSources<'_> {
         &self,
         simd: S,
         level: Level,
-        (frustums, frusta): (&mut Vec<Option<Frustum>>, &mut FrustumSoa),
+        frustums: &mut Vec<Option<Frustum>>,
+        frusta: &mut FrustumSoa,
     ) {
         frustums.clear();
         match self {
@@ -187,7 +194,7 @@ mod tests {
             let sources = PacketSources::PrimaryHit { sight: &sight, packets: &mut unmade, make: &mut make };
             let (mut frustums, mut frusta) = (Vec::new(), FrustumSoa::default());
             let whole = dispatch!(level, simd => {
-                sources.spread(simd, level, (&mut frustums, &mut frusta));
+                sources.spread(simd, level, &mut frustums, &mut frusta);
                 sources.whole(simd)
             });
             for (k, packet) in packets.iter().enumerate() {

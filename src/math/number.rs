@@ -11,6 +11,9 @@ use fearless_simd::{Bytes, Select, Simd, SimdBase, SimdFloat, SimdMask, f64x8, m
 /// How many rays are computed side by side.
 pub const LANES: usize = 8;
 
+/// How many rays a packet has at most: one bit of a word for each, and one register of numbers for each eighth.
+pub const PACKET: usize = 64;
+
 /// Digits of a fraction behind its leading 1.
 const FRACTION: u32 = f64::MANTISSA_DIGITS - 1;
 

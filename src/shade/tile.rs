@@ -279,8 +279,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         }
         surfaces.know(packet, nearest, self.assembly, &mut departures[k], level);
         for at in places(k, surfaces.patches) {
-            let (primitive, surface) =
-                (nearest.primitive.0[at.lane] as u32, nearest.surface.0[at.lane] as u32);
+            let (primitive, surface) = (nearest.primitive.0[at.lane], nearest.surface.0[at.lane]);
             let p = surfaces.p.get(at.lane);
             let normal = self.assembly.turned_normal(primitive, surface, p, packet.d.get(at.lane));
             surfaces.normal.set(at.lane, normal);

@@ -71,9 +71,9 @@ impl FastEngine {
                 t: far.0[lane] + (left.0[lane] + t),
                 error: alone.map_or(0.0, |hit| hit.error),
                 p: packets[k].ray(lane).at(t),
-                object: met.object.0[lane] as u32,
-                primitive: met.primitive.0[lane] as u32,
-                surface: met.surface.0[lane] as u32,
+                object: met.object.0[lane],
+                primitive: met.primitive.0[lane],
+                surface: met.surface.0[lane],
                 entering: met.entering >> lane & 1 == 1,
             })
         };

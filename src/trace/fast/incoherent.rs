@@ -2,17 +2,14 @@
 
 use crate::lattice::{Candidate, Stream};
 use crate::math::{Ray, RayIndex};
-use crate::solid::{Departure, Eight, Scratch};
-
-/// No index of a primitive: there are fewer.
-pub(super) const NO_PRIMITIVE: u32 = u32::MAX;
+use crate::solid::{Departure, Departures, Eight, Scratch};
 
 /// Memory for incoherent rays.
 #[derive(Debug, Default)]
 pub(super) struct IncoherentRays {
     pub stream: Stream,
     pub rays: Vec<StreamRay>,
-    /// By ray, the primitive that it leaves to the outside, and [`NO_PRIMITIVE`] where it leaves none.
+    /// By ray, the primitive that it leaves to the outside, and [`Departures::NOWHERE`] where it leaves none.
     pub leaves: Vec<u32>,
     pub balls: Queue,
     pub tubes: Queue,
@@ -52,7 +49,7 @@ impl IncoherentRays {
     #[inline(always)]
     pub fn push(&mut self, at: RayIndex, ray: Ray, departure: Option<Departure>, to: f64) {
         self.stream.push(&ray, to);
-        self.leaves.push(departure.filter(|d| !d.inward).map_or(NO_PRIMITIVE, |d| d.primitive));
+        self.leaves.push(departure.filter(|d| !d.inward).map_or(Departures::NOWHERE, |d| d.primitive));
         self.rays.push(StreamRay { at, ray, departure });
     }
 }

@@ -2,7 +2,7 @@
 
 use fearless_simd::Simd;
 
-use crate::math::{Bounds, Mask, Number, RayPacket, Rays};
+use crate::math::{Bounds, Mask, Number, RayPacket, Rays, RealIds, SimdIds, SimdReal};
 use crate::solid::{
     Ball, Body, Ends, ExprView, FirstCrossings, Spans, Starts, WorldShape, firsts_of_spans,
     firsts_of_surface, with_spans,
@@ -143,8 +143,7 @@ fn ball_of_packet<S: Simd, T: Precision, H: HitSink<T>>(
 ) {
     let ConvexTest { source, wanted, form, object, primitive } = *test;
     let yes = T::row_of(simd, u64::MAX, 0);
-    let surface = T::all(simd, 0.0);
-    let primitive = T::all(simd, f64::from(primitive));
+    let (surface, ids) = (RealIds::<T, S>::all(simd, 0), RealIds::<T, S>::all(simd, primitive));
     let start = T::all(simd, start);
     for row in 0..T::ROWS {
         if !T::has_any(wanted, row) {
@@ -169,10 +168,10 @@ fn ball_of_packet<S: Simd, T: Precision, H: HitSink<T>>(
         }
         let met = if is_close {
             let FirstCrossings { end, entering, any } = firsts_of_spans(spans, form, &starts);
-            HitCandidate { any, t: end.t, error: end.error, entering, object, primitive, surface }
+            HitCandidate { any, t: end.t, error: end.error, entering, object, primitive: ids, surface }
         } else {
             let Ends { t, error, .. } = spans.enter;
-            HitCandidate { any: spans.any & ahead, t, error, entering: yes, object, primitive, surface }
+            HitCandidate { any: spans.any & ahead, t, error, entering: yes, object, primitive: ids, surface }
         };
         sink.offer(simd, row, &met);
     }
@@ -188,7 +187,7 @@ fn convex_of_packet<S: Simd, T: Precision, H: HitSink<T>>(
     spans: impl Fn(&Rays<T::SimdReal<S>>) -> Spans<T::SimdReal<S>>,
 ) {
     let ConvexTest { source, wanted, form, object, primitive } = *test;
-    let primitive = T::all(simd, f64::from(primitive));
+    let ids = RealIds::<T, S>::all(simd, primitive);
     for row in 0..T::ROWS {
         if !T::has_any(wanted, row) {
             continue;
@@ -205,7 +204,8 @@ fn convex_of_packet<S: Simd, T: Precision, H: HitSink<T>>(
         }
         let FirstCrossings { end, entering, any } = firsts_of_spans(spans, form, &starts);
         let Ends { t, error, surface } = end;
-        sink.offer(simd, row, &HitCandidate { any, t, error, entering, object, primitive, surface });
+        let surface = surface.ids();
+        sink.offer(simd, row, &HitCandidate { any, t, error, entering, object, primitive: ids, surface });
     }
 }
 

@@ -2,7 +2,7 @@
 
 use fearless_simd::Simd;
 
-use crate::math::{Lanes, Mask, Number, RayPacket, Real, RealMask, SimdRegister};
+use crate::math::{Lanes, Mask, Number, RayPacket, Real, RealIds, RealMask, SimdIds, SimdRegister};
 use crate::solid::Crossing;
 
 use super::super::Hit;
@@ -21,11 +21,11 @@ pub struct PacketHits<T = f64> {
     /// Where it met what comes next, another object's surface; of numbers that do not decide, where that is at least.
     pub second: Lanes<T>,
     /// The object, by its index in the assembly.
-    pub object: Lanes<T>,
+    pub object: Lanes<u32>,
     /// The primitive, by its index in the assembly.
-    pub primitive: Lanes<T>,
+    pub primitive: Lanes<u32>,
     /// The face of the primitive.
-    pub surface: Lanes<T>,
+    pub surface: Lanes<u32>,
     /// Which rays go into the object there, a bit for each.
     pub entering: u64,
     /// Which rays are to be asked one by one.
@@ -47,9 +47,9 @@ impl<T: Real> PacketHits<T> {
         t: Lanes::filled(T::INFINITY),
         error: Lanes::filled(T::ZERO),
         second: Lanes::filled(T::INFINITY),
-        object: Lanes::filled(T::ZERO),
-        primitive: Lanes::filled(T::ZERO),
-        surface: Lanes::filled(T::ZERO),
+        object: Lanes::filled(0),
+        primitive: Lanes::filled(0),
+        surface: Lanes::filled(0),
         entering: 0,
         unsure: 0,
         apart: 0,
@@ -86,9 +86,9 @@ impl PacketHits {
         if crossing.t < best {
             self.t.0[lane] = crossing.t;
             self.error.0[lane] = crossing.error;
-            self.object.0[lane] = f64::from(object);
-            self.primitive.0[lane] = f64::from(crossing.primitive);
-            self.surface.0[lane] = f64::from(crossing.surface);
+            self.object.0[lane] = object;
+            self.primitive.0[lane] = crossing.primitive;
+            self.surface.0[lane] = crossing.surface;
             self.entering = self.entering & !(1 << lane) | u64::from(crossing.entering) << lane;
         }
     }
@@ -101,9 +101,9 @@ impl PacketHits {
         };
         self.t.0[lane] = hit.t;
         self.error.0[lane] = hit.error;
-        self.object.0[lane] = f64::from(hit.object);
-        self.primitive.0[lane] = f64::from(hit.primitive);
-        self.surface.0[lane] = f64::from(hit.surface);
+        self.object.0[lane] = hit.object;
+        self.primitive.0[lane] = hit.primitive;
+        self.surface.0[lane] = hit.surface;
         self.entering = self.entering & !(1 << lane) | u64::from(hit.entering) << lane;
     }
 
@@ -112,9 +112,9 @@ impl PacketHits {
     pub(super) fn set_nearest<T: Real>(&mut self, other: &PacketHits<T>) {
         self.t.set_nearest(&other.t);
         self.error.set_nearest(&other.error);
-        self.object.set_nearest(&other.object);
-        self.primitive.set_nearest(&other.primitive);
-        self.surface.set_nearest(&other.surface);
+        self.object = other.object;
+        self.primitive = other.primitive;
+        self.surface = other.surface;
         (self.entering, self.unsure, self.apart) = (other.entering, other.unsure, other.apart);
     }
 }
@@ -137,11 +137,11 @@ impl<T: Real> PacketHits<T> {
         }
         self.t.put(simd, row, nearer, t);
         self.error.put(simd, row, nearer, met.error);
-        self.object.put(simd, row, nearer, T::all(simd, f64::from(met.object)));
-        self.primitive.put(simd, row, nearer, met.primitive);
-        self.surface.put(simd, row, nearer, met.surface);
-        let (nearer, entering) = (T::bits_of(simd, nearer, row), T::bits_of(simd, met.entering, row));
-        self.entering = self.entering & !nearer | entering & nearer;
+        let bits = T::bits_of(simd, nearer, row);
+        self.object.put_ids::<T, S>(simd, row, bits, RealIds::<T, S>::all(simd, met.object));
+        self.primitive.put_ids::<T, S>(simd, row, bits, met.primitive);
+        self.surface.put_ids::<T, S>(simd, row, bits, met.surface);
+        self.entering = self.entering & !bits | T::bits_of(simd, met.entering, row) & bits;
     }
 
     /// Up to where something may be in one place with what the rays of a row met first. In double precision that is said by how far
@@ -200,7 +200,7 @@ pub struct HitCandidate<T: Real, S: Simd> {
     /// The object.
     pub object: u32,
     /// The primitive.
-    pub primitive: T::SimdReal<S>,
+    pub primitive: RealIds<T, S>,
     /// The face.
-    pub surface: T::SimdReal<S>,
+    pub surface: RealIds<T, S>,
 }

@@ -6,7 +6,7 @@
 
 use fearless_simd::{Simd, SimdBase, f64x8};
 
-use crate::lattice::WAY;
+use crate::lattice::LONGEST_PATH;
 use crate::math::{DVec3, LaneVector, Lanes, Number, PACKET, ROWS, lanes};
 use crate::solid::Departures;
 
@@ -48,7 +48,7 @@ impl RayReordering {
         }
         let (u, v) = sum.normalize_or(DVec3::X).any_orthonormal_pair();
         // Near a light the view is one of directions, far from it of places.
-        let near = lamp.abs().max_element() <= WAY;
+        let near = lamp.abs().max_element() <= LONGEST_PATH;
         let infinite = f64x8::splat(simd, f64::INFINITY);
         let (mut from, mut to) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         let (mut widths, mut count) = (0.0, 0.0);
@@ -188,7 +188,7 @@ mod tests {
                 let o = start(k, lane);
                 shadow_packet.rays.set(lane, &Ray::new(o, (lamp - o).normalize()));
                 shadow_packet.distance.0[lane] = (lamp - o).length();
-                left.primitive.0[lane] = (k * PACKET + lane) as f64;
+                left.primitive.0[lane] = (k * PACKET + lane) as u32;
             }
             dispatch!(Level::new(), simd => shadow_packet.close(simd));
         }

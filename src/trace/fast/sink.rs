@@ -45,8 +45,8 @@ struct Found<'a, U> {
     t: &'a Lanes<U>,
     error: &'a Lanes<U>,
     entering: u64,
-    primitive: &'a Lanes<U>,
-    surface: &'a Lanes<U>,
+    primitive: &'a Lanes<u32>,
+    surface: &'a Lanes<u32>,
 }
 
 impl<U: Real> Found<'_, U> {
@@ -66,8 +66,8 @@ impl<U: Real> Found<'_, U> {
                         error: loosened::<T, S>(self.error.load_nearest::<T, S>(simd, row), t),
                         entering: T::row_of(simd, self.entering, row),
                         object,
-                        primitive: self.primitive.load_nearest::<T, S>(simd, row),
-                        surface: self.surface.load_nearest::<T, S>(simd, row),
+                        primitive: self.primitive.ids::<T, S>(simd, row),
+                        surface: self.surface.ids::<T, S>(simd, row),
                     };
                     sink.offer(simd, row, &met);
                 }

@@ -4,7 +4,7 @@
 use fearless_simd::{Level, Simd};
 
 use crate::lattice::{Basis, FRUSTA, Frustum, FrustumSoa, Spread};
-use crate::math::{LaneVector, Lanes, Number, RayPacket, Real};
+use crate::math::{LaneVector, Lanes, RayPacket, Real, RealIds, SimdIds, SimdReal};
 use crate::solid::{Departures, Starts};
 use crate::view::TileCamera;
 
@@ -40,11 +40,15 @@ impl<'a, T: Real> PacketSource<'a, T> {
 
     /// The surfaces that the rays of a row start on, as seen from a primitive.
     #[inline(always)]
-    pub fn starts<S: Simd>(&self, simd: S, row: usize, primitive: T::SimdReal<S>) -> Starts<T::SimdReal<S>> {
+    pub fn starts<S: Simd>(&self, simd: S, row: usize, primitive: u32) -> Starts<T::SimdReal<S>> {
         let no = T::row_of(simd, 0, row);
         let Some(departures) = self.departures else { return Starts { here: no, inward: no, off: None } };
+        let primitive = RealIds::<T, S>::all(simd, primitive);
         Starts {
-            here: departures.primitive.load(simd, row).is_equal(primitive),
+            here: T::SimdReal::<S>::answers(
+                simd,
+                departures.primitive.ids::<T, S>(simd, row).equal_bits(primitive),
+            ),
             inward: T::row_of(simd, departures.inward, row),
             off: Some(departures.off.load(simd, row)),
         }
@@ -137,7 +141,7 @@ impl PacketSources<'_> {
 /// The frustum around rays of any kind.
 #[inline(always)]
 fn around<S: Simd>(simd: S, packets: &[RayPacket]) -> Frustum {
-    Frustum::around(simd, packets.iter().map(|packet| (packet, None)), Spread::Apart)
+    Frustum::around(simd, packets.iter().map(|packet| (packet, None)), Spread::Diverging)
 }
 
 #[cfg(test)]

@@ -160,7 +160,8 @@ impl Fast<'_> {
     #[inline]
     fn leaves_mesh(&self, departures: &Departures, lane: usize) -> bool {
         let primitive = departures.primitive.0[lane];
-        primitive >= 0.0 && matches!(self.assembly.primitives[primitive as usize].form, WorldShape::Mesh(_))
+        primitive != Departures::NOWHERE
+            && matches!(self.assembly.primitives[primitive as usize].form, WorldShape::Mesh(_))
     }
 
     /// Traces all rays of a stream.

@@ -7,19 +7,20 @@ use crate::solid::WORLD;
 
 use super::slopes::{Basis, COHERENT, Slopes, Spread, highest, lowest};
 
-/// A ray within the world, from anywhere that it may start at, has left it after this length: the diameter of a ball of
-/// radius [`WORLD`].
+/// A ray within the world, from anywhere that it may start at, has left it after this length: the diameter of
+/// a ball of radius [`WORLD`].
 pub const LONGEST_PATH: f64 = 2.0 * WORLD;
 
-/// How far rounding may put a dot product with a plane's normal off its place, for a normal whose components add up to
-/// 1: three products and two sums of numbers up to [`WORLD`] + [`LONGEST_PATH`], on either side of the comparison, and the
-/// point itself, a product and a sum. Ten roundings, rounded up to 16 half-ulps.
+/// How far rounding may put a dot product with a plane's normal off its place, for a normal whose components
+/// add up to 1: three products and two sums of numbers up to [`WORLD`] + [`LONGEST_PATH`], on either side of
+/// the comparison, and the point itself, a product and a sum. Ten roundings, rounded up to 16 half-ulps.
 const ROUNDED: f64 = 8.0 * f64::EPSILON * (WORLD + LONGEST_PATH);
 
-/// What single precision lose of a dot product with a plane's normal, as a share of what the normal's components add up
-/// to: six products and five sums of rounded numbers, for points within 2.01 of the origin on each axis, and the offset:
-/// 14 roundings of numbers up to 2.01, rounded up to 32 · 2⁻²⁴. A difference with the place of a start, which is within
-/// [`WORLD`], takes 16 · 2⁻²⁴ more; but three products and two sums are all that is there before it.
+/// What single precision lose of a dot product with a plane's normal, as a share of what the normal's
+/// components add up to: six products and five sums of rounded numbers, for points within 2.01 of the origin
+/// on each axis, and the offset: 14 roundings of numbers up to 2.01, rounded up to 32 · 2⁻²⁴. A difference
+/// with the place of a start, which is within [`WORLD`], takes 16 · 2⁻²⁴ more; but three products and two
+/// sums are all that is there before it.
 const LOST: f64 = 32.0 / 16_777_216.0;
 
 /// A plane; points in front of it have `normal · p ≥ offset`.
@@ -71,8 +72,8 @@ pub struct FrustumHits<S: Simd> {
     pub near: f32x8<S>,
 }
 
-/// Lights farther away than this are no apex for planes: what rounding makes of their place would be a thousandth of what
-/// single precision lose ([`LOST`]).
+/// Lights farther away than this are no apex for planes: what rounding makes of their place would be a
+/// thousandth of what single precision lose ([`LOST`]).
 const NEAR: f64 = (1_u32 << 20) as f64;
 
 /// Planes through one point.
@@ -132,8 +133,9 @@ impl Extents {
 }
 
 impl Frustum {
-    /// The frustum of rays from one point, however far away, that lie between four of them. Those that come from far start
-    /// nearer, moved by up to `moved`. The sides run along those of `basis`, unless the rays go elsewhere.
+    /// The frustum of rays from one point, however far away, that lie between four of them. Those that come
+    /// from far start nearer, moved by up to `moved`. The sides run along those of `basis`, unless the rays
+    /// go elsewhere.
     pub fn between(o: DVec3, corners: [DVec3; 4], moved: f64, basis: &Basis) -> Self {
         let (mut basis, mut slopes) = (*basis, Slopes::between(&corners, basis));
         if slopes.least <= COHERENT {
@@ -152,8 +154,8 @@ impl Frustum {
         Self { sides: through(o, normals), axis, first: at - far, last, start: at + moved + far }
     }
 
-    /// The frustums around packets that all go to one point, each with how far, and the frustum around them all. There is none for
-    /// what is absent, or has no live ray.
+    /// The frustums around packets that all go to one point, each with how far, and the frustum around them
+    /// all. There is none for what is absent, or has no live ray.
     #[inline(always)]
     pub fn towards<'b, S: Simd>(
         simd: S,
@@ -239,9 +241,9 @@ impl Frustum {
         Self { sides, axis, first, last, start }
     }
 
-    /// All its planes, each a normal and an offset below which nothing is met: the four sides, the first and the last
-    /// along its axis. And what is to be taken from the place of a point along the axis to know how near it is at
-    /// least to the start of any ray.
+    /// All its planes, each a normal and an offset below which nothing is met: the four sides, the first and
+    /// the last along its axis. And what is to be taken from the place of a point along the axis to know how
+    /// near it is at least to the start of any ray.
     #[inline]
     pub fn planes(&self) -> ([(DVec3, f64); 6], f64) {
         let [a, b, c, d] = &self.sides;
@@ -249,7 +251,8 @@ impl Frustum {
         ([side(a), side(b), side(c), side(d), (self.axis, self.first), (-self.axis, -self.last)], self.start)
     }
 
-    /// Which of eight boxes, by axis, the frustum may meet. An empty one, whose sides are swapped, is never met.
+    /// Which of eight boxes, by axis, the frustum may meet. An empty one, whose sides are swapped, is never
+    /// met.
     #[inline(always)]
     pub fn meets_boxes<S: Simd>(&self, simd: S, lo: &[f32x8<S>; 3], hi: &[f32x8<S>; 3]) -> FrustumHits<S> {
         let mut met = lo[0].simd_le(hi[0]);
@@ -277,9 +280,10 @@ fn margin(normal: DVec3) -> f64 {
     ROUNDED * normal.abs().element_sum()
 }
 
-/// The same, for a plane through a point that may be far away, and through corners seen from there: three products and two
-/// sums of numbers as large as that; and what the eight roundings of a direction's component, of a ray and of a corner, are
-/// at the other end of such a length. 21 roundings, rounded up to 32 half-ulps.
+/// The same, for a plane through a point that may be far away, and through corners seen from there: three
+/// products and two sums of numbers as large as that; and what the eight roundings of a direction's
+/// component, of a ray and of a corner, are at the other end of such a length. 21 roundings, rounded up to 32
+/// half-ulps.
 fn margin_at(normal: DVec3, point: DVec3) -> f64 {
     let farther = 16.0 * f64::EPSILON * point.abs().max_element();
     (ROUNDED + farther) * normal.abs().element_sum()

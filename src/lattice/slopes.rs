@@ -1,10 +1,12 @@
-//! How the rays of a packet lie to an axis: their slopes along two directions across it, between which they all go.
+//! How the rays of a packet lie to an axis: their slopes along two directions across it, between which they
+//! all go.
 
 use fearless_simd::{Simd, SimdBase, f64x8};
 
 use crate::math::{DVec3, LaneVector, Number, ROWS, RayPacket};
 
-/// The least cosine between a ray and the frustum's axis: past 78° off the slopes, and with them the planes, say little.
+/// The least cosine between a ray and the frustum's axis: past 78° off the slopes, and with them the planes,
+/// say little.
 pub(super) const COHERENT: f64 = 0.2;
 
 /// How a packet of rays spreads.
@@ -23,8 +25,8 @@ pub struct Basis {
     across: [DVec3; 2],
 }
 
-/// How rays lie to a basis: the least and the greatest slope along each direction across, and the least cosine with the
-/// axis.
+/// How rays lie to a basis: the least and the greatest slope along each direction across, and the least
+/// cosine with the axis.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slopes {
     low: [f64; 2],
@@ -33,8 +35,8 @@ pub(super) struct Slopes {
 }
 
 impl Basis {
-    /// The one whose directions across run along the sides of a frustum with these corners, the first two of which are
-    /// neighbours.
+    /// The one whose directions across run along the sides of a frustum with these corners, the first two of
+    /// which are neighbours.
     pub fn of_corners(corners: [DVec3; 4]) -> Self {
         let axis = (corners[0] + corners[1] + corners[2] + corners[3]).normalize_or(DVec3::X);
         let u = (corners[1] - corners[0]).cross(axis).normalize_or(axis.any_orthonormal_vector());

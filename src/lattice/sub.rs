@@ -1,4 +1,5 @@
-//! The sub-lattice of a composite object: in each cell, the part of its CSG expression that still matters there.
+//! The sub-lattice of a composite object: in each cell, the part of its CSG expression that still matters
+//! there.
 
 use std::collections::HashMap;
 use std::ops::ControlFlow;
@@ -8,18 +9,18 @@ use crate::solid::{Assembly, Body, Expression, Object, Primitive, Pruned, Tree};
 use crate::stage::{Progress, Task};
 
 use super::loose_octree::{LooseOctree, MANY};
-use super::planes::{Planes, SLACK, Step, slack};
+use super::planes::{CellStep, Planes, SLACK, slack};
 
 /// The most cells of one sub-lattice. Past it planes are left out, which costs tests but changes no hit: 64
 /// along each axis, where a cell is as small as a dot of a picture that the object fills.
 const MOST_CELLS: f64 = 262_144.0;
 
-/// The most cells of all sub-lattices: 16 MB, and a second or two to fill. Each composite object has an equal share;
-/// where they are many, each is few dots of the picture.
+/// The most cells of all sub-lattices: 16 MB, and a second or two to fill. Each composite object has an equal
+/// share; where they are many, each is few dots of the picture.
 const ALL_CELLS: f64 = 4_194_304.0;
 
-/// The most primitives named by the expressions of one sub-lattice, and of all: 12 bytes each, and three times that
-/// while one is built. Past it cells share an expression, which costs tests but changes no hit.
+/// The most primitives named by the expressions of one sub-lattice, and of all: 12 bytes each, and three
+/// times that while one is built. Past it cells share an expression, which costs tests but changes no hit.
 const MOST_LEAVES: f64 = 4_194_304.0;
 const ALL_LEAVES: f64 = 4.0 * MOST_LEAVES;
 
@@ -113,8 +114,8 @@ pub struct SubLattice {
 /// The first and the last cell along each axis.
 type Range = [(usize, usize); 3];
 
-/// Pruning recurses once per level of operators inside each other: deeper ones than a small stack allows for, which only
-/// programs write, and seldom, are asked as a whole.
+/// Pruning recurses once per level of operators inside each other: deeper ones than a small stack allows for,
+/// which only programs write, and seldom, are intersected as a whole.
 const DEEPEST: usize = 256;
 
 /// The content of a cell without surfaces, be it outside or inside.
@@ -143,13 +144,13 @@ impl SubLattice {
         Some(Self { planes, cells, parts, bounds: *bounds })
     }
 
-    /// Calls `visit` with each stretch of the ray that has surfaces, and the expression there, in order, until it
-    /// breaks. Cells that share an expression are not joined: a stretch is at most a cell.
+    /// Calls `visit` with each stretch of the ray that has surfaces, and the expression there, in order,
+    /// until it breaks. Cells that share an expression are not joined: a stretch is at most a cell.
     pub fn walk<B>(
         &self,
         ray: &Ray,
         cells_visited: &mut u64,
-        mut visit: impl FnMut(&Expression, Step) -> ControlFlow<B>,
+        mut visit: impl FnMut(&Expression, CellStep) -> ControlFlow<B>,
     ) -> Option<B> {
         let start = super::clip::entry(ray, &self.bounds.padded(DVec3::splat(SLACK)))?;
         self.planes.walk(ray, start, f64::INFINITY, |step| {
@@ -178,13 +179,13 @@ struct Building<'a> {
     slack: f64,
     cells: Vec<u32>,
     parts: Vec<Expression>,
-    /// Equal expressions are stored once. Only asked by key, so that its order plays no part.
+    /// Equal expressions are stored once. Only looked up by key, so that its order plays no part.
     known: HashMap<Tree, u32>,
 }
 
 impl Building<'_> {
-    /// Fills a range of cells, given what is left of the expression in a range around it, with expressions that name
-    /// about `allowance` primitives together.
+    /// Fills a range of cells, given what is left of the expression in a range around it, with expressions
+    /// that name about `allowance` primitives together.
     fn fill(&mut self, tree: &Tree, range: Range, allowance: f64) {
         // A crossing may be computed `slack` outside its cell; twice that keeps its whole cluster.
         let b = self.planes.bounds(&range).padded(DVec3::splat(2.0 * self.slack));
@@ -227,7 +228,8 @@ mod tests {
     use crate::math::DAffine3;
     use crate::scene::{Material, MaterialId, Scene, Shape, Solid};
 
-    // Five thousand slanted plates took 20 s and a gigabyte: nearly every cell was crossed by hundreds of them.
+    // Five thousand slanted plates took 20 s and a gigabyte: nearly every cell was crossed by hundreds of
+    // them.
     #[test]
     fn expressions_stay_within_the_budget() {
         let plate = |k: u32| {

@@ -2,23 +2,23 @@
 
 use super::{DAffine3, DMat3, DVec3};
 
-/// The sum of two numbers as it is rounded, and the rest: together they are the exact sum, unless it overflows
-/// (Knuth: The Art of Computer Programming 2, 4.2.2, theorem B).
+/// The sum of two numbers as it is rounded, and the rest: together they are the exact sum, unless it
+/// overflows (Knuth: The Art of Computer Programming 2, 4.2.2, theorem B).
 pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let part = sum - a;
     (sum, (a - (sum - part)) + (b - part))
 }
 
-/// The product of two numbers as it is rounded, and the rest: together they are the exact product, unless that or its
-/// rest leaves the range of f64. By a fused multiply-add, which is the same on every platform.
+/// The product of two numbers as it is rounded, and the rest: together they are the exact product, unless
+/// that or its rest leaves the range of f64. By a fused multiply-add, which is the same on every platform.
 pub fn two_product(a: f64, b: f64) -> (f64, f64) {
     let product = a * b;
     (product, libm::fma(a, b, -product))
 }
 
-/// The same bits for numbers between 2⁻⁴⁰⁰ and 2⁴⁰⁰, and for 0, by products and sums alone, several at a time where it is
-/// inlined into a loop (T. J. Dekker, Numerische Mathematik 18, 1971).
+/// The same bits for numbers between 2⁻⁴⁰⁰ and 2⁴⁰⁰, and for 0, by products and sums alone, several at a time
+/// where it is inlined into a loop (T. J. Dekker, Numerische Mathematik 18, 1971).
 #[inline]
 pub fn two_product_in_range(a: f64, b: f64) -> (f64, f64) {
     let [(a_high, a_low), (b_high, b_low)] = [halves(a), halves(b)];

@@ -203,7 +203,8 @@ impl<T: Real> RayPacket<T> {
         self.live |= 1 << lane;
     }
 
-    /// Gives those that are not there the numbers of the first that is: bounds around all are bounds around the live.
+    /// Gives those that are not there the numbers of the first that is: bounds around all are bounds around
+    /// the live.
     #[inline(always)]
     pub fn close<S: Simd>(&mut self, simd: S) {
         if self.live == 0 || self.live == u64::MAX {

@@ -1,4 +1,5 @@
-//! The precision of the numbers of a packet: that of `f64`, or that of `f32`, of which a register holds twice as many.
+//! The precision of the numbers of a packet: that of `f64`, or that of `f32`, of which a register holds twice
+//! as many.
 
 use std::fmt::Debug;
 
@@ -20,8 +21,8 @@ pub trait Real: Copy + Debug + Default + Into<f64> + Send + Sync + 'static {
     const ROWS: usize = PACKET / Self::LANES;
     /// A bit for each ray of the first row.
     const ROW: u64 = (1 << Self::LANES) - 1;
-    /// How many times as much is lost by a rounding as of an `f64`. Maps, starts and directions come rounded once from `f64`; the rest
-    /// of each chain of roundings is the same.
+    /// How many times as much is lost by a rounding as of an `f64`. Maps, starts and directions come rounded
+    /// once from `f64`; the rest of each chain of roundings is the same.
     const COARSER: f64;
     /// [`Number::DECIDES`].
     const DECIDES: bool;
@@ -153,7 +154,8 @@ impl<S: Simd> SimdReal<S> for f64x8<S> {
     }
     #[inline(always)]
     fn ids(self) -> u32x8<S> {
-        // Between 2⁵² and 2⁵³ the lowest digits of a number are those of an integer: no conversion that saturates is as quick.
+        // Between 2⁵² and 2⁵³ the lowest digits of a number are those of an integer: no conversion that
+        // saturates is as quick.
         let shifted: [f64; LANES] = (self + INTEGERS).into();
         let mut ids = [0; LANES];
         for lane in 0..LANES {

@@ -205,7 +205,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
                 } else {
                     for k in some {
                         wave.nearest[k].clear();
-                        wave.nearest[k].apart = wave.rays[k].live;
+                        wave.nearest[k].incoherent = wave.rays[k].live;
                     }
                 }
             }

@@ -1,14 +1,17 @@
 //! Incoherent rays through the hierarchy, many under way at once.
 //!
-//! A single ray stalls: on the memory of the node that it is tested against next, and on branches that no processor can
-//! predict. So each of many takes one step in its turn, and the others' steps fill the stalls of one.
+//! A single ray stalls: on the memory of the node that it is tested against next, and on branches that no
+//! processor can predict. So each of many takes one step in its turn, and the others' steps fill the stalls
+//! of one.
 
 use fearless_simd::{Simd, SimdBase, dispatch, f32x8};
 
 use crate::math::Ray;
 
+use super::Bvh8;
+use super::node::{INNER, Node, WIDE};
+use super::rounding::upper;
 use super::walk::{RayF32, RaySimd, STACK, first_two};
-use super::{Bvh8, INNER, Node, WIDE, upper};
 
 /// Rays that are under way at once: their stacks have room in the nearest cache.
 const ABREAST: usize = 24;
@@ -56,8 +59,8 @@ struct Steps {
     met: [u32; ABREAST],
 }
 
-/// A node that is to be walked by a ray, which enters its box at a distance of 0 or more, or before: the bits of that
-/// distance above those of the index, so that of two the smaller is the nearer.
+/// A node that is to be walked by a ray, which enters its box at a distance of 0 or more, or before: the bits
+/// of that distance above those of the index, so that of two the smaller is the nearer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct PackedNode(u64);
 
@@ -94,8 +97,9 @@ struct NodeStack {
 impl NodeStack {
     const EMPTY: Self = Self { near: [PackedNode::NONE; STACK], len: 1, before: Vec::new() };
 
-    /// Pushes the nodes among a node's children that a ray meets, and pops the nearest of them, or the last of the stack
-    /// where it meets none. The only branch is whether there are more than two: no other could be predicted.
+    /// Pushes the nodes among a node's children that a ray meets, and pops the nearest of them, or the last
+    /// of the stack where it meets none. The only branch is whether there are more than two: no other could
+    /// be predicted.
     #[inline(always)]
     fn step(&mut self, node: &Node, enter: &[f32; WIDE], met: u32) -> PackedNode {
         if self.len > STACK - WIDE {
@@ -185,8 +189,9 @@ impl Stream {
 }
 
 impl Bvh8 {
-    /// Calls `visit` again and again with some rays and the objects whose boxes they meet, each pair once, of one ray the
-    /// nearer nodes first; at last with none. `visit` says by [`StreamRays::limit`] how far a ray still matters.
+    /// Calls `visit` again and again with some rays and the objects whose boxes they meet, each pair once, of
+    /// one ray the nearer nodes first; at last with none. `visit` says by [`StreamRays::limit`] how far a ray
+    /// still matters.
     #[inline]
     pub fn walk_stream(
         &self,

@@ -6,7 +6,9 @@ use fearless_simd::{Simd, SimdBase, SimdMask, dispatch, f32x8};
 
 use crate::math::Ray;
 
-use super::{Bvh8, INNER, Node, WIDE, lower, upper};
+use super::Bvh8;
+use super::node::{INNER, Node, WIDE};
+use super::rounding::{lower, upper};
 
 /// Nodes that a stack holds in place: at most seven more for each level of the tree, and one or two mostly.
 pub(super) const STACK: usize = 64;
@@ -34,7 +36,8 @@ impl<T: Copy> NodeStack<T> {
         }
     }
 
-    /// Adds both, or only the first, or none, without a branch, which no processor could predict. There is room.
+    /// Adds both, or only the first, or none, without a branch, which no processor could predict. There is
+    /// room.
     #[inline(always)]
     fn push(&mut self, both: [T; 2], count: u32) {
         self.near[self.len % STACK] = both[0];
@@ -68,9 +71,9 @@ pub(super) struct RayF32 {
     o: [f32; 3],
     /// 1 / d, and the largest number where that is larger.
     ///
-    /// A difference of 0 times that is 0, so no product is not a number. Where it is too small, the padding is far enough:
-    /// a box whose planes the ray lies between is entered before its start and left far behind its end, and one beside it
-    /// is not.
+    /// A difference of 0 times that is 0, so no product is not a number. Where it is too small, the padding
+    /// is far enough: a box whose planes the ray lies between is entered before its start and left far behind
+    /// its end, and one beside it is not.
     inverse: [f32; 3],
     /// Which of the two sides along each axis the ray comes to first.
     first: [u32; 3],
@@ -111,8 +114,9 @@ impl<S: Simd> RaySimd<S> {
         }
     }
 
-    /// Where the ray enters the boxes of a node before `to`, or before, and a bit for each that it meets. What rounding may
-    /// do is in the boxes ([`MARGIN`](super::MARGIN)). Nothing here is not a number.
+    /// Where the ray enters the boxes of a node before `to`, or before, and a bit for each that it meets.
+    /// What rounding may do is in the boxes ([`MARGIN`](super::rounding::MARGIN)). Nothing here is not a
+    /// number.
     #[inline(always)]
     pub fn meets(&self, simd: S, node: &Node, to: f32x8<S>) -> (f32x8<S>, u32) {
         let [near_x, far_x] = self.slab(simd, node, 0);
@@ -148,9 +152,9 @@ pub(super) fn first_two(bits: u32) -> ([usize; 2], u32) {
 }
 
 impl Bvh8 {
-    /// Calls `visit` with each object whose box the ray meets between `from` and `to`, and where it enters that box, or
-    /// before, until it breaks; of the nodes in a node the nearest first. `visit` returns how far the ray still matters:
-    /// boxes that begin beyond that are not visited.
+    /// Calls `visit` with each object whose box the ray meets between `from` and `to`, and where it enters
+    /// that box, or before, until it breaks; of the nodes in a node the nearest first. `visit` returns how
+    /// far the ray still matters: boxes that begin beyond that are not visited.
     pub fn walk<B>(
         &self,
         ray: &Ray,
@@ -164,8 +168,8 @@ impl Bvh8 {
         dispatch!(self.level, simd => walk_nearest(simd, &self.nodes, ray, &Range { from, to }, cells_visited, visit))
     }
 
-    /// Calls `visit` with each object whose box the ray meets before `to`, in no order, until it says yes. Answers whether
-    /// it did.
+    /// Calls `visit` with each object whose box the ray meets before `to`, in no order, until it says yes.
+    /// Answers whether it did.
     pub fn any(
         &self,
         ray: &Ray,

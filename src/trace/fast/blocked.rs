@@ -1,8 +1,8 @@
 //! What stands between the lit points of a tile and one light.
 //!
-//! The rays towards a light run together, so that the frustum around them has its apex at the light. It walks the boxes as the
-//! frustum of the rays from the eye does; which of two things stands in the way does not matter, and a ray that is blocked is
-//! traced no further.
+//! The rays towards a light run together, so that the frustum around them has its apex at the light. It walks
+//! the boxes as the frustum of the rays from the eye does; which of two things stands in the way does not
+//! matter, and a ray that is blocked is traced no further.
 
 use fearless_simd::{Simd, f32x8};
 
@@ -22,16 +22,16 @@ use super::source::PacketSource;
 use super::transmittance::OpacityClass;
 use super::walk::{Target, TestBudget, TileVisitor, walk_tile};
 
-/// The most objects that a shadow packet is intersected with, for each of its rays: incoherent rays, which have so many objects
-/// between them, take less time in a stream.
+/// The most objects that a shadow packet is intersected with, for each of its rays: incoherent rays, which
+/// have so many objects between them, take less time in a stream.
 const CROWD: u32 = 2;
 
 /// So few rays of a block take less time in a stream than their frustum does.
 const FEW_RAYS: u32 = 12;
 
 impl Fast<'_> {
-    /// Finds which rays towards a light are blocked. `departures` has the surfaces that they leave. Answers how many shadow
-    /// packets were given up, since there are too many objects between their rays.
+    /// Finds which rays towards a light are blocked. `departures` has the surfaces that they leave. Answers
+    /// how many shadow packets were given up, since there are too many objects between their rays.
     #[inline(always)]
     pub(super) fn blocked_of_tile<S: Simd>(
         &self,
@@ -141,11 +141,11 @@ impl<S: Simd> TileVisitor<S> for BlockedVisitor<'_, '_> {
 
     #[inline(always)]
     fn visit(&mut self, simd: S, target: &Target<S>, k: usize, _: f32, memory: &mut TileMemory) {
-        if !self.budget.spend(k) {
-            self.given_up += 1;
-            self.shadow_packets[k].apart |= self.shadow_packets[k].open();
-        } else {
+        if self.budget.spend(k) {
             self.intersect(simd, target, k, memory);
+        } else {
+            self.given_up += 1;
+            self.shadow_packets[k].incoherent |= self.shadow_packets[k].open();
         }
         if self.shadow_packets[k].open() == 0 {
             self.open &= !(1 << k);

@@ -1,5 +1,5 @@
-//! A packet of rays against a composite object: the rays are cut into slices, nearest first, and each slice is intersected
-//! with what the object's expression is there.
+//! A packet of rays against a composite object: the rays are cut into slices, nearest first, and each slice
+//! is intersected with what the object's expression is there.
 
 use fearless_simd::Simd;
 
@@ -17,7 +17,8 @@ use super::source::PacketSource;
 /// [`HitSink::FEW_LEAVES`].
 const CUTS: u32 = 2;
 
-/// How often the rays' range in an object is halved at most: into 64 slices, about as many as a sub-lattice has cells.
+/// How often the rays' range in an object is halved at most: into 64 slices, about as many as a sub-lattice
+/// has cells.
 const HALVINGS: u32 = 6;
 
 /// The expression of a whole object, and its classifications by cells.
@@ -71,7 +72,8 @@ impl<S: Simd, T: Precision, H: HitSink<T>> CompositeTest<'_, S, T, H> {
         memory.pruned.push(pruned);
     }
 
-    /// Offers what the open rays meet of an expression between two distances; where this precision does not decide, by double.
+    /// Offers what the open rays meet of an expression between two distances; where this precision does not
+    /// decide, by double.
     fn evaluate(&mut self, expression: ExprView, from: f64, to: f64, memory: &mut TileMemory) {
         let slack = SLACK * T::COARSER;
         let reach = TRange { from: from - slack, to: to + slack };
@@ -105,8 +107,8 @@ impl<S: Simd, T: Precision, H: HitSink<T>> CompositeTest<'_, S, T, H> {
     }
 }
 
-/// What an expression in a box is to be pruned from: what is left of it already, or of the whole object in a cell around
-/// the box, whichever is less; none where there is no surface in that cell.
+/// What an expression in a box is to be pruned from: what is left of it already, or of the whole object in a
+/// cell around the box, whichever is less; none where there is no surface in that cell.
 fn least_known<'e>(
     whole: Option<Whole<'e>>,
     left: ExprView<'e>,
@@ -133,7 +135,8 @@ fn bounds_between<S: Simd, T: Real>(simd: S, packet: &RayPacket<T>, rays: u64, f
                 let Rays { o, d } = packet.load(simd, row);
                 for axis in 0..3 {
                     let (o, d) = (o.along(axis), d.along(axis));
-                    // The end may be no number, where that is infinitely far and the ray does not move: then it is the start.
+                    // The end may be no number, where that is infinitely far and the ray does not move: then
+                    // it is the start.
                     let (start, end) = (o + d * from, o + d * to);
                     lo[axis] = wanted.choose(end.smaller(start).smaller(lo[axis]), lo[axis]);
                     hi[axis] = wanted.choose(end.larger(start).larger(hi[axis]), hi[axis]);

@@ -1,5 +1,5 @@
-//! What the rays of a tile meet first: the walk takes the nearest nodes first, and what lies behind the farthest hit of all
-//! rays is never looked at.
+//! What the rays of a tile meet first: the walk takes the nearest nodes first, and what lies behind the
+//! farthest hit of all rays is never looked at.
 
 use fearless_simd::{Simd, f32x8};
 
@@ -10,30 +10,13 @@ use super::memory::TileMemory;
 use super::object::PacketTest;
 use super::packet_hits::PacketHits;
 use super::precision::Precision;
-use super::source::PacketSources;
+use super::source::{PacketSources, TracedPackets, TracedTile};
 use super::walk::{Target, TestBudget, TileVisitor, walk_tile};
 
-/// The most objects that a packet is intersected with, for each of its rays: where a dot holds many objects, or rays diverge,
-/// they are incoherent. Fewer than for a shadow packet, whose rays end at the first thing that they meet.
+/// The most objects that a packet is intersected with, for each of its rays: where a dot holds many objects,
+/// or rays diverge, they are incoherent. Fewer than for a shadow packet, whose rays end at the first thing
+/// that they meet.
 const CROWD: u32 = 1;
-
-/// The packets of a tile in the precision in which they are traced, and what they meet.
-pub(super) struct TracedPackets<'a, T> {
-    /// Their rays, where those are not the tile's own ([`Precision::take`]).
-    pub own: &'a mut [RayPacket<T>],
-    /// What they meet: as many as there are packets.
-    pub nearest: &'a mut [PacketHits<T>],
-}
-
-/// What became of the packets of a tile.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct TracedTile {
-    /// Those that may have met anything, a bit for each. Of the others, if they are still to be made, it is only known that
-    /// none of their rays is unsure or incoherent.
-    pub touched: u16,
-    /// How many were given up as incoherent.
-    pub given_up: usize,
-}
 
 impl Fast<'_> {
     /// The first hits of the rays of a tile.
@@ -134,7 +117,7 @@ impl<S: Simd, T: Precision> TileVisitor<S> for FirstVisitor<'_, '_, T> {
         let packet = source.full_rays;
         if !self.budget.spend(k) {
             self.tile.given_up += 1;
-            nearest.apart = packet.live;
+            nearest.incoherent = packet.live;
             memory.far[k] = f64::NEG_INFINITY;
             return;
         }

@@ -1,8 +1,8 @@
 //! Glass between the lit points of a tile and one light.
 //!
-//! A glass object takes its share of the light once, however often a ray crosses its surface, and whatever else is on the
-//! way: so what a ray meets of it first is all there is to know. A ray through three of them is left to the exact engine: the
-//! last digit of their product depends on their order.
+//! A glass object takes its share of the light once, however often a ray crosses its surface, and whatever
+//! else is on the way: so what a ray meets of it first is all there is to know. A ray through three of them
+//! is left to the exact engine: the last digit of their product depends on their order.
 
 use fearless_simd::Simd;
 
@@ -32,8 +32,8 @@ pub(super) struct GlassTest<'a> {
 }
 
 impl ShadowPacket {
-    /// Takes what a glass object before the light leaves of one ray's light. `clear`: the ray meets nothing of that object
-    /// that is opaque.
+    /// Takes what a glass object before the light leaves of one ray's light. `clear`: the ray meets nothing
+    /// of that object that is opaque.
     pub(super) fn glass(&mut self, lane: usize, clear: bool, left: f64) {
         if !(clear && self.tint.add(lane, left)) {
             self.unsure |= 1 << lane;
@@ -42,8 +42,8 @@ impl ShadowPacket {
 }
 
 impl ShadowQuery<'_> {
-    /// A box around what is opaque of a glass object, if anything is, and `slack` around it: no surface of that seems to lie
-    /// farther outside.
+    /// A box around what is opaque of a glass object, if anything is, and `slack` around it: no surface of
+    /// that seems to lie farther outside.
     pub(super) fn dark_of(&self, object: u32, slack: f64) -> Option<Bounds> {
         let is_mixed = self.opacity.get(object as usize) == Some(&OpacityClass::Mixed);
         is_mixed.then(|| self.dark[object as usize].padded(DVec3::splat(slack)))

@@ -1,9 +1,10 @@
-//! The fast engine: the rays of a tile side by side, with the bits that the exact engine finds for each single ray, unless
-//! single precision is enough.
+//! The fast engine: the rays of a tile side by side, with the bits that the exact engine finds for each
+//! single ray, unless single precision is enough.
 //!
-//! A tile of rays is bounded by frustums, which walk a hierarchy of boxes; what they leave is computed for eight rays
-//! at a time, by the same formulas in the same order. Rays that are incoherent are traced as a stream. Where a ray's answer
-//! needs more than that, two surfaces in one place or a solid that is not convex, that ray is left to the exact engine.
+//! A tile of rays is bounded by frustums, which walk a hierarchy of boxes; what they leave is computed for
+//! eight rays at a time, by the same formulas in the same order. Rays that are incoherent are traced as a
+//! stream. Where a ray's answer needs more than that, two surfaces in one place or a solid that is not
+//! convex, that ray is left to the exact engine.
 
 mod blocked;
 mod composite;
@@ -31,20 +32,20 @@ use crate::solid::{Assembly, Crossing, Departure, Departures};
 use crate::stage::{Meter, Probe};
 use crate::view::TileCamera;
 
-use super::exact::all_moved_nearer;
-use super::{Engine, Exact, Hit, Memory};
+use super::Engine;
+use super::exact::{Exact, RayMemory, all_moved_nearer};
+use super::hit::Hit;
 
-use first::{TracedPackets, TracedTile};
 use precision::Precision;
-use source::PacketSources;
+use source::{PacketSources, TracedPackets, TracedTile};
 
 pub use memory::TileMemory;
 pub use packet_hits::PacketHits;
 pub use shadow_packet::{ShadowPacket, ShadowQuery};
 pub use transmittance::{OpacityClass, Transmittance};
 
-/// So few rays of a tile towards a light take less time one by one than bringing them together does: what would not fill two
-/// packets.
+/// So few rays of a tile towards a light take less time one by one than bringing them together does: what
+/// would not fill two packets.
 const FEW_OF_TILE: u32 = 2 * PACKET as u32;
 
 /// The engine for tiles of rays, over an assembly and a hierarchy of its boxes.
@@ -54,10 +55,10 @@ pub struct Fast<'a> {
     assembly: &'a Assembly,
     boxes: &'a Bvh8,
     subs: &'a SubLattices,
-    /// How far apart two hits may seem that are one place.
+    /// How far two hits may seem to be from each other that are one place.
     slack: f64,
     level: Level,
-    /// Whether rays from the eye are asked in single precision.
+    /// Whether rays from the eye are traced in single precision.
     singles: bool,
 }
 
@@ -74,14 +75,15 @@ impl<'a> Fast<'a> {
         Self { level, ..self }
     }
 
-    /// The same engine that asks rays from the eye in single precision: what they meet first is off its place by up to
-    /// [`Real::COARSER`] times as much. Where these leave a doubt which of two things is met first, double precision is asked.
+    /// The same engine that traces rays from the eye in single precision: what they meet first is off its
+    /// place by up to [`Real::COARSER`] times as much. Where that leaves a doubt which of two things is met
+    /// first, double precision decides.
     #[must_use]
     pub fn in_singles(self, singles: bool) -> Self {
         Self { singles, ..self }
     }
 
-    /// How far apart two hits may seem that are one place, in numbers of this precision.
+    /// How far two hits may seem to be from each other that are one place, in this precision.
     fn slack_of<T: Real>(&self) -> f64 {
         self.slack * T::COARSER
     }
@@ -91,16 +93,17 @@ impl<'a> Fast<'a> {
         self.level
     }
 
-    /// Moves the starts of rays from the eye near to the world. Sets the way there, in two parts that are to be added to a
-    /// distance, the second first.
-    pub fn approach(&self, packet: &mut RayPacket, ways: &mut [Lanes; 2]) {
-        dispatch!(self.level, simd => approached(simd, packet, ways));
+    /// Moves the starts of rays from the eye near to the world. Sets the distance there, in two parts that
+    /// are to be added to that of a hit, the second first.
+    pub fn approach(&self, packet: &mut RayPacket, moved: &mut [Lanes; 2]) {
+        dispatch!(self.level, simd => approached(simd, packet, moved));
     }
 
-    /// The first hits of a tile of rays, by packets that are [closed](RayPacket::close), up to [`FRUSTA`]
-    /// of them; `departures` are the surfaces that the rays of each leave, none for rays from the eye. Those that are unsure,
-    /// and those that meet two objects in one place, are to be asked of [`Engine::first`] or [`Engine::next`] one by one.
-    /// Answers how many packets had so many objects between their rays that they were given up.
+    /// The first hits of a tile of rays, by packets that are [closed](RayPacket::close), up to [`FRUSTA`] of
+    /// them; `departures` are the surfaces that the rays of each leave, none for rays from the eye. Those
+    /// that are unsure, and those that meet two objects in one place, are left to [`Engine::first`] or
+    /// [`Engine::next`], one by one. Answers how many packets had so many objects between their rays that
+    /// they were given up.
     pub fn first_of(
         &self,
         packets: &[RayPacket],
@@ -112,9 +115,9 @@ impl<'a> Fast<'a> {
         self.first_of_sources::<f64>(sources, &mut TracedPackets { own: &mut [], nearest }, memory).given_up
     }
 
-    /// The first hits of the rays from the eye through a tile, as [`Fast::first_of`] finds them. `packets` and `nearest` have
-    /// as many as the tile has blocks. The rays of a block are made, by `make`, where anything may lie in their way; the
-    /// answer has a bit for each block whose are. Of the others nothing is to be read.
+    /// The first hits of the rays from the eye through a tile, as [`Fast::first_of`] finds them. `packets`
+    /// and `nearest` have as many as the tile has blocks. The rays of a block are made, by `make`, where they
+    /// may meet anything; the answer has a bit for each block whose are. Of the others nothing is to be read.
     pub fn first_seen(
         &self,
         sight: &TileCamera,
@@ -158,15 +161,15 @@ impl<'a> Fast<'a> {
             let nearest = traced.nearest.iter_mut().enumerate();
             for (k, found) in nearest.filter(|(k, _)| tile.touched >> k & 1 == 1) {
                 found.doubt(simd, self.slack_of::<T>());
-                found.unsure &= sources.get(k).rays.live & !found.apart;
+                found.unsure &= sources.get(k).rays.live & !found.incoherent;
             }
             tile
         })
     }
 
-    /// Which rays towards one light are blocked, and what glass leaves of the light of the others. Those that are unsure are
-    /// to be asked of [`Engine::blocked`] one by one. Answers whether most shadow packets had so many objects between their rays that
-    /// they were given up.
+    /// Which rays towards one light are blocked, and what glass leaves of the light of the others. Those that
+    /// are unsure are left to [`Engine::blocked`], one by one. Answers whether most shadow packets had so
+    /// many objects between their rays that they were given up.
     pub fn blocked_of(
         &self,
         shadow_packets: &mut [ShadowPacket],
@@ -181,59 +184,59 @@ impl<'a> Fast<'a> {
         }
         let mut reordering = std::mem::take(&mut memory.reordering);
         let helps = dispatch!(self.level, simd => reordering.would_help(simd, shadow_packets, lamp.at));
-        let apart = if helps {
+        let incoherent = if helps {
             dispatch!(self.level, simd => reordering.gather(simd, shadow_packets, departures));
             let (new, leave) = reordering.shadow_packets();
-            let apart = self.blocked_in_reordering(new, leave, lamp, memory);
+            let incoherent = self.blocked_in_order(new, leave, lamp, memory);
             reordering.scatter(shadow_packets);
-            apart
+            incoherent
         } else {
-            self.blocked_in_reordering(shadow_packets, departures, lamp, memory)
+            self.blocked_in_order(shadow_packets, departures, lamp, memory)
         };
         memory.reordering = reordering;
-        apart
+        incoherent
     }
 
-    fn blocked_in_reordering(
+    fn blocked_in_order(
         &self,
         shadow_packets: &mut [ShadowPacket],
         departures: &[Departures],
         lamp: &ShadowQuery,
         memory: &mut TileMemory,
     ) -> bool {
-        let mut apart = false;
+        let mut incoherent = false;
         for (shadow_packets, departures) in shadow_packets.chunks_mut(FRUSTA).zip(departures.chunks(FRUSTA)) {
-            if apart {
+            if incoherent {
                 shadow_packets.iter_mut().for_each(ShadowPacket::give_up);
                 continue;
             }
-            let asking = shadow_packets.iter().filter(|shadow_packet| shadow_packet.rays.live != 0).count();
+            let live = shadow_packets.iter().filter(|shadow_packet| shadow_packet.rays.live != 0).count();
             let given_up = dispatch!(self.level, simd => self.blocked_of_tile(simd, shadow_packets, departures, lamp, memory));
-            apart = 2 * given_up > asking;
+            incoherent = 2 * given_up > live;
         }
         self.stream_blocked(shadow_packets, departures, lamp, memory);
-        apart
+        incoherent
     }
 }
 
 #[inline(always)]
-fn approached<S: Simd>(simd: S, packet: &mut RayPacket, ways: &mut [Lanes; 2]) {
+fn approached<S: Simd>(simd: S, packet: &mut RayPacket, moved: &mut [Lanes; 2]) {
     for row in 0..ROWS {
         let (near, [far, left]) = all_moved_nearer(&packet.load(simd, row));
         packet.o.store(row, near.o);
-        ways[0].store(row, far);
-        ways[1].store(row, left);
+        moved[0].store(row, far);
+        moved[1].store(row, left);
     }
 }
 
 impl Engine for Fast<'_> {
-    type Memory = Memory;
+    type Memory = RayMemory;
 
-    fn memory(&self) -> Memory {
+    fn memory(&self) -> RayMemory {
         self.exact.memory()
     }
 
-    fn first(&self, ray: &Ray, memory: &mut Memory, meter: &mut Meter<impl Probe>) -> Option<Hit> {
+    fn first(&self, ray: &Ray, memory: &mut RayMemory, meter: &mut Meter<impl Probe>) -> Option<Hit> {
         self.exact.first(ray, memory, meter)
     }
 
@@ -241,13 +244,13 @@ impl Engine for Fast<'_> {
         &self,
         ray: &Ray,
         departure: Departure,
-        memory: &mut Memory,
+        memory: &mut RayMemory,
         meter: &mut Meter<impl Probe>,
     ) -> Option<Hit> {
         self.exact.next(ray, departure, memory, meter)
     }
 
-    fn together<'m>(&self, memory: &'m Memory) -> &'m [(u32, Crossing)] {
+    fn together<'m>(&self, memory: &'m RayMemory) -> &'m [(u32, Crossing)] {
         self.exact.together(memory)
     }
 
@@ -256,7 +259,7 @@ impl Engine for Fast<'_> {
         ray: &Ray,
         departure: Departure,
         distance: f64,
-        memory: &mut Memory,
+        memory: &mut RayMemory,
         meter: &mut Meter<impl Probe>,
         visit: &mut dyn FnMut(u32, &Crossing) -> bool,
     ) -> bool {
@@ -269,7 +272,7 @@ impl Engine for Fast<'_> {
         ray: &Ray,
         departure: Departure,
         distance: f64,
-        memory: &mut Memory,
+        memory: &mut RayMemory,
         meter: &mut Meter<impl Probe>,
     ) -> Option<Crossing> {
         self.exact.of_object(object, ray, departure, distance, memory, meter)

@@ -1,4 +1,4 @@
-//! A packet of rays against one object, whether the first hit is asked for or any.
+//! A packet of rays against one object, whether the first hit is looked for or any.
 
 use fearless_simd::Simd;
 
@@ -105,7 +105,8 @@ impl Fast<'_> {
         }
     }
 
-    /// What rays meet first of a convex primitive. Answers for which double precision is to say whether they meet it.
+    /// What rays meet first of a convex primitive. Answers for which double precision is to say whether they
+    /// meet it.
     fn convex<S: Simd, T: Precision, H: HitSink<T>>(
         &self,
         simd: S,
@@ -131,7 +132,8 @@ impl Fast<'_> {
     }
 }
 
-/// What rays meet first of a ball. A crossing beyond `start` lies at the start of no ray, and one before −`start` behind it.
+/// What rays meet first of a ball. A crossing beyond `start` lies at the start of no ray, and one before
+/// −`start` behind it.
 #[inline(always)]
 fn ball_of_packet<S: Simd, T: Precision, H: HitSink<T>>(
     simd: S,
@@ -159,7 +161,7 @@ fn ball_of_packet<S: Simd, T: Precision, H: HitSink<T>>(
         if !T::DECIDES {
             *doubtful |= T::bits_of(simd, doubts(&mut spans, form, &starts), row);
         }
-        // Mostly the ball is certainly ahead, or of a shadow ray behind: then there is nothing to tell apart.
+        // Mostly the ball is certainly ahead of the start, or behind it.
         let ahead = spans.enter.t.is_above(start) & !starts.here;
         let mut is_close = (spans.any & !ahead).any();
         if is_close {

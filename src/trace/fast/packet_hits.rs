@@ -5,20 +5,20 @@ use fearless_simd::Simd;
 use crate::math::{Lanes, Mask, Number, RayPacket, Real, RealIds, RealMask, SimdIds, SimdRegister};
 use crate::solid::Crossing;
 
-use super::super::Hit;
+use super::super::hit::Hit;
 
-/// How many of their errors two hits may seem apart that are one place: as [`slack`](crate::lattice::slack) is so many times what
-/// solids may be off.
+/// How many of their errors may lie between two hits that are one place: as [`slack`](crate::lattice::slack)
+/// is so many times what solids may be off.
 const FLUSH: f64 = 4.0;
 
 /// What each ray of a packet met first.
 #[derive(Clone, Debug)]
 pub struct PacketHits<T = f64> {
-    /// Where; infinite where nothing was met.
+    /// The distance; infinite where nothing was met.
     pub t: Lanes<T>,
     /// How far that may be off.
     pub error: Lanes<T>,
-    /// Where it met what comes next, another object's surface; of numbers that do not decide, where that is at least.
+    /// The distance of the next object's surface; in a precision that does not decide, a lower bound of it.
     pub second: Lanes<T>,
     /// The object, by its index in the assembly.
     pub object: Lanes<u32>,
@@ -28,10 +28,10 @@ pub struct PacketHits<T = f64> {
     pub surface: Lanes<u32>,
     /// Which rays go into the object there, a bit for each.
     pub entering: u64,
-    /// Which rays are to be asked one by one.
+    /// Which rays are left to the exact engine, a bit for each.
     pub unsure: u64,
-    /// Which rays have no reordering, and are to be asked in a stream.
-    pub apart: u64,
+    /// Which rays are incoherent, and left to a stream.
+    pub incoherent: u64,
 }
 
 impl<T: Real> Default for PacketHits<T> {
@@ -52,10 +52,10 @@ impl<T: Real> PacketHits<T> {
         surface: Lanes::filled(0),
         entering: 0,
         unsure: 0,
-        apart: 0,
+        incoherent: 0,
     };
 
-    /// Forgets all.
+    /// Marks every ray as meeting nothing.
     #[inline(always)]
     pub fn clear(&mut self) {
         self.t = Lanes::filled(T::INFINITY);
@@ -63,22 +63,22 @@ impl<T: Real> PacketHits<T> {
         self.forget_rays();
     }
 
-    /// Forgets which rays met anything in which way; where is left over.
+    /// Forgets which rays enter an object, and which are left to others; keeps the hits.
     #[inline]
     pub(super) fn forget_rays(&mut self) {
-        (self.entering, self.unsure, self.apart) = (0, 0, 0);
+        (self.entering, self.unsure, self.incoherent) = (0, 0, 0);
     }
 }
 
 impl PacketHits {
-    /// Forgets what one ray met.
+    /// Marks one ray as meeting nothing.
     #[inline]
     pub(super) fn forget(&mut self, lane: usize) {
         (self.t.0[lane], self.second.0[lane]) = (f64::INFINITY, f64::INFINITY);
         self.unsure &= !(1 << lane);
     }
 
-    /// A crossing of one ray with an object.
+    /// Takes a crossing of one ray with an object, if nothing nearer was met.
     #[inline]
     pub(super) fn offer_one(&mut self, lane: usize, object: u32, crossing: &Crossing) {
         let best = self.t.0[lane];
@@ -107,7 +107,7 @@ impl PacketHits {
         self.entering = self.entering & !(1 << lane) | u64::from(hit.entering) << lane;
     }
 
-    /// Sets what all met to the nearest of others' numbers.
+    /// Copies what all met, rounded to the nearest number of this precision.
     #[inline(always)]
     pub(super) fn set_nearest<T: Real>(&mut self, other: &PacketHits<T>) {
         self.t.set_nearest(&other.t);
@@ -115,12 +115,12 @@ impl PacketHits {
         self.object = other.object;
         self.primitive = other.primitive;
         self.surface = other.surface;
-        (self.entering, self.unsure, self.apart) = (other.entering, other.unsure, other.apart);
+        (self.entering, self.unsure, self.incoherent) = (other.entering, other.unsure, other.incoherent);
     }
 }
 
 impl<T: Real> PacketHits<T> {
-    /// Crossings of some rays of a row with an object.
+    /// Takes crossings of some rays of a row with an object, where nothing nearer was met.
     #[inline(always)]
     pub fn offer<S: Simd>(&mut self, simd: S, row: usize, met: &HitCandidate<T, S>) {
         let (best, second) = (self.t.load(simd, row), self.second.load(simd, row));
@@ -144,8 +144,9 @@ impl<T: Real> PacketHits<T> {
         self.entering = self.entering & !bits | T::bits_of(simd, met.entering, row) & bits;
     }
 
-    /// Up to where something may be in one place with what the rays of a row met first. In double precision that is said by how far
-    /// solids may be off; in single also by the slope at which it was met, as what is flush with it is.
+    /// Up to where something may be in one place with what the rays of a row met first. In double precision
+    /// that is said by how far solids may be off; in single also by the slope at which it was met, as what is
+    /// flush with it is.
     #[inline(always)]
     fn reach<S: Simd>(&self, simd: S, row: usize) -> T::SimdReal<S> {
         let t = self.t.load(simd, row);
@@ -159,7 +160,7 @@ impl<T: Real> PacketHits<T> {
         if T::DECIDES { t } else { t + FLUSH * self.error.0[lane].into() }
     }
 
-    /// Is unsure of all rays that met two objects within `slack`.
+    /// Leaves the rays that met two objects within `slack` to the exact engine.
     #[inline(always)]
     pub fn doubt<S: Simd>(&mut self, simd: S, slack: f64) {
         for row in 0..T::ROWS {
@@ -173,7 +174,7 @@ impl<T: Real> PacketHits<T> {
     /// The greatest distance at which any of the rays may still meet something.
     #[inline(always)]
     pub fn farthest<S: Simd>(&self, simd: S, packet: &RayPacket<T>) -> f64 {
-        // Nobody knows what those met that are not there: what they leave is not set.
+        // What lanes met that are not live means nothing: the surfaces that they leave are not set.
         let nowhere = T::all(simd, f64::NEG_INFINITY);
         let mut most = nowhere;
         for row in 0..T::ROWS {

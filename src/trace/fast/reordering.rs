@@ -1,8 +1,8 @@
 //! Other reordering for the rays towards a light: those that lie side by side seen from the light.
 //!
-//! Neighbours in the picture that start on things one behind the other are far apart in the light's view, and what
-//! stands between their ways is nothing to them. Sorted by that view, the rays of a tile make thin shadow packets again. Each
-//! ray finds what it finds in any company.
+//! Neighbours in the picture that start on things one behind the other are far from each other in the light's
+//! view, and what stands between them is in the way of neither. Sorted by that view, the rays of a tile make
+//! thin shadow packets again. Each ray finds what it finds in any packet.
 
 use fearless_simd::{Simd, SimdBase, f64x8};
 
@@ -15,8 +15,8 @@ use super::shadow_packet::ShadowPacket;
 /// Cells across the light's view of a tile: as many in all as a tile has rays.
 const CELLS: usize = 32;
 
-/// Shadow packets wider than this on average, as a share of their tile, are to be put together anew: those of one surface,
-/// sixteen to a tile, are a quarter of it, and a little more where they lie askew.
+/// Shadow packets wider than this on average, as a share of their tile, are to be put together anew: those of
+/// one surface, sixteen to a tile, are a quarter of it, and a little more where they lie askew.
 const WIDE: f64 = 0.3;
 
 /// Rays put together anew.

@@ -21,7 +21,7 @@ pub struct ShadowPacket {
     /// Which are to be traced by the exact engine.
     pub unsure: u64,
     /// Which are incoherent, and are to be traced in a stream.
-    pub apart: u64,
+    pub incoherent: u64,
 }
 
 /// A light, and what it shines through.
@@ -45,19 +45,19 @@ impl ShadowPacket {
         blocked: 0,
         tint: Transmittance::NONE,
         unsure: 0,
-        apart: 0,
+        incoherent: 0,
     };
 
     /// Takes all rays out, and forgets what was found of them.
     pub fn clear(&mut self) {
         self.rays.live = 0;
-        (self.blocked, self.unsure, self.apart) = (0, 0, 0);
+        (self.blocked, self.unsure, self.incoherent) = (0, 0, 0);
         self.tint.clear();
     }
 
     /// Marks all live rays as incoherent.
     pub fn give_up(&mut self) {
-        self.apart = self.rays.live;
+        self.incoherent = self.rays.live;
     }
 
     /// Gives the lanes that are not live the numbers of the first that is ([`RayPacket::close`]).
@@ -72,7 +72,7 @@ impl ShadowPacket {
     /// The rays that are neither blocked nor unsure, nor incoherent.
     #[inline(always)]
     pub(super) fn open(&self) -> u64 {
-        self.rays.live & !(self.blocked | self.unsure | self.apart)
+        self.rays.live & !(self.blocked | self.unsure | self.incoherent)
     }
 
     /// Whether a crossing of one ray lies before the light.

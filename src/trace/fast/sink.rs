@@ -1,5 +1,5 @@
-//! What becomes of what the rays of a packet meet: a nearest hit keeps it if nothing is nearer, a shadow ray only asks whether
-//! it lies before the light.
+//! What becomes of what the rays of a packet meet: a nearest hit keeps it if nothing is nearer, a shadow ray
+//! only needs to know whether it lies before the light.
 
 use fearless_simd::Simd;
 
@@ -8,14 +8,14 @@ use crate::solid::PacketCrossings;
 
 use super::packet_hits::{HitCandidate, PacketHits};
 
-/// The most leaves of an expression that are evaluated at once, rather than the rays being cut into shorter slices: more
-/// cost more than slices do.
+/// The most leaves of an expression that are evaluated at once, rather than the rays being cut into shorter
+/// slices: more cost more than slices do.
 pub(super) const SOME_LEAVES: usize = 6;
 
 /// Takes what the rays of a packet meet of an object.
 pub(super) trait HitSink<T: Real> {
-    /// The most leaves that are evaluated at once before a packet's rays have been cut often: fewer than [`SOME_LEAVES`] where
-    /// what is nearest mostly hides the others.
+    /// The most leaves that are evaluated at once before a packet's rays have been cut often: fewer than
+    /// [`SOME_LEAVES`] where what is nearest mostly hides the others.
     const FEW_LEAVES: usize;
 
     /// Takes crossings of the rays of a row with an object.

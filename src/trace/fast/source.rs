@@ -1,5 +1,5 @@
-//! The rays of a tile: those that surfaces scatter are there, those from the eye are made where anything may lie in their
-//! way.
+//! The rays of a tile: those that surfaces scatter are there, those from the eye are made where they may meet
+//! anything.
 
 use fearless_simd::{Level, Simd};
 
@@ -9,8 +9,10 @@ use crate::solid::{Departures, Starts};
 use crate::view::TileCamera;
 
 use super::super::exact::most_moved;
+use super::packet_hits::PacketHits;
 
-/// A packet, and the surfaces that its rays leave: none from the eye. In the precision in which it is traced, and in double.
+/// A packet, and the surfaces that its rays leave: none from the eye. In the precision in which it is traced,
+/// and in double.
 #[derive(Clone, Copy)]
 pub(super) struct PacketSource<'a, T = f64> {
     pub rays: &'a RayPacket<T>,
@@ -32,7 +34,8 @@ impl<'a, T: Real> PacketSource<'a, T> {
         PacketSource::new(self.full_rays, self.full_departures)
     }
 
-    /// Which rays leave a primitive to the outside, a bit for each: what is convex, or a surface, they do not meet again.
+    /// Which rays leave a primitive to the outside, a bit for each: what is convex, or a surface, they do not
+    /// meet again.
     #[inline]
     pub fn leaving<S: Simd>(&self, simd: S, primitive: u32) -> u64 {
         self.departures.map_or(0, |departures| departures.leaving(simd, primitive))
@@ -65,6 +68,24 @@ pub(super) enum PacketSources<'a> {
         packets: &'a mut [RayPacket],
         make: &'a mut dyn FnMut(usize, &mut RayPacket),
     },
+}
+
+/// The packets of a tile in the precision in which they are traced, and what they meet.
+pub(super) struct TracedPackets<'a, T> {
+    /// Their rays, where those are not the tile's own ([`super::precision::Precision::take`]).
+    pub own: &'a mut [RayPacket<T>],
+    /// What they meet: as many as there are packets.
+    pub nearest: &'a mut [PacketHits<T>],
+}
+
+/// What became of the packets of a tile.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TracedTile {
+    /// Those that may have met anything, a bit for each. Of the others, if they are still to be made, it is
+    /// only known that none of their rays is unsure or incoherent.
+    pub touched: u16,
+    /// How many were given up as incoherent.
+    pub given_up: usize,
 }
 
 impl PacketSources<'_> {
@@ -183,7 +204,7 @@ mod tests {
             let pinhole = PinholeCamera::new(&camera, &Picture { dots: Size::new(width, height), dot_aspect: 1.0 });
             let all = tiles(Size::new(width, height));
             let tile = all[pick % all.len()];
-            let sight = TileCamera { pinhole: &pinhole, tile, off: [off.0, off.1], eye, way: distance + 4.0 };
+            let sight = TileCamera { pinhole: &pinhole, tile, off: [off.0, off.1], eye, path: distance + 4.0 };
             let mut packets = vec![RayPacket::EMPTY; sight.blocks()];
             let level = Level::new();
             for (k, packet) in packets.iter_mut().enumerate() {

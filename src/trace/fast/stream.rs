@@ -1,6 +1,7 @@
 //! Incoherent rays, those of packets that were given up: single rays, many of them under way at once.
 //!
-//! Each finds what it finds by itself. Where that is more than one thing in one place, it is left to the exact engine.
+//! Each finds what it finds by itself. Where that is more than one thing in one place, it is left to the
+//! exact engine.
 
 use crate::lattice::{Candidate, StreamRays, entry};
 use crate::math::{LANES, RayIndex, RayPacket, lanes, places};
@@ -18,8 +19,8 @@ use super::transmittance::OpacityClass;
 trait StreamVisitor {
     /// How far away a crossing may be to matter.
     fn limit(&self, at: RayIndex) -> f64;
-    /// Takes a crossing with an object. Answers how far away boxes may be that the ray is still to be tested against: below 0
-    /// where none are.
+    /// Takes a crossing with an object. Answers how far away boxes may be that the ray is still to be tested
+    /// against: below 0 where none are.
     fn visit(&mut self, at: RayIndex, object: u32, crossing: &Crossing) -> f64;
 }
 
@@ -84,7 +85,7 @@ struct QueuedTests<'a> {
 }
 
 impl Fast<'_> {
-    /// The first hits of the rays of some packets that are incoherent: those in [`PacketHits::apart`].
+    /// The first hits of the rays of some packets that are incoherent: those in [`PacketHits::incoherent`].
     pub fn first_of_incoherent(
         &self,
         packets: &[RayPacket],
@@ -95,7 +96,7 @@ impl Fast<'_> {
         let TileMemory { incoherent, counts, .. } = memory;
         incoherent.clear();
         for (k, (packet, found)) in packets.iter().zip(&mut *nearest).enumerate() {
-            for at in places(k, found.apart) {
+            for at in places(k, found.incoherent) {
                 found.forget(at.lane);
                 if departures.is_some_and(|all| self.leaves_mesh(&all[k], at.lane)) {
                     found.unsure |= 1 << at.lane;
@@ -108,7 +109,7 @@ impl Fast<'_> {
         let mut visitor = FirstHits { nearest, slack: self.slack };
         self.trace_stream(incoherent, &mut visitor, counts);
         for found in nearest {
-            for lane in lanes(std::mem::take(&mut found.apart)) {
+            for lane in lanes(std::mem::take(&mut found.incoherent)) {
                 let t = found.t.0[lane];
                 let close = found.second.0[lane] <= t + self.slack && t < f64::INFINITY;
                 found.unsure |= u64::from(close) << lane;
@@ -129,8 +130,8 @@ impl Fast<'_> {
         self.stream_blocked(shadow_packets, departures, lamp, memory);
     }
 
-    /// Which of the rays towards a light that are incoherent, those in [`ShadowPacket::apart`], are blocked, and what glass leaves
-    /// of the light of the others.
+    /// Which of the rays towards a light that are incoherent, those in [`ShadowPacket::incoherent`], are
+    /// blocked, and what glass leaves of the light of the others.
     pub(super) fn stream_blocked(
         &self,
         shadow_packets: &mut [ShadowPacket],
@@ -141,8 +142,8 @@ impl Fast<'_> {
         let TileMemory { incoherent, counts, .. } = memory;
         incoherent.clear();
         for (k, shadow_packet) in shadow_packets.iter_mut().enumerate() {
-            shadow_packet.tint.forget(shadow_packet.apart);
-            for at in places(k, std::mem::take(&mut shadow_packet.apart)) {
+            shadow_packet.tint.forget(shadow_packet.incoherent);
+            for at in places(k, std::mem::take(&mut shadow_packet.incoherent)) {
                 if self.leaves_mesh(&departures[k], at.lane) {
                     shadow_packet.unsure |= 1 << at.lane;
                 } else {
@@ -195,7 +196,7 @@ impl Fast<'_> {
                     limits.limit(number, visitor.visit(*at, object, &crossing));
                 }
             }
-            // Where few rays are left none waits until a register is full.
+            // Where few rays are left, registers are not filled first.
             let least = if met.len() < LANES { 1 } else { LANES };
             for (queue, are_tubes) in [(&mut *balls, false), (&mut *tubes, true)] {
                 while queue.0.len() >= least {

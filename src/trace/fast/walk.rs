@@ -1,12 +1,13 @@
-//! The walk of a tile's frustums through the hierarchy of boxes, the same for what rays meet first and for whether anything
-//! stands in their way: a [`TileVisitor`] says what differs.
+//! The walk of a tile's frustums through the hierarchy of boxes, the same for what rays meet first and for
+//! whether anything stands in their way: a [`TileVisitor`] says what differs.
 //!
-//! The frustum of the whole tile is tested against the boxes of each node once. Where it meets objects, the frustums of the
-//! packets are tested against each, all at once; the visitor intersects the packets that are left.
+//! The frustum of the whole tile is tested against the boxes of each node once. Where it meets objects, the
+//! frustums of the packets are tested against each, all at once; the visitor intersects the packets that are
+//! left.
 
 use fearless_simd::{Simd, f32x8};
 
-use crate::lattice::{BoundingSphere, Bvh8, Child, FRUSTA, Frustum, FrustumHits, FrustumSoa, Node};
+use crate::lattice::{BoundingSphere, Bvh8, BvhChild, FRUSTA, Frustum, FrustumHits, FrustumSoa, Node};
 use crate::math::RayPacket;
 
 use super::memory::{StackItem, TileMemory};
@@ -23,13 +24,15 @@ pub(super) trait TileVisitor<S: Simd> {
     /// Sets the frustums of the packets in `memory`, before the first of them is tested.
     fn spread(&mut self, _: S, _: &mut TileMemory) {}
 
-    /// In which order nodes are walked, the lowest first, by how near they are at least to the start of any ray.
+    /// In which order nodes are walked, the lowest first, by how near they are at least to the start of any
+    /// ray.
     fn rank(near: f32x8<S>) -> f32x8<S>;
 
     /// Whether of an object that is a ball this says all that there is to know.
     fn takes_ball(&self, object: u32) -> bool;
 
-    /// Intersects packet `k` with an object that its frustum may meet, no nearer to any ray's start than `near`.
+    /// Intersects packet `k` with an object that its frustum may meet, no nearer to any ray's start than
+    /// `near`.
     fn visit(&mut self, simd: S, target: &Target<S>, k: usize, near: f32, memory: &mut TileMemory);
 }
 
@@ -43,8 +46,8 @@ pub(super) struct Target<S: Simd> {
 }
 
 impl<S: Simd> Target<S> {
-    /// Which of some rays may come into the object's box, or its ball, within their limits; and which certainly go into the
-    /// ball there.
+    /// Which of some rays may come into the object's box, or its ball, within their limits; and which
+    /// certainly go into the ball there.
     #[inline(always)]
     pub fn cull(&self, simd: S, culler: &mut PacketCuller, packet: &RayPacket, wanted: u64) -> (u64, u64) {
         if let Some(ball) = &self.ball {
@@ -90,7 +93,7 @@ pub(super) fn walk_tile<S: Simd, V: TileVisitor<S>>(
         while objects != 0 {
             let slot = objects.trailing_zeros() as usize;
             objects &= objects - 1;
-            let Some(Child::Object(object)) = node.child(slot) else { continue };
+            let Some(BvhChild::Object(object)) = node.child(slot) else { continue };
             let (lo, hi) = node.corners(slot);
             let ball = node.ball(slot).filter(
                 #[inline(always)]
@@ -121,8 +124,8 @@ pub(super) fn walk_tile<S: Simd, V: TileVisitor<S>>(
     }
 }
 
-/// Puts the nodes among a node's children that were met, and that some of the frustums may meet, on the stack, the one of
-/// the lowest rank last.
+/// Puts the nodes among a node's children that were met, and that some of the frustums may meet, on the
+/// stack, the one of the lowest rank last.
 #[inline(always)]
 fn push_lowest_last<S: Simd>(
     simd: S,
@@ -137,7 +140,7 @@ fn push_lowest_last<S: Simd>(
     while left != 0 {
         let slot = left.trailing_zeros() as usize;
         left &= left - 1;
-        let Some(Child::Node(index)) = node.child(slot) else { continue };
+        let Some(BvhChild::Node(index)) = node.child(slot) else { continue };
         let (lo, hi) = node.corners(slot);
         let frustums = frusta.meets(simd, lo, hi).frustums & frustums;
         if frustums == 0 {

@@ -52,7 +52,7 @@ impl<'b, C: Channel + 'static> Tracer<C> for Blocks<'_, 'b, C> {
     ) {
         let eye = self.assembly.scene_frame.inward_near(self.pinhole.eye);
         let BlocksMemory { alone, shading } = memory;
-        let sight = TileCamera { pinhole: self.pinhole, tile: *tile, off: [0.0; 2], eye, way: self.way };
+        let sight = TileCamera { pinhole: self.pinhole, tile: *tile, off: [0.0; 2], eye, path: self.way };
         let kept = self.hits.map(|tiles| &tiles[tile.number as usize]);
         self.shader.tile(&sight, kept, shading, alone, meter);
         for block in 0..sight.blocks() {

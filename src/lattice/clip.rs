@@ -1,8 +1,8 @@
 //! Stage 5, CLIP: does a ray from outside cross the world at all?
 //!
 //! Cohen and Sutherland's line clipping, taken from a window to a box and from a line to a ray: six bits say
-//! beyond which faces a point lies. A ray that runs away from one of those faces is rejected at once; else its
-//! start is moved to that face, and the bits are asked again.
+//! beyond which faces a point lies. A ray that runs away from one of those faces is rejected at once; else
+//! its start is moved to that face, and the bits are computed again.
 
 use crate::math::{Bounds, DVec3, Ray};
 
@@ -30,8 +30,8 @@ pub fn entry(ray: &Ray, b: &Bounds) -> Option<f64> {
     let mut t = 0.0;
     let mut p = ray.o;
     let mut settled = 0;
-    // Every move settles one face for good: the ray can not lie beyond it again, though rounding may say so where it
-    // passes an edge, and beyond the other one it runs away.
+    // Every move settles one face for good: the ray can not lie beyond it again, though rounding may say so
+    // where it passes an edge, and beyond the other one it runs away.
     for _ in 0..4 {
         let code = Outcode(Outcode::of(p, b).0 & !settled);
         if code.is_inside() {
@@ -74,8 +74,8 @@ mod tests {
         assert_eq!(from(DVec3::new(0.5, 0.0, 0.0)), Some(0.0));
     }
 
-    // A ray into an edge was moved to one face, which left it beyond the other by a rounding, and back, and was given
-    // up: objects vanished along their diagonals.
+    // A ray into an edge was moved to one face, which left it beyond the other by a rounding, and back, and
+    // was given up: objects vanished along their diagonals.
     #[test]
     fn enters_through_an_edge_however_it_is_rounded() {
         for k in 1..1000 {

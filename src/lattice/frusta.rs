@@ -27,7 +27,8 @@ pub struct FrustumSoa {
     present: u16,
 }
 
-/// Which frustums of a frusta may meet a box, a bit for each, and how near it is at least to the start of any ray of each.
+/// Which frustums of a frusta may meet a box, a bit for each, and how near it is at least to the start of any
+/// ray of each.
 #[derive(Clone, Copy, Debug)]
 pub struct FrustaHits {
     /// The first is the lowest bit.
@@ -72,7 +73,8 @@ impl FrustumSoa {
             }
             self.start[lane] = (start + lost(backward)) as f32;
         }
-        // Three products, two sums, the root, and the normal itself: 5 roundings, and one of the last product.
+        // Three products, two sums, the root, and the normal itself: 5 roundings, and one of the last
+        // product.
         let up = f32x16::splat(simd, 1.0 + 4.0 * f32::EPSILON);
         for planes in &mut self.planes {
             let [x, y, z] = planes.normals(simd);
@@ -101,7 +103,8 @@ impl FrustumSoa {
         FrustaHits { frustums: met as u16, near: near.to_array() }
     }
 
-    /// Which of the frustums may meet a ball. A dot product with a normal takes fewer roundings here than for a box.
+    /// Which of the frustums may meet a ball. A dot product with a normal takes fewer roundings here than for
+    /// a box.
     #[inline(always)]
     pub fn meets_ball<S: Simd>(&self, simd: S, center: [f32; 3], radius: f32) -> FrustaHits {
         let [x, y, z] = center;

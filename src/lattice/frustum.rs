@@ -5,23 +5,23 @@ use fearless_simd::{Simd, SimdBase, SimdMask, f32x8, f64x8};
 use crate::math::{DVec3, LaneVector, Lanes, Number, ROWS, RayPacket};
 use crate::solid::WORLD;
 
-/// A ray within the world, from anywhere that it may start at, has left it after so much of its way: the diameter of
+use super::slopes::{Basis, COHERENT, Slopes, Spread, highest, lowest};
+
+/// A ray within the world, from anywhere that it may start at, has left it after this length: the diameter of
 /// a ball of radius [`WORLD`].
-pub const WAY: f64 = 2.0 * WORLD;
+pub const LONGEST_PATH: f64 = 2.0 * WORLD;
 
-/// How far rounding may put a dot product with a plane's normal off its place, for a normal whose components add up to
-/// 1: three products and two sums of numbers up to [`WORLD`] + [`WAY`], on either side of the comparison, and the
-/// point itself, a product and a sum. Ten roundings, rounded up to 16 half-ulps.
-const ROUNDED: f64 = 8.0 * f64::EPSILON * (WORLD + WAY);
+/// How far rounding may put a dot product with a plane's normal off its place, for a normal whose components
+/// add up to 1: three products and two sums of numbers up to [`WORLD`] + [`LONGEST_PATH`], on either side of
+/// the comparison, and the point itself, a product and a sum. Ten roundings, rounded up to 16 half-ulps.
+const ROUNDED: f64 = 8.0 * f64::EPSILON * (WORLD + LONGEST_PATH);
 
-/// What single precision lose of a dot product with a plane's normal, as a share of what the normal's components add up
-/// to: six products and five sums of rounded numbers, for points within 2.01 of the origin on each axis, and the offset:
-/// 14 roundings of numbers up to 2.01, rounded up to 32 · 2⁻²⁴. A difference with the place of a start, which is within
-/// [`WORLD`], takes 16 · 2⁻²⁴ more; but three products and two sums are all that is there before it.
+/// What single precision lose of a dot product with a plane's normal, as a share of what the normal's
+/// components add up to: six products and five sums of rounded numbers, for points within 2.01 of the origin
+/// on each axis, and the offset: 14 roundings of numbers up to 2.01, rounded up to 32 · 2⁻²⁴. A difference
+/// with the place of a start, which is within [`WORLD`], takes 16 · 2⁻²⁴ more; but three products and two
+/// sums are all that is there before it.
 const LOST: f64 = 32.0 / 16_777_216.0;
-
-/// The least cosine between a ray and the frustum's axis: past 78° off the slopes, and with them the planes, say little.
-const COHERENT: f64 = 0.2;
 
 /// A plane; points in front of it have `normal · p ≥ offset`.
 #[derive(Clone, Copy, Debug)]
@@ -51,15 +51,6 @@ impl Plane {
     }
 }
 
-/// How a packet of rays spreads.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Spread {
-    /// From one point, or in no order: planes through the outermost rays.
-    Apart,
-    /// Towards one point at the end of each.
-    Together,
-}
-
 /// The space that a packet of rays passes, bounded by planes.
 #[derive(Clone, Copy, Debug)]
 pub struct Frustum {
@@ -81,114 +72,9 @@ pub struct FrustumHits<S: Simd> {
     pub near: f32x8<S>,
 }
 
-/// Lights farther away than this are no apex for planes: what rounding makes of their place would be a thousandth of what
-/// single precision lose ([`LOST`]).
+/// Lights farther away than this are no apex for planes: what rounding makes of their place would be a
+/// thousandth of what single precision lose ([`LOST`]).
 const NEAR: f64 = (1_u32 << 20) as f64;
-
-/// The axis of frustums that run together, and two directions across it.
-#[derive(Clone, Copy, Debug)]
-pub struct Basis {
-    axis: DVec3,
-    across: [DVec3; 2],
-}
-
-/// How rays lie to a basis: the least and the greatest slope along each direction across, and the least cosine with the
-/// axis.
-#[derive(Clone, Copy, Debug)]
-struct Slopes {
-    low: [f64; 2],
-    high: [f64; 2],
-    least: f64,
-}
-
-impl Basis {
-    /// The one whose directions across run along the sides of a frustum with these corners, the first two of which are
-    /// neighbours.
-    pub fn of_corners(corners: [DVec3; 4]) -> Self {
-        let axis = (corners[0] + corners[1] + corners[2] + corners[3]).normalize_or(DVec3::X);
-        let u = (corners[1] - corners[0]).cross(axis).normalize_or(axis.any_orthonormal_vector());
-        let u = u.cross(axis).normalize_or(u);
-        Self { axis, across: [u, axis.cross(u)] }
-    }
-
-    /// One along the rays of some packets.
-    fn along<'b>(packets: impl Iterator<Item = &'b RayPacket>) -> Self {
-        let mut sum = DVec3::ZERO;
-        for packet in packets {
-            // Corners and middle: enough for a direction in between.
-            for lane in [0, 7, 27, 36, 56, 63] {
-                sum += packet.d.get(lane);
-            }
-        }
-        let axis = sum.normalize_or(DVec3::X);
-        let u = axis.any_orthonormal_vector();
-        Self { axis, across: [u, axis.cross(u)] }
-    }
-}
-
-impl Slopes {
-    const NONE: Self = Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2], least: f64::INFINITY };
-
-    /// Those of a closed packet.
-    #[inline(always)]
-    fn of<S: Simd>(simd: S, packet: &RayPacket, basis: &Basis) -> Self {
-        let infinite = f64x8::splat(simd, f64::INFINITY);
-        let (mut low, mut high, mut least) = ([infinite; 2], [-infinite; 2], infinite);
-        for row in 0..ROWS {
-            let d = packet.d.load(simd, row);
-            let w = d.dot_one(basis.axis);
-            least = w.smaller(least);
-            let inverse = w.same(1.0) / w;
-            for slot in 0..2 {
-                let slope = d.dot_one(basis.across[slot]) * inverse;
-                low[slot] = slope.smaller(low[slot]);
-                high[slot] = slope.larger(high[slot]);
-            }
-        }
-        Self {
-            low: [lowest(low[0]), lowest(low[1])],
-            high: [highest(high[0]), highest(high[1])],
-            least: lowest(least),
-        }
-    }
-
-    /// Those of directions between four, if they all go forward.
-    fn between(corners: &[DVec3; 4], basis: &Basis) -> Self {
-        let mut slopes = Self::NONE;
-        for d in corners {
-            let w = d.dot(basis.axis);
-            slopes.least = slopes.least.min(w);
-            for slot in 0..2 {
-                let slope = d.dot(basis.across[slot]) / w;
-                slopes.low[slot] = slopes.low[slot].min(slope);
-                slopes.high[slot] = slopes.high[slot].max(slope);
-            }
-        }
-        slopes
-    }
-
-    #[inline(always)]
-    fn join(&mut self, other: &Self) {
-        for slot in 0..2 {
-            self.low[slot] = self.low[slot].min(other.low[slot]);
-            self.high[slot] = self.high[slot].max(other.high[slot]);
-        }
-        self.least = self.least.min(other.least);
-    }
-
-    /// The normals of the planes around all, inward; none where the slopes say too little.
-    #[inline(always)]
-    fn normals(&self, basis: &Basis, spread: Spread) -> Option<[DVec3; 4]> {
-        if self.least <= COHERENT {
-            return None;
-        }
-        let Basis { axis, across: [u, v] } = *basis;
-        // Towards one point, and seen from there, what comes from one side lies on the other.
-        let (below, above) =
-            if spread == Spread::Apart { (self.low, self.high) } else { (self.high, self.low) };
-        Some([u - below[0] * axis, above[0] * axis - u, v - below[1] * axis, above[1] * axis - v])
-    }
-}
 
 /// Planes through one point.
 #[inline(always)]
@@ -198,7 +84,7 @@ fn through(point: DVec3, normals: [DVec3; 4]) -> [Plane; 4] {
     [plane(a), plane(b), plane(c), plane(d)]
 }
 
-/// The ways of rays to one point, as far as they matter to a frustum.
+/// The rays of a packet to one point, as far as they matter to a frustum.
 #[derive(Clone, Copy, Debug)]
 struct Extents {
     slopes: Slopes,
@@ -235,7 +121,7 @@ impl Extents {
         let axis = basis.axis;
         let (at, off) = (axis.dot(apex), margin_at(axis, apex));
         Frustum {
-            sides: (self.slopes.normals(basis, Spread::Together))
+            sides: (self.slopes.normals(basis, Spread::Converging))
                 .map_or([Plane::NOWHERE; 4], |normals| through(apex, normals)),
             axis,
             // Some may go backward.
@@ -247,8 +133,9 @@ impl Extents {
 }
 
 impl Frustum {
-    /// The frustum of rays from one point, however far away, that lie between four of them. Those that come from far start
-    /// nearer, after up to `moved` of their way. The sides run along those of `basis`, unless the rays go another way.
+    /// The frustum of rays from one point, however far away, that lie between four of them. Those that come
+    /// from far start nearer, moved by up to `moved`. The sides run along those of `basis`, unless the rays
+    /// go elsewhere.
     pub fn between(o: DVec3, corners: [DVec3; 4], moved: f64, basis: &Basis) -> Self {
         let (mut basis, mut slopes) = (*basis, Slopes::between(&corners, basis));
         if slopes.least <= COHERENT {
@@ -256,19 +143,19 @@ impl Frustum {
             slopes = Slopes::between(&corners, &basis);
         }
         let axis = basis.axis;
-        let Some(normals) = slopes.normals(&basis, Spread::Apart) else {
+        let Some(normals) = slopes.normals(&basis, Spread::Diverging) else {
             // Some may even go backward.
             let (sides, all) = ([Plane::NOWHERE; 4], f64::INFINITY);
             return Self { sides, axis, first: -all, last: all, start: all };
         };
         let (at, far) = (axis.dot(o), margin_at(axis, o));
         // Nothing that is met lies beyond the world.
-        let last = at.max(0.0) + WAY + far;
+        let last = at.max(0.0) + LONGEST_PATH + far;
         Self { sides: through(o, normals), axis, first: at - far, last, start: at + moved + far }
     }
 
-    /// The frustums around packets that all go to one point, each with how far, and the frustum around them all. There is none for
-    /// what is absent, or has no live ray.
+    /// The frustums around packets that all go to one point, each with how far, and the frustum around them
+    /// all. There is none for what is absent, or has no live ray.
     #[inline(always)]
     pub fn towards<'b, S: Simd>(
         simd: S,
@@ -280,12 +167,12 @@ impl Frustum {
         let live = || packets.clone().map(|b| b.filter(|(packet, _)| packet.live != 0));
         if apex.abs().max_element() > NEAR {
             let far = live().flatten().map(|(packet, distance)| (packet, Some(distance)));
-            let all = Self::around(simd, far, Spread::Together);
+            let all = Self::around(simd, far, Spread::Converging);
             for packet in live() {
                 frustums.push(packet.map(
                     #[inline(always)]
                     |(packet, distance)| {
-                        Self::around(simd, std::iter::once((packet, Some(distance))), Spread::Together)
+                        Self::around(simd, std::iter::once((packet, Some(distance))), Spread::Converging)
                     },
                 ));
             }
@@ -298,9 +185,9 @@ impl Frustum {
                 frustums.push(None);
                 continue;
             };
-            let ways = Extents::of(simd, packet, &basis);
-            all.join(&ways);
-            frustums.push(Some(ways.frustum(&basis, apex)));
+            let extents = Extents::of(simd, packet, &basis);
+            all.join(&extents);
+            frustums.push(Some(extents.frustum(&basis, apex)));
         }
         all.frustum(&basis, apex)
     }
@@ -327,16 +214,16 @@ impl Frustum {
         for (packet, reach) in packets.filter(|(packet, _)| packet.live != 0) {
             for row in 0..ROWS {
                 let rays = packet.load(simd, row);
-                let mut way = f64x8::splat(simd, WAY);
+                let mut length = f64x8::splat(simd, LONGEST_PATH);
                 if let Some(reach) = reach {
-                    way = reach.load(simd, row).smaller(way);
+                    length = reach.load(simd, row).smaller(length);
                 }
                 // Of a segment the ends are the outermost.
                 for k in 0..4 {
-                    let (at, on) = (rays.o.dot_one(normals[k]), rays.d.dot_one(normals[k]) * way);
+                    let (at, on) = (rays.o.dot_one(normals[k]), rays.d.dot_one(normals[k]) * length);
                     offsets[k] = at.smaller(at + on).smaller(offsets[k]);
                 }
-                let (at, on) = (rays.o.dot_one(axis), rays.d.dot_one(axis) * way);
+                let (at, on) = (rays.o.dot_one(axis), rays.d.dot_one(axis) * length);
                 first = at.smaller(at + on).smaller(first);
                 last = at.larger(at + on).larger(last);
                 start = at.larger(start);
@@ -354,9 +241,9 @@ impl Frustum {
         Self { sides, axis, first, last, start }
     }
 
-    /// All its planes, each a normal and an offset below which nothing is met: the four sides, the first and the last
-    /// along its axis. And what is to be taken from the place of a point along the axis to know how near it is at
-    /// least to the start of any ray.
+    /// All its planes, each a normal and an offset below which nothing is met: the four sides, the first and
+    /// the last along its axis. And what is to be taken from the place of a point along the axis to know how
+    /// near it is at least to the start of any ray.
     #[inline]
     pub fn planes(&self) -> ([(DVec3, f64); 6], f64) {
         let [a, b, c, d] = &self.sides;
@@ -364,7 +251,8 @@ impl Frustum {
         ([side(a), side(b), side(c), side(d), (self.axis, self.first), (-self.axis, -self.last)], self.start)
     }
 
-    /// Which of eight boxes, by axis, the frustum may meet. An empty one, whose sides are the wrong way round, is never met.
+    /// Which of eight boxes, by axis, the frustum may meet. An empty one, whose sides are swapped, is never
+    /// met.
     #[inline(always)]
     pub fn meets_boxes<S: Simd>(&self, simd: S, lo: &[f32x8<S>; 3], hi: &[f32x8<S>; 3]) -> FrustumHits<S> {
         let mut met = lo[0].simd_le(hi[0]);
@@ -381,18 +269,6 @@ impl Frustum {
     }
 }
 
-/// The least of eight, none of which is not-a-number.
-#[inline(always)]
-fn lowest<S: Simd>(x: f64x8<S>) -> f64 {
-    x.reduce_min()
-}
-
-/// The greatest of eight, none of which is not-a-number.
-#[inline(always)]
-fn highest<S: Simd>(x: f64x8<S>) -> f64 {
-    x.reduce_max()
-}
-
 /// How far a plane is moved outward where it is compared in single precision.
 #[inline(always)]
 pub(super) fn lost(normal: DVec3) -> f64 {
@@ -404,9 +280,10 @@ fn margin(normal: DVec3) -> f64 {
     ROUNDED * normal.abs().element_sum()
 }
 
-/// The same, for a plane through a point that may be far away, and through corners seen from there: three products and two
-/// sums of numbers as large as that; and what the eight roundings of a direction's component, of a ray and of a corner, are
-/// at the other end of such a way. 21 roundings, rounded up to 32 half-ulps.
+/// The same, for a plane through a point that may be far away, and through corners seen from there: three
+/// products and two sums of numbers as large as that; and what the eight roundings of a direction's
+/// component, of a ray and of a corner, are at the other end of such a length. 21 roundings, rounded up to 32
+/// half-ulps.
 fn margin_at(normal: DVec3, point: DVec3) -> f64 {
     let farther = 16.0 * f64::EPSILON * point.abs().max_element();
     (ROUNDED + farther) * normal.abs().element_sum()

@@ -1,8 +1,9 @@
-//! What is left of a large expression in each part of its box: where to begin when it is pruned to a small box.
+//! What is left of a large expression in each part of its box: where to begin when it is pruned to a small
+//! box.
 //!
-//! A loose octree: the cells of each level overlap, every one is twice as wide as the space it stands for, so that a box
-//! no wider than that space lies within the cell around its middle, wherever it is (Ulrich: Loose octrees, Game
-//! Programming Gems, 2000).
+//! A loose octree: the cells of each level overlap, every one is twice as wide as the space it stands for, so
+//! that a box no wider than that space lies within the cell around its middle, wherever it is (Ulrich: Loose
+//! octrees, Game Programming Gems, 2000).
 
 use std::sync::OnceLock;
 
@@ -15,7 +16,7 @@ pub const MANY: usize = 24;
 /// Levels below the whole: the cells of the last stand for a sixteenth of each axis.
 const LEVELS: usize = 4;
 
-/// One level: its cells, made when they are first asked for.
+/// One level: its cells, made when they are first needed.
 #[derive(Debug)]
 struct Level {
     side: usize,
@@ -40,8 +41,8 @@ impl LooseOctree {
         Self { bounds, levels: (0..LEVELS).map(level).collect() }
     }
 
-    /// What is left of `whole`, the object's expression, in a cell that holds the box `b`; `whole` itself where no cell
-    /// does, and none where there is no surface in the cell.
+    /// What is left of `whole`, the object's expression, in a cell that holds the box `b`; `whole` itself
+    /// where no cell does, and none where there is no surface in the cell.
     pub fn around<'l>(
         &'l self,
         whole: ExprView<'l>,

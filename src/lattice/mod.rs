@@ -1,9 +1,10 @@
-//! Stages 2, 5 and 6, LATTICE, CLIP and CELL: the world cut into cells at every object's bounds, and rays walking
-//! through them.
+//! Stages 2, 5 and 6, LATTICE, CLIP and CELL: the world cut into cells at every object's bounds, and rays
+//! walking through them.
 //!
-//! The paper's lists, by its own words: the lattice-coordinate lists are [`Planes`]; the lattice list (cell number
-//! → object pointers) is [`Lattice::objects_in`]; the object list is [`crate::solid::Assembly::objects`], each
-//! composite one with its [`SubLattice`]; the sub-object list is [`crate::solid::Assembly::primitives`].
+//! The paper's lists, by its own words: the lattice-coordinate lists are [`Planes`]; the lattice list (cell
+//! number → object pointers) is [`Lattice::objects_in`]; the object list is
+//! [`crate::solid::Assembly::objects`], each composite one with its [`SubLattice`]; the sub-object list is
+//! [`crate::solid::Assembly::primitives`].
 
 mod bvh;
 mod clip;
@@ -11,16 +12,18 @@ mod frusta;
 mod frustum;
 mod loose_octree;
 mod planes;
+mod slopes;
 mod structure;
 mod sub;
 mod tree;
 
-pub use bvh::{BoundingSphere, Bvh8, Candidate, Child, Node, ROOM, Stream, StreamRays, WIDE};
+pub use bvh::{BoundingSphere, Bvh8, BvhChild, Candidate, Node, ROOM, Stream, StreamRays, WIDE};
 pub use clip::{Outcode, entry};
 pub use frusta::{FRUSTA, FrustaHits, FrustumSoa};
-pub use frustum::{Basis, Frustum, FrustumHits, Spread, WAY};
+pub use frustum::{Frustum, FrustumHits, LONGEST_PATH};
 pub use loose_octree::{LooseOctree, MANY};
-pub use planes::{Planes, SLACK, Step, slack};
+pub use planes::{CellStep, Planes, SLACK, slack};
+pub use slopes::{Basis, Spread};
 pub use structure::Structure;
 pub use sub::{SubLattice, SubLattices};
 pub use tree::{MOST_POINTERS, Tree};
@@ -90,15 +93,16 @@ impl Lattice {
         &self.planes
     }
 
-    /// Calls `visit` with the objects of each cell that the ray passes between `from` and `to`, in order, until it
-    /// breaks. `visit` returns how far the ray still matters: cells that begin beyond that are not visited.
+    /// Calls `visit` with the objects of each cell that the ray passes between `from` and `to`, in order,
+    /// until it breaks. `visit` returns how far the ray still matters: cells that begin beyond that are not
+    /// visited.
     pub fn walk<B>(
         &self,
         ray: &Ray,
         from: f64,
         to: f64,
         cells_visited: &mut u64,
-        mut visit: impl FnMut(&[u32], Step) -> ControlFlow<B, f64>,
+        mut visit: impl FnMut(&[u32], CellStep) -> ControlFlow<B, f64>,
     ) -> Option<B> {
         let mut farthest = to;
         let found = self.planes.walk(ray, from, to, |step| {

@@ -9,12 +9,14 @@ use crate::solid::ROUNDING;
 /// [`ROUNDING`] of a coordinate of at most 2.
 const SAME: f64 = 4.0 * ROUNDING;
 
-/// How far along a ray a crossing may be computed outside the cell that holds it: the plane's distance and the
-/// crossing are off by at most [`ROUNDING`] each of lengths of at most 8, the diagonals of world and margin.
+/// How far along a ray a crossing may be computed outside the cell that holds it: the plane's distance and
+/// the crossing are off by at most [`ROUNDING`] each of lengths of at most 8, the diagonals of world and
+/// margin.
 pub const SLACK: f64 = 16.0 * ROUNDING;
 
-/// How far apart the surfaces of solids may seem that are one place, where each may be `off` its own: twice that from
-/// the front, and as much again for rays that meet them aslant. Past a hundredth of the world it is no rounding.
+/// How far the surfaces of solids may seem to be from each other that are one place, where each may be `off`
+/// its own: twice that from the front, and as much again for rays that meet them aslant. Past a hundredth of
+/// the world it is no rounding.
 pub fn slack(off: f64) -> f64 {
     (4.0 * off).clamp(SLACK, 0.01)
 }
@@ -25,9 +27,9 @@ pub struct Planes {
     lists: [Vec<f64>; 3],
 }
 
-/// A cell on a ray's way.
+/// A cell that a ray passes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Step {
+pub struct CellStep {
     /// The cell's number in scan order, x fastest.
     pub cell: usize,
     /// Where the ray comes in.
@@ -53,7 +55,8 @@ impl Planes {
             if list.len() == 1 {
                 list.push(list[0]);
             }
-            // A ray is not done before it has left the world for certain; within a thin one it may still go far.
+            // A ray is not done before it has left the world for certain; within a thin one it may still go
+            // far.
             if let [first, .., last] = &mut list[..] {
                 *first -= SLACK;
                 *last += SLACK;
@@ -121,7 +124,7 @@ impl Planes {
         ray: &Ray,
         from: f64,
         to: f64,
-        mut visit: impl FnMut(Step) -> ControlFlow<B>,
+        mut visit: impl FnMut(CellStep) -> ControlFlow<B>,
     ) -> Option<B> {
         let start = ray.at(from);
         let size = self.dimensions();
@@ -143,7 +146,7 @@ impl Planes {
             };
             // Rounding may put the next plane a little behind the start.
             let end = next[axis].max(now).min(to);
-            if let ControlFlow::Break(value) = visit(Step { cell, from: now, to: end }) {
+            if let ControlFlow::Break(value) = visit(CellStep { cell, from: now, to: end }) {
                 return Some(value);
             }
             if end >= to {
@@ -253,8 +256,8 @@ mod tests {
         assert_eq!((planes.list(0)[0], *planes.list(0).last().unwrap()), (-SLACK, 100.0 + SLACK));
     }
 
-    // A world thinner along an axis than the rounding of its size was one plane there, which every ray had left before
-    // it came to the next cell.
+    // A world thinner along an axis than the rounding of its size was one plane there, which every ray had
+    // left before it came to the next cell.
     #[test]
     fn a_world_as_thin_as_rounding_is_walked_from_end_to_end() {
         let limit = Bounds::new(DVec3::new(-1e-150, -1.0, -1.0), DVec3::new(1e-150, 1.0, 1.0));

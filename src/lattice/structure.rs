@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use crate::math::Ray;
 
-use super::{Bvh8, Lattice, Step, SubLattice, SubLattices, Tree};
+use super::{Bvh8, CellStep, Lattice, SubLattice, SubLattices, Tree};
 
 /// How the space of a picture is cut. Every structure leads to the same hits.
 #[derive(Clone, Copy, Debug)]
@@ -20,16 +20,17 @@ pub enum Structure<'a> {
 }
 
 impl<'a> Structure<'a> {
-    /// Calls `visit` with the objects of each cell that the ray passes between `from` and `to` until it breaks: in
-    /// order where cells are apart, nearly so where boxes overlap. `visit` returns how far the ray still matters: cells
-    /// that begin beyond that are not visited. Without a structure there are no cells.
+    /// Calls `visit` with the objects of each cell that the ray passes between `from` and `to` until it
+    /// breaks: in order where cells are disjoint, nearly so where boxes overlap. `visit` returns how far the
+    /// ray still matters: cells that begin beyond that are not visited. Without a structure there are no
+    /// cells.
     pub fn walk<B>(
         &self,
         ray: &Ray,
         from: f64,
         to: f64,
         cells_visited: &mut u64,
-        visit: impl FnMut(&[u32], Step) -> ControlFlow<B, f64>,
+        visit: impl FnMut(&[u32], CellStep) -> ControlFlow<B, f64>,
     ) -> Option<B> {
         match self {
             Self::None => None,
@@ -38,7 +39,7 @@ impl<'a> Structure<'a> {
             Self::Boxes(boxes, _) => {
                 let mut visit = visit;
                 boxes.walk(ray, from, to, cells_visited, |object, from| {
-                    visit(&[object], Step { cell: object as usize, from, to })
+                    visit(&[object], CellStep { cell: object as usize, from, to })
                 })
             }
         }

@@ -1,4 +1,5 @@
-//! The sub-lattice of a composite object: in each cell, the part of its CSG expression that still matters there.
+//! The sub-lattice of a composite object: in each cell, the part of its CSG expression that still matters
+//! there.
 
 use std::collections::HashMap;
 use std::ops::ControlFlow;
@@ -11,18 +12,18 @@ use crate::solid::{
 use crate::stage::{Progress, Task};
 
 use super::loose_octree::{LooseOctree, MANY};
-use super::planes::{Planes, SLACK, Step, slack};
+use super::planes::{CellStep, Planes, SLACK, slack};
 
 /// The most cells of one sub-lattice. Past it planes are left out, which costs tests but changes no hit: 64
 /// along each axis, where a cell is as small as a dot of a picture that the object fills.
 const MOST_CELLS: f64 = 262_144.0;
 
-/// The most cells of all sub-lattices: 16 MB, and a second or two to fill. Each composite object has an equal share;
-/// where they are many, each is few dots of the picture.
+/// The most cells of all sub-lattices: 16 MB, and a second or two to fill. Each composite object has an equal
+/// share; where they are many, each is few dots of the picture.
 const ALL_CELLS: f64 = 4_194_304.0;
 
-/// The most primitives named by the expressions of one sub-lattice, and of all: 12 bytes each, and three times that
-/// while one is built. Past it cells share an expression, which costs tests but changes no hit.
+/// The most primitives named by the expressions of one sub-lattice, and of all: 12 bytes each, and three
+/// times that while one is built. Past it cells share an expression, which costs tests but changes no hit.
 const MOST_LEAVES: f64 = 4_194_304.0;
 const ALL_LEAVES: f64 = 4.0 * MOST_LEAVES;
 
@@ -151,13 +152,13 @@ impl SubLattice {
         Some(Self { planes, cells, parts, bounds: *bounds })
     }
 
-    /// Calls `visit` with each stretch of the ray that has surfaces, and the expression there, in order, until it
-    /// breaks. Cells that share an expression are not joined: a stretch is at most a cell.
+    /// Calls `visit` with each stretch of the ray that has surfaces, and the expression there, in order,
+    /// until it breaks. Cells that share an expression are not joined: a stretch is at most a cell.
     pub fn walk<B>(
         &self,
         ray: &Ray,
         cells_visited: &mut u64,
-        mut visit: impl FnMut(&Expression, Step) -> ControlFlow<B>,
+        mut visit: impl FnMut(&Expression, CellStep) -> ControlFlow<B>,
     ) -> Option<B> {
         let start = super::clip::entry(ray, &self.bounds.padded(DVec3::splat(SLACK)))?;
         self.planes.walk(ray, start, f64::INFINITY, |step| {
@@ -234,7 +235,8 @@ mod tests {
     use crate::math::DAffine3;
     use crate::scene::{Material, MaterialId, Scene, Shape, Solid};
 
-    // Five thousand slanted plates took 20 s and a gigabyte: nearly every cell was crossed by hundreds of them.
+    // Five thousand slanted plates took 20 s and a gigabyte: nearly every cell was crossed by hundreds of
+    // them.
     #[test]
     fn expressions_stay_within_the_budget() {
         let plate = |k: u32| {

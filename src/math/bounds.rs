@@ -92,8 +92,8 @@ impl Bounds {
 
     /// The box around this box moved by `map`.
     ///
-    /// Of a sum of rounded terms the least is that of the least terms, since rounding keeps the order of numbers: these are the
-    /// same bits as those of the box around the eight moved corners.
+    /// Of a sum of rounded terms the least is that of the least terms, since rounding keeps the order of
+    /// numbers: these are the same bits as those of the box around the eight moved corners.
     #[must_use]
     #[inline]
     pub fn mapped(&self, map: &DAffine3) -> Self {

@@ -2,19 +2,37 @@
 
 use super::{DAffine3, DMat3, DVec3};
 
-/// The sum of two numbers as it is rounded, and the rest: together they are the exact sum, unless it overflows
-/// (Knuth: The Art of Computer Programming 2, 4.2.2, theorem B).
+/// The sum of two numbers as it is rounded, and the rest: together they are the exact sum, unless it
+/// overflows (Knuth: The Art of Computer Programming 2, 4.2.2, theorem B).
 pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let part = sum - a;
     (sum, (a - (sum - part)) + (b - part))
 }
 
-/// The product of two numbers as it is rounded, and the rest: together they are the exact product, unless that or its
-/// rest leaves the range of f64 (Dekker 1971; by a fused multiply-add, which is the same on every platform).
+/// The product of two numbers as it is rounded, and the rest: together they are the exact product, unless
+/// that or its rest leaves the range of f64. By a fused multiply-add, which is the same on every platform.
 pub fn two_product(a: f64, b: f64) -> (f64, f64) {
     let product = a * b;
     (product, libm::fma(a, b, -product))
+}
+
+/// The same bits for numbers between 2⁻⁴⁰⁰ and 2⁴⁰⁰, and for 0, by products and sums alone, several at a time
+/// where it is inlined into a loop (T. J. Dekker, Numerische Mathematik 18, 1971).
+#[inline]
+pub fn two_product_in_range(a: f64, b: f64) -> (f64, f64) {
+    let [(a_high, a_low), (b_high, b_low)] = [halves(a), halves(b)];
+    let product = a * b;
+    (product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low)
+}
+
+/// The upper 26 bits of a number's 53, and the rest (Veltkamp's splitting).
+#[inline]
+fn halves(x: f64) -> (f64, f64) {
+    const SPLIT: f64 = ((1 << 27) + 1) as f64;
+    let scaled = x * SPLIT;
+    let high = scaled - (scaled - x);
+    (high, x - high)
 }
 
 /// `whole − a·b`, rounded about once.
@@ -46,7 +64,21 @@ pub fn product_rest(outer: &DAffine3, inner: &DAffine3, product: &DAffine3) -> D
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
+
+    proptest! {
+        #[test]
+        fn both_products_have_the_same_rest(
+            (a, b) in (-1.0..1.0_f64, -1.0..1.0_f64),
+            (up, down) in (-390..390_i32, -390..390_i32),
+        ) {
+            let (a, b) = (libm::scalbn(a, up), libm::scalbn(b, down));
+            prop_assume!(a.abs() > 1e-118 && b.abs() > 1e-118);
+            prop_assert_eq!(two_product(a, b), two_product_in_range(a, b));
+        }
+    }
 
     #[test]
     fn nothing_is_lost() {

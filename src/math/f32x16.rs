@@ -2,10 +2,10 @@
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdMask, f32x16, mask32x16};
+use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdMask, f32x16, mask32x16, u32x16};
 
-use super::number::{Mask, Number};
-use super::real::{SimdReal, SimdRegister};
+use super::number::{LANES, Mask, Number};
+use super::real::{Real, SimdReal, SimdRegister};
 
 /// Numbers of 24 bits; what they are computed with is rounded to that first.
 #[derive(Clone, Copy, Debug)]
@@ -51,8 +51,8 @@ operators! {
 impl<S: Simd> Number for F32x16<S> {
     type Mask = F32x16Mask<S>;
 
-    const COARSER: f64 = <f32 as super::Real>::COARSER;
-    const DECIDES: bool = <f32 as super::Real>::DECIDES;
+    const COARSER: f64 = <f32 as Real>::COARSER;
+    const DECIDES: bool = <f32 as Real>::DECIDES;
     const LEAST: f64 = f32::MIN_POSITIVE as f64;
 
     #[inline(always)]
@@ -97,6 +97,21 @@ impl<S: Simd> Number for F32x16<S> {
     }
 }
 
+impl Real for f32 {
+    type SimdReal<S: Simd> = F32x16<S>;
+
+    const LANES: usize = 2 * LANES;
+    const COARSER: f64 = (Self::EPSILON as f64) / f64::EPSILON;
+    const DECIDES: bool = false;
+    const ZERO: Self = 0.0;
+    const INFINITY: Self = Self::INFINITY;
+
+    #[inline(always)]
+    fn nearest(x: f64) -> Self {
+        x as Self
+    }
+}
+
 impl<S: Simd> SimdRegister for F32x16<S> {
     type Real = f32;
 
@@ -115,6 +130,8 @@ impl<S: Simd> SimdRegister for F32x16<S> {
 }
 
 impl<S: Simd> SimdReal<S> for F32x16<S> {
+    type Ids = u32x16<S>;
+
     #[inline(always)]
     fn all(simd: S, x: f64) -> Self {
         Self(f32x16::splat(simd, x as f32))
@@ -126,6 +143,10 @@ impl<S: Simd> SimdReal<S> for F32x16<S> {
     #[inline(always)]
     fn answers(simd: S, bits: u64) -> F32x16Mask<S> {
         F32x16Mask(mask32x16::from_bitmask(simd, bits))
+    }
+    #[inline(always)]
+    fn ids(self) -> u32x16<S> {
+        self.0.to_int()
     }
 }
 

@@ -4,7 +4,7 @@ use std::ops::{Index, IndexMut};
 
 use rayon::prelude::*;
 
-/// Values that a thread computes at least before another is asked to help: some tens of microseconds of the cheapest,
+/// Values that a thread computes at least before another helps: some tens of microseconds of the cheapest,
 /// several times what it costs to wake a thread.
 const SHARE: usize = 1024;
 
@@ -100,7 +100,8 @@ impl<T> Grid<T> {
 }
 
 impl<T: Copy + Send> Grid<T> {
-    /// The same as [`Grid::from_fn`], with large grids shared out by rows among the threads of the caller's rayon pool.
+    /// The same as [`Grid::from_fn`], with large grids shared out by rows among the threads of the caller's
+    /// rayon pool.
     pub fn from_fn_in_parallel(size: Size, value: impl Fn(u32, u32) -> T + Sync) -> Self {
         if size.area() < 2 * SHARE {
             return Self::from_fn(size, value);

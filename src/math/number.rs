@@ -1,8 +1,8 @@
 //! One formula for one ray and for eight: a number that is an `f64`, or eight of them side by side.
 //!
-//! Every operation is one of IEEE 754's that is rounded correctly, so that each of the eight has the bits that it
-//! would have alone, at every SIMD width. No approximate operation is among them, and no minimum, whose answer to
-//! not-a-number differs between processors.
+//! Every operation is one of IEEE 754's that is rounded correctly, so that each of the eight has the bits
+//! that it would have as a single ray's, at every SIMD width. No approximate operation is among them, and no
+//! minimum, whose answer to not-a-number differs between processors.
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
@@ -10,6 +10,10 @@ use fearless_simd::{Bytes, Select, Simd, SimdBase, SimdFloat, SimdMask, f64x8, m
 
 /// How many rays are computed side by side.
 pub const LANES: usize = 8;
+
+/// How many rays a packet has at most: one bit of a word for each, and one register of numbers for each
+/// eighth.
+pub const PACKET: usize = 64;
 
 /// Digits of a fraction behind its leading 1.
 const FRACTION: u32 = f64::MANTISSA_DIGITS - 1;
@@ -41,7 +45,7 @@ pub trait Number:
 
     /// How many times as much is lost by a rounding as of an `f64`.
     const COARSER: f64 = 1.0;
-    /// Whether these are double precision: else more are asked for where they leave a doubt.
+    /// Whether these are double precision: if not, double precision decides where they leave a doubt.
     const DECIDES: bool = true;
     /// Below this numbers lose digits.
     const LEAST: f64 = f64::MIN_POSITIVE;

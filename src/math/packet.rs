@@ -2,13 +2,10 @@
 
 use fearless_simd::{Simd, SimdBase, SimdMask, mask64x8};
 
-use super::number::{LANES, Mask};
+use super::number::{LANES, Mask, PACKET};
 use super::real::{Real, RealMask, SimdReal, SimdRegister};
 use super::vector::{Rays, Vector};
 use super::{DVec3, Ray};
-
-/// How many rays a packet has at most: one bit of a word for each, and one register of numbers for each eighth.
-pub const PACKET: usize = 64;
 
 /// Registers of numbers in a packet.
 pub const ROWS: usize = PACKET / LANES;
@@ -206,7 +203,8 @@ impl<T: Real> RayPacket<T> {
         self.live |= 1 << lane;
     }
 
-    /// Gives those that are not there the numbers of the first that is: bounds around all are bounds around the live.
+    /// Gives those that are not there the numbers of the first that is: bounds around all are bounds around
+    /// the live.
     #[inline(always)]
     pub fn close<S: Simd>(&mut self, simd: S) {
         if self.live == 0 || self.live == u64::MAX {

@@ -42,16 +42,17 @@ impl Placement {
     }
 }
 
-/// The determinant of a matrix whose rows and columns have magnitudes near 1 above which its inverse by cofactors is
-/// good enough.
+/// The determinant of a matrix whose rows and columns have magnitudes near 1 above which its inverse by
+/// cofactors is good enough.
 const STURDY: f64 = 0.5;
 
-/// The inverse of a matrix whose rows and columns have magnitudes near 1, off by at most 8 roundings of its entries.
+/// The inverse of a matrix whose rows and columns have magnitudes near 1, off by at most 8 roundings of its
+/// entries.
 ///
-/// By cofactors it is off by about 3 roundings over the determinant, which is small where a map shears strongly. Then
-/// it is refined by what is left of the unit matrix, X ← X + X·(1 − A·X), the rest computed as if in twice the
-/// precision (Wilkinson: Rounding Errors in Algebraic Processes, 1963; the sums after Ogita, Rump, Oishi: Accurate sum
-/// and dot product, SIAM J. Sci. Comput. 26, 2005).
+/// By cofactors it is off by about 3 roundings over the determinant, which is small where a map shears
+/// strongly. Then it is refined by what is left of the unit matrix, X ← X + X·(1 − A·X), the rest computed as
+/// if in twice the precision (Wilkinson: Rounding Errors in Algebraic Processes, 1963; the sums after Ogita,
+/// Rump, Oishi: Accurate sum and dot product, SIAM J. Sci. Comput. 26, 2005).
 fn refined_inverse(even: &DMat3) -> DMat3 {
     /// Each step squares what is left: from just below 1 it is rounding after so many.
     const STEPS: usize = 10;
@@ -138,8 +139,8 @@ mod tests {
 
     #[test]
     fn inverts_strong_shears_to_the_last_bits() {
-        // Two turns with a scale of 1e5 between them: by cofactors alone a product with the inverse was off by
-        // 7e-4, a thousand times what its own rounding allows.
+        // Two turns with a scale of 1e5 between them: by cofactors alone a product with the inverse was off
+        // by 7e-4, a thousand times what its own rounding allows.
         let turn = |angle: f64| DMat3::from_axis_angle(DVec3::new(2.0, -3.0, 6.0) / 7.0, angle);
         let map = turn(1.0) * DMat3::from_diagonal(DVec3::new(1e-5, 1.0, 1e5)) * turn(2.0);
         let inverse = Placement::new(&DAffine3::from_mat3(map)).unwrap().inverse;

@@ -1,12 +1,14 @@
-//! The precision of the numbers of a packet: that of `f64`, or that of `f32`, of which a register holds twice as many.
+//! The precision of the numbers of a packet: that of `f64`, or that of `f32`, of which a register holds twice
+//! as many.
 
 use std::fmt::Debug;
 
-use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
+use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8, u32x8};
 
-use super::f32x16::F32x16;
-use super::number::{LANES, Mask, Number};
-use super::packet::PACKET;
+use super::number::{LANES, Mask, Number, PACKET};
+
+/// From here on, up to its double, the numbers of double precision are the integers.
+const INTEGERS: f64 = (1_u64 << 52) as f64;
 
 /// A number of a ray in a packet.
 pub trait Real: Copy + Debug + Default + Into<f64> + Send + Sync + 'static {
@@ -19,8 +21,8 @@ pub trait Real: Copy + Debug + Default + Into<f64> + Send + Sync + 'static {
     const ROWS: usize = PACKET / Self::LANES;
     /// A bit for each ray of the first row.
     const ROW: u64 = (1 << Self::LANES) - 1;
-    /// How many times as much is lost by a rounding as of an `f64`. Maps, starts and directions come rounded once from `f64`; the rest
-    /// of each chain of roundings is the same.
+    /// How many times as much is lost by a rounding as of an `f64`. Maps, starts and directions come rounded
+    /// once from `f64`; the rest of each chain of roundings is the same.
     const COARSER: f64;
     /// [`Number::DECIDES`].
     const DECIDES: bool;
@@ -60,6 +62,9 @@ pub trait Real: Copy + Debug + Default + Into<f64> + Send + Sync + 'static {
 /// Answers to a question about the rays of a row.
 pub type RealMask<T, S> = <<T as Real>::SimdReal<S> as Number>::Mask;
 
+/// The ids of the rays of a row.
+pub type RealIds<T, S> = <<T as Real>::SimdReal<S> as SimdReal<S>>::Ids;
+
 /// Numbers that fill a row.
 pub trait SimdRegister {
     /// One of them.
@@ -73,14 +78,31 @@ pub trait SimdRegister {
     fn greatest(self) -> f64;
 }
 
+/// The ids of a row, in a register.
+pub trait SimdIds<S: Simd>: Copy {
+    /// The same for all.
+    fn all(simd: S, id: u32) -> Self;
+    /// Those of a row, all of it.
+    fn of_row(simd: S, row: &[u32]) -> Self;
+    /// Puts those whose bits are set into a row.
+    fn put_into(self, simd: S, row: &mut [u32], bits: u64);
+    /// A bit for each that is the same as in another register.
+    fn equal_bits(self, other: Self) -> u64;
+}
+
 /// The numbers of a row, in a register.
 pub trait SimdReal<S: Simd>: Number + SimdRegister {
+    /// An id for each.
+    type Ids: SimdIds<S>;
+
     /// The same for all.
     fn all(simd: S, x: f64) -> Self;
     /// Those of a row, all of it.
     fn of_row(simd: S, row: &[Self::Real]) -> Self;
     /// Answers out of a bit for each.
     fn answers(simd: S, bits: u64) -> Self::Mask;
+    /// Numbers that are ids, whole and 0 or more, as ids: below 2²⁴ in single precision, below 2³² in double.
+    fn ids(self) -> Self::Ids;
 }
 
 impl Real for f64 {
@@ -95,21 +117,6 @@ impl Real for f64 {
     #[inline(always)]
     fn nearest(x: f64) -> Self {
         x
-    }
-}
-
-impl Real for f32 {
-    type SimdReal<S: Simd> = F32x16<S>;
-
-    const LANES: usize = 2 * LANES;
-    const COARSER: f64 = (Self::EPSILON as f64) / f64::EPSILON;
-    const DECIDES: bool = false;
-    const ZERO: Self = 0.0;
-    const INFINITY: Self = Self::INFINITY;
-
-    #[inline(always)]
-    fn nearest(x: f64) -> Self {
-        x as Self
     }
 }
 
@@ -131,6 +138,8 @@ impl<S: Simd> SimdRegister for f64x8<S> {
 }
 
 impl<S: Simd> SimdReal<S> for f64x8<S> {
+    type Ids = u32x8<S>;
+
     #[inline(always)]
     fn all(simd: S, x: f64) -> Self {
         Self::splat(simd, x)
@@ -142,5 +151,16 @@ impl<S: Simd> SimdReal<S> for f64x8<S> {
     #[inline(always)]
     fn answers(simd: S, bits: u64) -> mask64x8<S> {
         mask64x8::from_bitmask(simd, bits)
+    }
+    #[inline(always)]
+    fn ids(self) -> u32x8<S> {
+        // Between 2⁵² and 2⁵³ the lowest digits of a number are those of an integer: no conversion that
+        // saturates is as quick.
+        let shifted: [f64; LANES] = (self + INTEGERS).into();
+        let mut ids = [0; LANES];
+        for lane in 0..LANES {
+            ids[lane] = shifted[lane].to_bits() as u32;
+        }
+        u32x8::from_slice(self.simd, &ids)
     }
 }

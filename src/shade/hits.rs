@@ -52,9 +52,9 @@ impl BlockHits {
         let single = alone.iter().filter(|(at, _)| together >> at.lane & 1 == 0);
         Self {
             t: nearest.t.0,
-            object: nearest.object.0.map(|object| object as u32),
-            primitive: nearest.primitive.0.map(|primitive| primitive as u32),
-            surface: nearest.surface.0.map(|surface| surface as u32),
+            object: nearest.object.0,
+            primitive: nearest.primitive.0,
+            surface: nearest.surface.0,
             entering: nearest.entering,
             together,
             alone: single.map(|(at, met)| (at.lane, met.p)).collect(),
@@ -64,9 +64,9 @@ impl BlockHits {
     /// Says so to the packet `k`. Answers which rays met what when they were traced alone.
     fn tell(&self, k: usize, nearest: &mut PacketHits) -> Vec<(RayIndex, SurfaceInteraction)> {
         nearest.t.0 = self.t;
-        nearest.object.0 = self.object.map(f64::from);
-        nearest.primitive.0 = self.primitive.map(f64::from);
-        nearest.surface.0 = self.surface.map(f64::from);
+        nearest.object.0 = self.object;
+        nearest.primitive.0 = self.primitive;
+        nearest.surface.0 = self.surface;
         (nearest.entering, nearest.unsure) = (self.entering, 0);
         let met = |&(lane, p): &(usize, DVec3)| {
             let hit = Hit {

@@ -84,7 +84,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
                 lets_through: &self.lets_through,
             };
             if wave.apart {
-                self.engine.blocked_alone(shadow_packets, &wave.departures, &shone, trace);
+                self.engine.blocked_of_incoherent(shadow_packets, &wave.departures, &shone, trace);
             } else {
                 // What curved surfaces send on mostly runs apart, towards one lamp as towards another.
                 wave.apart =

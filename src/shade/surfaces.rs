@@ -104,7 +104,6 @@ impl Surfaces {
             for row in lane / LANES..ROWS {
                 departures.off.put(simd, row, row_of(simd, group, row), off);
             }
-            let surface = surface as u32;
             match &own.form {
                 WorldShape::Ball(ball) => self.face(
                     simd,
@@ -177,16 +176,9 @@ impl Surfaces {
     }
 }
 
-/// The rays from `lane` on that met the same face as it.
+/// The rays that met the same face as the one of `lane`.
 #[inline(always)]
 fn same_face<S: Simd>(simd: S, nearest: &PacketHits, lane: usize) -> u64 {
-    let primitive = f64x8::splat(simd, nearest.primitive.0[lane]);
-    let surface = f64x8::splat(simd, nearest.surface.0[lane]);
-    let mut group = 0;
-    for row in lane / LANES..ROWS {
-        let same = nearest.primitive.load(simd, row).is_equal(primitive)
-            & nearest.surface.load(simd, row).is_equal(surface);
-        group |= same.bits() << (row * LANES);
-    }
-    group
+    let primitives = nearest.primitive.rays_of(simd, nearest.primitive.0[lane]);
+    primitives & nearest.surface.rays_of(simd, nearest.surface.0[lane])
 }

@@ -122,7 +122,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
             meter.at(Stage::Cell);
         };
         let made = self.engine.first_seen(sight, rays, &mut make, &mut nearest[..count], trace);
-        self.engine.first_apart(&wave.rays, None, &mut wave.nearest[..count], trace);
+        self.engine.first_of_incoherent(&wave.rays, None, &mut wave.nearest[..count], trace);
         for k in 0..count {
             meter.counts.primary_rays += u64::from(sight.block(k).live().count_ones());
             if made >> k & 1 == 0 {
@@ -205,13 +205,18 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
                 } else {
                     for k in some {
                         wave.nearest[k].clear();
-                        wave.nearest[k].apart = wave.rays[k].live;
+                        wave.nearest[k].incoherent = wave.rays[k].live;
                     }
                 }
             }
         }
         let count = wave.rays.len();
-        self.engine.first_apart(&wave.rays, Some(&wave.from[..count]), &mut wave.nearest[..count], trace);
+        self.engine.first_of_incoherent(
+            &wave.rays,
+            Some(&wave.from[..count]),
+            &mut wave.nearest[..count],
+            trace,
+        );
         for kind in &kinds {
             for (number, leg) in kind.rays.iter().enumerate() {
                 let at = kind.place(number);
@@ -274,8 +279,7 @@ impl<'e, C: Channel> Shader<'_, Fast<'e>, C> {
         }
         surfaces.know(packet, nearest, self.assembly, &mut departures[k], level);
         for at in places(k, surfaces.patches) {
-            let (primitive, surface) =
-                (nearest.primitive.0[at.lane] as u32, nearest.surface.0[at.lane] as u32);
+            let (primitive, surface) = (nearest.primitive.0[at.lane], nearest.surface.0[at.lane]);
             let p = surfaces.p.get(at.lane);
             let normal = self.assembly.turned_normal(primitive, surface, p, packet.d.get(at.lane));
             surfaces.normal.set(at.lane, normal);

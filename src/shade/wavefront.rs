@@ -213,7 +213,7 @@ impl<C: Channel> Wavefront<C> {
     /// The surface that one ray met, for a ray that leaves it to the side that the other came from.
     #[inline]
     pub fn departure(&self, at: RayIndex) -> Departure {
-        let surface = self.nearest[at.packet].surface.0[at.lane] as u32;
+        let surface = self.nearest[at.packet].surface.0[at.lane];
         Departure { surface, ..self.departures[at.packet].get(at.lane) }
     }
 
@@ -233,9 +233,9 @@ impl<C: Channel> Wavefront<C> {
             t: surfaces.way.0[lane],
             error: 0.0,
             p,
-            object: nearest.object.0[lane] as u32,
-            primitive: nearest.primitive.0[lane] as u32,
-            surface: nearest.surface.0[lane] as u32,
+            object: nearest.object.0[lane],
+            primitive: nearest.primitive.0[lane],
+            surface: nearest.surface.0[lane],
             entering: nearest.entering >> lane & 1 == 1,
         };
         SurfaceInteraction { hit, p, normal: surfaces.normal.get(lane) }

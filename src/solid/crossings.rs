@@ -7,7 +7,7 @@
 
 use fearless_simd::Simd;
 
-use crate::math::{Mask, Number, Real, RealMask};
+use crate::math::{Mask, Number, Real, RealIds, RealMask, SimdIds, SimdReal};
 
 use super::crossing::{PlaceError, TRange, have_one_slope, start_of};
 use super::csg_query::{CsgQuery, Departures, PacketCrossings};
@@ -348,11 +348,9 @@ fn take<S: Simd, T: Real>(
             continue;
         }
         let which = T::row_of(simd, lanes, row);
-        let pairs =
-            [(&side.t, &mut found.t), (&side.error, &mut found.error), (&side.surface, &mut found.surface)];
-        for (from, to) in pairs {
-            to.put(simd, row, which, from.load(simd, row));
-        }
-        found.primitive.put(simd, row, which, T::all(simd, f64::from(primitive)));
+        found.t.put(simd, row, which, side.t.load(simd, row));
+        found.error.put(simd, row, which, side.error.load(simd, row));
+        found.surface.put_ids::<T, S>(simd, row, lanes, side.surface.load(simd, row).ids());
+        found.primitive.put_ids::<T, S>(simd, row, lanes, RealIds::<T, S>::all(simd, primitive));
     }
 }

@@ -2,7 +2,7 @@
 
 use fearless_simd::Simd;
 
-use crate::math::{Lanes, Number, RayPacket, Real};
+use crate::math::{Lanes, RayPacket, Real};
 
 use super::crossing::{Crossing, TRange};
 use super::span::Departure;
@@ -23,8 +23,8 @@ pub struct CsgQuery<'a, T> {
 /// The surfaces that the rays of a packet start on: [`super::Departure`] of each.
 #[derive(Clone, Debug)]
 pub struct Departures<T = f64> {
-    /// The index of the primitive.
-    pub primitive: Lanes<T>,
+    /// The index of the primitive; [`Departures::NOWHERE`] where the ray leaves none.
+    pub primitive: Lanes<u32>,
     /// Which rays go to the inside of it, a bit for each.
     pub inward: u64,
     /// How far it may be off its place.
@@ -32,12 +32,16 @@ pub struct Departures<T = f64> {
 }
 
 impl Departures {
-    /// From nowhere.
-    pub const NONE: Self = Self { primitive: Lanes::filled(-1.0), inward: 0, off: Lanes::filled(0.0) };
+    /// No index of a primitive: there are fewer.
+    pub const NOWHERE: u32 = u32::MAX;
+
+    /// No ray leaves a surface.
+    pub const NONE: Self =
+        Self { primitive: Lanes::filled(Self::NOWHERE), inward: 0, off: Lanes::filled(0.0) };
 
     /// Sets the surface that one ray starts on; it goes to the outside unless it did to the inside before.
     pub fn set(&mut self, lane: usize, departure: &Departure) {
-        self.primitive.0[lane] = f64::from(departure.primitive);
+        self.primitive.0[lane] = departure.primitive;
         self.off.0[lane] = departure.off;
         self.inward = self.inward & !(1 << lane) | u64::from(departure.inward) << lane;
     }
@@ -45,7 +49,7 @@ impl Departures {
     /// The surface that one ray starts on; of a primitive whose surfaces need no telling apart.
     pub fn get(&self, lane: usize) -> Departure {
         Departure {
-            primitive: self.primitive.0[lane] as u32,
+            primitive: self.primitive.0[lane],
             surface: 0,
             inward: self.inward >> lane & 1 == 1,
             off: self.off.0[lane],
@@ -58,14 +62,7 @@ impl<T: Real> Departures<T> {
     pub fn here<S: Simd>(&self, simd: S, primitive: u32) -> (u64, u64) {
         let here = simd.vectorize(
             #[inline(always)]
-            || {
-                let index = T::all(simd, f64::from(primitive));
-                let mut here = 0;
-                for row in 0..T::ROWS {
-                    here |= T::bits_of(simd, self.primitive.load(simd, row).is_equal(index), row);
-                }
-                here
-            },
+            || self.primitive.rays_of(simd, primitive),
         );
         (here, here & self.inward)
     }
@@ -92,9 +89,9 @@ pub struct PacketCrossings<T = f64> {
     /// How far `t` may be off.
     pub error: Lanes<T>,
     /// The primitive whose surface it is, by its index.
-    pub primitive: Lanes<T>,
+    pub primitive: Lanes<u32>,
     /// The face of that primitive.
-    pub surface: Lanes<T>,
+    pub surface: Lanes<u32>,
 }
 
 impl<T: Real> PacketCrossings<T> {
@@ -105,8 +102,8 @@ impl<T: Real> PacketCrossings<T> {
         entering: 0,
         t: Lanes::filled(T::INFINITY),
         error: Lanes::filled(T::ZERO),
-        primitive: Lanes::filled(T::ZERO),
-        surface: Lanes::filled(T::ZERO),
+        primitive: Lanes::filled(0),
+        surface: Lanes::filled(0),
     };
 }
 
@@ -117,7 +114,7 @@ impl PacketCrossings {
         self.entering |= u64::from(crossing.entering) << lane;
         self.t.0[lane] = crossing.t;
         self.error.0[lane] = crossing.error;
-        self.primitive.0[lane] = f64::from(crossing.primitive);
-        self.surface.0[lane] = f64::from(crossing.surface);
+        self.primitive.0[lane] = crossing.primitive;
+        self.surface.0[lane] = crossing.surface;
     }
 }

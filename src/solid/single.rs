@@ -3,7 +3,7 @@
 
 use fearless_simd::Simd;
 
-use crate::math::{Mask, Number, Real};
+use crate::math::{Mask, Number, Real, RealIds, SimdIds, SimdReal};
 
 use super::crossing::{PlaceError, have_one_slope, start_of};
 use super::csg_query::{CsgQuery, PacketCrossings};
@@ -24,7 +24,7 @@ pub(super) fn decide_single<S: Simd, T: Real>(
     let CsgQuery { departures, reach, .. } = *asked;
     let (infinite, zero) = (T::all(simd, f64::INFINITY), T::all(simd, 0.0));
     let (from, to) = (T::all(simd, reach.from), T::all(simd, reach.to));
-    let primitive = T::all(simd, f64::from(primitive));
+    let primitive = RealIds::<T, S>::all(simd, primitive);
     let mut inward = 0;
     for row in 0..T::ROWS {
         // Both ends of a span are ahead, or none.
@@ -63,9 +63,10 @@ pub(super) fn decide_single<S: Simd, T: Real>(
         let Ends { t, error, surface } = Ends::choose(goes_in, enter, leave);
         found.t.store(row, t);
         found.error.store(row, error);
-        found.surface.store(row, surface);
-        found.primitive.store(row, primitive);
-        found.any |= T::bits_of(simd, any, row);
+        let met = T::bits_of(simd, any, row);
+        found.surface.put_ids::<T, S>(simd, row, met, surface.ids());
+        found.primitive.put_ids::<T, S>(simd, row, met, primitive);
+        found.any |= met;
         inward |= T::bits_of(simd, goes_in, row);
     }
     found.entering = if negated { found.any & !inward } else { inward };

@@ -3,9 +3,9 @@
 //! It does what [`super::surface`] does for one ray, and finds the same bits. The few rays of which eight at a time can
 //! not be certain, through an edge to within rounding or along a polygon's plane, are asked one by one.
 
-use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8};
+use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8, u32x8};
 
-use crate::math::{LANES, Mask, Number, ROWS, RayPacket};
+use crate::math::{LANES, Mask, Number, ROWS, RayPacket, SimdReal};
 use crate::stage::{Meter, Silent};
 
 use super::crossing::{FirstCrossings, PlaceError, RayStarts, start_of};
@@ -176,8 +176,8 @@ impl SurfaceRays<'_> {
         }
         found.t.store(row, firsts.end.t);
         found.error.store(row, firsts.end.error);
-        found.surface.store(row, firsts.end.surface);
-        found.primitive.store(row, f64x8::splat(simd, f64::from(self.index)));
+        found.surface.put_ids::<f64, S>(simd, row, any, firsts.end.surface.ids());
+        found.primitive.put_ids::<f64, S>(simd, row, any, u32x8::splat(simd, self.index));
         found.any |= any;
         found.entering |= any & firsts.entering.bits() << (row * LANES);
     }
@@ -266,14 +266,12 @@ mod tests {
                 let departure = departures.map(|d| d.get(lane));
                 let alone = first_of_surface(ray, primitive, 3, departure, &mut Meter::new(Silent));
                 let together = (found.any >> lane & 1 == 1).then(|| {
-                    let numbers = [&found.t, &found.error, &found.primitive, &found.surface]
-                        .map(|column| column.0[lane].to_bits());
-                    (numbers, found.entering >> lane & 1 == 1)
+                    let numbers = [&found.t, &found.error].map(|column| column.0[lane].to_bits());
+                    let ids = [&found.primitive, &found.surface].map(|column| column.0[lane]);
+                    (numbers, ids, found.entering >> lane & 1 == 1)
                 });
-                let alone = alone.map(|c| {
-                    let numbers = [c.t, c.error, f64::from(c.primitive), f64::from(c.surface)];
-                    (numbers.map(f64::to_bits), c.entering)
-                });
+                let alone =
+                    alone.map(|c| ([c.t, c.error].map(f64::to_bits), [c.primitive, c.surface], c.entering));
                 prop_assert_eq!(together, alone, "{} {:?}", lane, ray);
                 met += u32::from(alone.is_some());
             }

@@ -1,5 +1,7 @@
 //! Cube roots of light, as exact as `libm`'s and sooner had.
 
+use crate::math::two_product_in_range;
+
 /// How far [`near_cube_root`] may be from the root, divided by the root: 2⁻⁴⁶. Its start is within 3.3 % (Kahan's: a
 /// third of the number's bits), and a step of Halley's takes an error e to 2/3 e³: to 2.4·10⁻⁵, then to 9.3·10⁻¹⁵; eight
 /// roundings come on top.
@@ -36,29 +38,12 @@ pub(super) fn cube_roots<const N: usize>(x: [f64; N]) -> [f64; N] {
 fn about_cube_root(x: f64) -> (f64, f64) {
     let y = near_cube_root(x);
     // A step of Newton's from y, whose cube is taken in twice the bits.
-    let (square, below_square) = product(y, y);
-    let (cube, below_cube) = product(square, y);
+    let (square, below_square) = two_product_in_range(y, y);
+    let (cube, below_cube) = two_product_in_range(square, y);
     let step = ((x - cube) - below_cube - below_square * y) / (3.0 * square);
     // The step's own error is that of Newton's method, the square of y's, 2⁻⁹², and less than 2⁻⁹⁵ of rounding.
     let error = y * (1.0 / (1_u64 << 45) as f64 / (1_u64 << 45) as f64);
     (y + (step - error), y + (step + error))
-}
-
-/// The product as a sum of two numbers, exactly (T. J. Dekker, Numer. Math. 18, 1971).
-#[inline]
-fn product(a: f64, b: f64) -> (f64, f64) {
-    let [(a_high, a_low), (b_high, b_low)] = [halves(a), halves(b)];
-    let high = a * b;
-    (high, ((a_high * b_high - high) + a_high * b_low + a_low * b_high) + a_low * b_low)
-}
-
-/// The upper 26 bits of a number's 53, and the rest.
-#[inline]
-fn halves(x: f64) -> (f64, f64) {
-    const SPLIT: f64 = ((1 << 27) + 1) as f64;
-    let scaled = x * SPLIT;
-    let high = scaled - (scaled - x);
-    (high, x - high)
 }
 
 #[cfg(test)]

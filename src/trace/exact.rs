@@ -10,14 +10,15 @@ use crate::solid::{
 };
 use crate::stage::{Meter, Probe, Stage};
 
-use super::{Engine, Hit};
+use super::Engine;
+use super::hit::Hit;
 
-/// A start farther than this before the plane across the ray that touches the ball around the world, in the assembly's
-/// unit, is moved to that plane, so that the way to the world adds no rounding.
+/// A start farther than this before the plane across the ray that touches the ball around the world, in the
+/// assembly's unit, is moved to that plane, so that the distance to the world adds no rounding.
 const FAR: f64 = 1.0;
 
-/// How often what is left of the way to that plane is gone over again: each time leaves one part in 2^52 of it, and no
-/// way is longer than 2^1024. Rays that pass the world far away end no nearer.
+/// How often what is left of the distance to that plane is corrected: each time leaves one part in 2^52 of
+/// it, and no distance is longer than 2^1024. Rays that pass the world far away end no nearer.
 const STEPS: usize = 1024 / 52;
 
 /// The reference engine, over an assembly and how its space is cut.
@@ -32,7 +33,7 @@ pub struct Exact<'a> {
 
 /// Memory of one worker.
 #[derive(Clone, Debug, Default)]
-pub struct Memory {
+pub struct RayMemory {
     scratch: solid::Scratch,
     /// By object: the last ray that was tested against it.
     tested: Vec<u32>,
@@ -44,7 +45,7 @@ pub struct Memory {
     slack: f64,
 }
 
-impl Memory {
+impl RayMemory {
     /// Forgets what the last ray met.
     fn start_ray(&mut self) {
         self.nearest.clear();
@@ -76,8 +77,8 @@ impl Memory {
         }
     }
 
-    /// The nearest hit; of those that coincide with it within their errors, the first object's in the file. Only
-    /// these are kept.
+    /// The nearest hit; of those that coincide with it within their errors, the first object's in the file.
+    /// Only these are kept.
     fn chosen(&mut self, ray: &Ray) -> Option<Hit> {
         let best = self.nearest.iter().min_by(|a, b| a.1.t.total_cmp(&b.1.t))?.1;
         self.nearest.retain(|(_, c)| c.t - c.error <= best.t + best.error);
@@ -153,11 +154,11 @@ impl<'a> Exact<'a> {
         ray: &Ray,
         entry: f64,
         departure: Option<Departure>,
-        memory: &mut Memory,
+        memory: &mut RayMemory,
         meter: &mut Meter<impl Probe>,
     ) -> Option<Hit> {
         memory.start_ray();
-        let test = |object: u32, memory: &mut Memory, meter: &mut Meter<_>| {
+        let test = |object: u32, memory: &mut RayMemory, meter: &mut Meter<_>| {
             let to = memory.best + self.slack;
             if let Some(crossing) = self.object(object, ray, departure, to, &mut memory.scratch, meter) {
                 memory.keep(object, crossing);
@@ -197,13 +198,13 @@ impl<'a> Exact<'a> {
 }
 
 impl Engine for Exact<'_> {
-    type Memory = Memory;
+    type Memory = RayMemory;
 
-    fn memory(&self) -> Memory {
-        Memory { slack: self.slack, ..Memory::default() }
+    fn memory(&self) -> RayMemory {
+        RayMemory { slack: self.slack, ..RayMemory::default() }
     }
 
-    fn first(&self, ray: &Ray, memory: &mut Memory, meter: &mut Meter<impl Probe>) -> Option<Hit> {
+    fn first(&self, ray: &Ray, memory: &mut RayMemory, meter: &mut Meter<impl Probe>) -> Option<Hit> {
         meter.at(Stage::Clip);
         let (near, [far, left]) = moved_nearer(ray);
         let Some(entry) = lattice::entry(&near, &self.limit) else {
@@ -212,7 +213,7 @@ impl Engine for Exact<'_> {
             return None;
         };
         let hit = self.closest(&near, entry, None, memory, meter)?;
-        // Of a long way each distance is rounded once.
+        // Of a long path each part is rounded once.
         Some(Hit { t: far + (left + hit.t), error: hit.error + 0.5 * f64::EPSILON * far, ..hit })
     }
 
@@ -220,13 +221,13 @@ impl Engine for Exact<'_> {
         &self,
         ray: &Ray,
         departure: Departure,
-        memory: &mut Memory,
+        memory: &mut RayMemory,
         meter: &mut Meter<impl Probe>,
     ) -> Option<Hit> {
         self.closest(ray, 0.0, Some(departure), memory, meter)
     }
 
-    fn together<'m>(&self, memory: &'m Memory) -> &'m [(u32, Crossing)] {
+    fn together<'m>(&self, memory: &'m RayMemory) -> &'m [(u32, Crossing)] {
         &memory.nearest
     }
 
@@ -235,11 +236,11 @@ impl Engine for Exact<'_> {
         ray: &Ray,
         departure: Departure,
         distance: f64,
-        memory: &mut Memory,
+        memory: &mut RayMemory,
         meter: &mut Meter<impl Probe>,
         visit: &mut dyn FnMut(u32, &Crossing) -> bool,
     ) -> bool {
-        let mut test = |object: u32, memory: &mut Memory, meter: &mut Meter<_>| {
+        let mut test = |object: u32, memory: &mut RayMemory, meter: &mut Meter<_>| {
             let crossing = self.object(object, ray, Some(departure), distance, &mut memory.scratch, meter);
             crossing.is_some_and(|crossing| visit(object, &crossing))
         };
@@ -280,35 +281,36 @@ impl Engine for Exact<'_> {
         ray: &Ray,
         departure: Departure,
         distance: f64,
-        memory: &mut Memory,
+        memory: &mut RayMemory,
         meter: &mut Meter<impl Probe>,
     ) -> Option<Crossing> {
         self.object(object, ray, Some(departure), distance, &mut memory.scratch, meter)
     }
 }
 
-/// The same ray from a start that is not far from the world, and the way there in two parts.
+/// The same ray from a start that is not far from the world, and the distance there in two parts.
 ///
-/// Over a long way the product is larger than the sum, and each coordinate takes one rounding of the sum alone: a
-/// fused multiply-add, in software where the processor has none, gives the same bits everywhere. The length of the way
-/// is itself rounded, which moves the start along the ray; what is left of that is gone over again.
+/// Over a long distance the product is larger than the sum, and each coordinate takes one rounding of the sum
+/// only: a fused multiply-add, in software where the processor has none, gives the same bits everywhere. The
+/// distance is itself rounded, which moves the start along the ray; what is left of that is corrected.
 fn moved_nearer(ray: &Ray) -> (Ray, [f64; 2]) {
-    let (near, way) = all_moved_nearer(&Rays::from(ray));
+    let (near, moved) = all_moved_nearer(&Rays::from(ray));
     let vector = |v: Vector<f64>| DVec3::new(v.x, v.y, v.z);
-    (Ray::new(vector(near.o), vector(near.d)), way)
+    (Ray::new(vector(near.o), vector(near.d)), moved)
 }
 
-/// At least as far as any ray is moved ([`moved_nearer`]) that starts in `o` and goes between the directions `corners`.
+/// At least as far as any ray is moved ([`moved_nearer`]) that starts in `o` and goes between the directions
+/// `corners`.
 pub(super) fn most_moved(o: DVec3, corners: &[DVec3; 4]) -> f64 {
-    // A direction between the corners is a sum of shares of them, which add up to 1, over the length of that sum; and that
-    // is no less than it reaches along their middle.
+    // A direction between the corners is a sum of shares of them, which add up to 1, over the length of that
+    // sum; and that is no less than it reaches along their middle.
     let middle = (corners[0] + corners[1] + corners[2] + corners[3]).normalize_or(DVec3::X);
     let reach = corners.iter().fold(f64::INFINITY, |least, d| least.min(d.dot(middle)));
     let most = corners.iter().fold(0.0, |most, d| f64::max(most, -o.dot(*d)));
     if most == 0.0 {
         return 0.0;
     }
-    // Where they go apart too far to say so, it is no farther than to the origin.
+    // Where they diverge too far to say so, it is no farther than to the origin.
     let far = if reach > 0.0 { (most / reach).min(o.length()) } else { o.length() };
     (far - LIMIT).max(0.0)
 }

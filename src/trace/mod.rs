@@ -3,41 +3,15 @@
 
 mod exact;
 mod fast;
+mod hit;
 
-pub use exact::{Exact, Memory};
+pub use exact::{Exact, RayMemory};
 pub use fast::{Fast, OpacityClass, PacketHits, ShadowPacket, ShadowQuery, TileMemory, Transmittance};
+pub use hit::Hit;
 
-use crate::math::{DVec3, Ray};
+use crate::math::Ray;
 use crate::solid::{Crossing, Departure};
 use crate::stage::{Meter, Probe};
-
-/// The first surface on a ray's way.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hit {
-    /// Distance from the ray's start, in the assembly's unit.
-    pub t: f64,
-    /// The exact distance lies within `t ± error`.
-    pub error: f64,
-    /// Where it is, in the assembly's coordinates: as near to the surface as numbers can say, from however far away the
-    /// ray comes.
-    pub p: DVec3,
-    /// The object's index in the assembly.
-    pub object: u32,
-    /// The primitive's index in the assembly.
-    pub primitive: u32,
-    /// The face of the primitive.
-    pub surface: u32,
-    /// Whether the ray goes into the object; false where it started inside.
-    pub entering: bool,
-}
-
-impl Hit {
-    /// The same as a crossing of its object.
-    pub fn crossing(&self) -> Crossing {
-        let Self { t, error, primitive, surface, entering, .. } = *self;
-        Crossing { t, error, primitive, surface, entering }
-    }
-}
 
 /// Finds hits. Every engine gives the same ones, whatever structure it uses.
 pub trait Engine {
@@ -59,12 +33,13 @@ pub trait Engine {
         meter: &mut Meter<impl Probe>,
     ) -> Option<Hit>;
 
-    /// All surfaces that lie where the last hit does, within their errors and one per object, in no order; the hit
-    /// is one of them. To be asked before the memory is used for another ray: empty if the last one met nothing.
+    /// All surfaces that lie where the last hit does, within their errors and one per object, in no order;
+    /// the hit is one of them. To be called before the memory is used for another ray: empty if the last one
+    /// met nothing.
     fn together<'m>(&self, memory: &'m Self::Memory) -> &'m [(u32, Crossing)];
 
-    /// Calls `visit` with what a ray that leaves a surface first meets of each object in its way, as far as that may lie before
-    /// `distance`, in no order, until it says yes. Answers whether it did.
+    /// Calls `visit` with what a ray that leaves a surface first meets of each object, as far as that may lie
+    /// before `distance`, in no order, until it says yes. Answers whether it did.
     fn meets(
         &self,
         ray: &Ray,

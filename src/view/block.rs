@@ -29,8 +29,8 @@ impl Block {
         (0..self.size.height).fold(0, |live, j| live | row << (j * BLOCK))
     }
 
-    /// Calls `each` with every row of the block and the places of its dots in the scan order of a tile, in which its corner
-    /// is counted.
+    /// Calls `each` with every row of the block and the places of its dots in the scan order of a tile, in
+    /// which its corner is counted.
     #[inline]
     pub fn rows(&self, tile: &Tile, mut each: impl FnMut(usize, Range<usize>)) {
         let [left, top] = self.corner;
@@ -40,19 +40,19 @@ impl Block {
         }
     }
 
-    /// Sets a packet's rays to those through a point of each dot, `off` from its middle in dots. `eye` is where they start,
-    /// and `way` how far they may go, in the assembly's coordinates ([`super::settled`]).
+    /// Sets a packet's rays to those through a point of each dot, `off` from its middle in dots. `eye` is
+    /// where they start, and `path` how far they may go, in the assembly's coordinates ([`super::settled`]).
     pub fn rays(
         &self,
         pinhole: &PinholeCamera,
         off: [f64; 2],
         eye: DVec3,
-        way: f64,
+        path: f64,
         level: Level,
         packet: &mut RayPacket,
     ) {
         packet.live = self.live();
-        dispatch!(level, simd => self.fill(simd, pinhole, off, eye, way, packet));
+        dispatch!(level, simd => self.fill(simd, pinhole, off, eye, path, packet));
     }
 
     #[inline(always)]
@@ -62,7 +62,7 @@ impl Block {
         pinhole: &PinholeCamera,
         off: [f64; 2],
         eye: DVec3,
-        way: f64,
+        path: f64,
         packet: &mut RayPacket,
     ) {
         let columns = f64x8::load_array(simd, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
@@ -71,7 +71,7 @@ impl Block {
         let start = across.same(eye);
         for row in 0..ROWS {
             let y = f64::from(self.corner[1] + row as u32) + 0.5 + off[1];
-            let d = all_settled(pinhole.upward(across, x.same(pinhole.height(y))), way);
+            let d = all_settled(pinhole.upward(across, x.same(pinhole.height(y))), path);
             packet.o.store(row, start);
             packet.d.store(row, d);
         }

@@ -2,28 +2,28 @@
 
 use crate::math::{DVec3, Mask, Number, Vector};
 
-/// What rounding leaves of a component that is 0: a direction is the sum of a few products of numbers up to 1, eight
-/// roundings at most.
+/// What rounding leaves of a component that is 0: a direction is the sum of a few products of numbers up to
+/// 1, eight roundings at most.
 const NOISE: f64 = 4.0 * f64::EPSILON;
 
-/// The same direction, each component exactly 0 or large enough to matter over `way`, the length of a ray in the
-/// assembly's unit: what moves its end by less than `NOISE`, beside coordinates near 1, is 0. The length of the
-/// direction stays 1 within rounding.
+/// The same direction, each component exactly 0 or large enough to matter over `path`, the length of a ray in
+/// the assembly's unit: what moves its end by less than `NOISE`, beside coordinates near 1, is 0. The length
+/// of the direction stays 1 within rounding.
 ///
-/// So a ray that is meant to run along a plane does, and does not pass through it at a place that nobody can tell. And
-/// what is left can be divided by: the way is at most about 10¹⁰⁰, and no walk forms 0 · ∞.
+/// So a ray that is meant to run along a plane does, and does not pass through it at a place that nobody can
+/// tell. And what is left can be divided by: the path is at most about 10¹⁰⁰, and no walk forms 0 · ∞.
 #[inline]
 #[must_use]
-pub fn settled(d: DVec3, way: f64) -> DVec3 {
-    let d = all_settled(Vector::from(d), way);
+pub fn settled(d: DVec3, path: f64) -> DVec3 {
+    let d = all_settled(Vector::from(d), path);
     DVec3::new(d.x, d.y, d.z)
 }
 
 /// [`settled`], for one direction or for several.
 #[inline(always)]
 #[must_use]
-pub fn all_settled<N: Number>(d: Vector<N>, way: f64) -> Vector<N> {
-    let least = d.x.same(NOISE / way.max(1.0));
+pub fn all_settled<N: Number>(d: Vector<N>, path: f64) -> Vector<N> {
+    let least = d.x.same(NOISE / path.max(1.0));
     let zero = d.x.same(0.0);
     Vector {
         x: d.x.magnitude().is_below(least).choose(zero, d.x),

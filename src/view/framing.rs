@@ -12,13 +12,13 @@ const FILLED: f64 = 0.94;
 /// The paper's field, in degrees.
 const FIELD: [f64; 2] = [40.0, 25.0];
 
-/// A camera that sees all of a scene, in the middle of a picture `aspect` times as wide as high on the screen.
-/// `support(v)` is the greatest `p · v` of the scene's points.
+/// A camera that sees all of a scene, in the middle of a picture `aspect` times as wide as high on the
+/// screen. `support(v)` is the greatest `p · v` of the scene's points.
 ///
 /// A point q is left of the picture's right rim where `q·right − a ≤ t · (d − q·back)`, the eye being at
-/// `a·right + b·up + d·back` and t the tangent of half the field: where `q · (right + t·back) ≤ a + t·d`. The four
-/// rims ask for the support in four directions; two opposite ones give `d` by their sum, `a` or `b` by their
-/// difference.
+/// `a·right + b·up + d·back` and t the tangent of half the field: where `q · (right + t·back) ≤ a + t·d`. The
+/// four rims ask for the support in four directions; two opposite ones give `d` by their sum, `a` or `b` by
+/// their difference.
 pub fn framed(support: impl Fn(DVec3) -> f64, aspect: f64) -> Camera {
     let [about_x, about_z] = VIEW_ROTATION.map(f64::to_radians);
     let (sx, cx) = libm::sincos(about_x);
@@ -52,7 +52,8 @@ pub fn framed(support: impl Fn(DVec3) -> f64, aspect: f64) -> Camera {
     if camera.check().is_ok() {
         return camera;
     }
-    // A scene so small, where it stands, that eye and target are the same number: seen from any distance it is a point.
+    // A scene so small, where it stands, that eye and target are the same number: seen from any distance it
+    // is a point.
     let away = camera.target.abs().max_element().max(1.0);
     Camera { eye: camera.target + away * back, ..camera }
 }

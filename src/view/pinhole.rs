@@ -1,10 +1,10 @@
-//! The picture geometry: which way each dot looks.
+//! The picture geometry: the direction of the ray through each dot.
 
 use crate::math::{DVec3, Number, Ray, Size, Vector};
 use crate::scene::{Camera, FieldSpan};
 
-/// The largest tangent of half an angle. From 1e16 on the angle is 180° within rounding; this leaves room for the
-/// square of a tangent that the other one's aspect multiplies.
+/// The largest tangent of half an angle. From 1e16 on the angle is 180° within rounding; this leaves room for
+/// the square of a tangent that the other one's aspect multiplies.
 const WIDEST: f64 = 1e100;
 
 /// The raster of a picture.
@@ -42,16 +42,16 @@ pub struct PinholeCamera {
 }
 
 impl PinholeCamera {
-    /// The pinhole camera of a camera for a picture. The camera's field is contained: the other angle widens until dots
-    /// are as wide as high on the screen.
+    /// The pinhole camera of a camera for a picture. The camera's field is contained: the other angle widens
+    /// until dots are as wide as high on the screen.
     pub fn new(camera: &Camera, picture: &Picture) -> Self {
         let sight = camera.target - camera.eye;
         // Scaled first, so that no square overflows or vanishes.
         let size = sight.abs().max_element();
         let length = (sight / size).length();
         let forward = sight / size / length;
-        // From what the camera says, not from `forward`, whose rounding is all that would be left of the product where
-        // `up` is nearly along the sight: so `right` is square to both.
+        // From what the camera says, not from `forward`, whose rounding is all that would be left of the
+        // product where `up` is nearly along the sight: so `right` is square to both.
         let right = cross(scaled(sight), scaled(camera.up));
         let right = scaled(right).normalize_or(forward.any_orthonormal_vector());
         let Size { width, height } = picture.dots;
@@ -80,13 +80,14 @@ impl PinholeCamera {
         Ray::new(self.eye, DVec3::new(d.x, d.y, d.z))
     }
 
-    /// The directions, of length 1, through one point of the picture or through several, as for [`PinholeCamera::ray`].
+    /// The directions, of length 1, through one point of the picture or through several, as for
+    /// [`PinholeCamera::ray`].
     #[inline(always)]
     pub fn directions<N: Number>(&self, x: N, y: N) -> Vector<N> {
         self.upward(self.across(x), self.height(y))
     }
 
-    /// Where columns of the picture look, before rows are asked: not of length 1.
+    /// The directions of columns of the picture, before their rows move them: not of length 1.
     #[inline(always)]
     pub fn across<N: Number>(&self, x: N) -> Vector<N> {
         let across = (x * 2.0 / f64::from(self.dots.width) - 1.0) * self.tangents[0];
@@ -94,13 +95,13 @@ impl PinholeCamera {
         like.same(self.right) * across + like.same(self.forward)
     }
 
-    /// How far above the middle a row looks, as a tangent.
+    /// How far above the middle a row lies, as a tangent.
     #[inline(always)]
     pub fn height<N: Number>(&self, y: N) -> N {
         (-(y * 2.0 / f64::from(self.dots.height)) + 1.0) * self.tangents[1]
     }
 
-    /// The directions, of length 1, in which columns look in rows.
+    /// The directions, of length 1, of dots by their columns and rows.
     #[inline(always)]
     pub fn upward<N: Number>(&self, across: Vector<N>, height: N) -> Vector<N> {
         let d = across + across.same(self.up) * height;
@@ -121,16 +122,16 @@ impl PinholeCamera {
         self.tangents.map(|t| 2.0 * libm::atan(t).to_degrees())
     }
 
-    /// The place of a point given in (right, up, back), in units of the distance to the target; the nearest that
-    /// numbers can hold.
+    /// The place of a point given in (right, up, back), in units of the distance to the target; the nearest
+    /// that numbers can hold.
     pub fn place(&self, p: DVec3) -> DVec3 {
         let place = self.eye + self.focus * (p.x * self.right + p.y * self.up - p.z * self.forward);
         place.clamp(DVec3::MIN, DVec3::MAX)
     }
 }
 
-/// The vector by the power of two, if any, that brings its largest component into `1..2`. That rounds nothing but
-/// what vanishes beside the largest.
+/// The vector by the power of two, if any, that brings its largest component into `1..2`. That rounds nothing
+/// but what vanishes beside the largest.
 fn scaled(v: DVec3) -> DVec3 {
     let largest = v.abs().max_element();
     if largest == 0.0 || !largest.is_finite() {
@@ -141,8 +142,8 @@ fn scaled(v: DVec3) -> DVec3 {
 }
 
 /// The cross product, each component within 1.5 units in its last place however much its two products cancel
-/// (Kahan's difference of products; Jeannerod, Louvet, Muller: Further analysis of Kahan's algorithm for the accurate
-/// computation of 2 × 2 determinants, Mathematics of Computation 2013).
+/// (Kahan's difference of products; Jeannerod, Louvet, Muller: Further analysis of Kahan's algorithm for the
+/// accurate computation of 2 × 2 determinants, Mathematics of Computation 2013).
 fn cross(a: DVec3, b: DVec3) -> DVec3 {
     let difference = |p: f64, q: f64, r: f64, s: f64| {
         let subtrahend = r * s;
@@ -151,8 +152,8 @@ fn cross(a: DVec3, b: DVec3) -> DVec3 {
     DVec3::new(difference(a.y, b.z, a.z, b.y), difference(a.z, b.x, a.x, b.z), difference(a.x, b.y, a.y, b.x))
 }
 
-/// How far the edge of a picture lies from its middle, in units of how far that lies which the camera's angle spans.
-/// Of a single row its centre is the middle itself, and the angle can only be that of its edges.
+/// How far the edge of a picture lies from its middle, in units of how far that lies which the camera's angle
+/// spans. Of a single row its centre is the middle itself, and the angle can only be that of its edges.
 fn reach(span: FieldSpan, dots: u32) -> f64 {
     match span {
         FieldSpan::Centers if dots > 1 => f64::from(dots) / f64::from(dots - 1),
@@ -219,8 +220,8 @@ mod tests {
         assert_eq!(plain.tangents.map(|t| t / 2.0), near.tangents);
     }
 
-    // Within 1e-14 of the sight, `up` gave a `right` that was off square by a hundredth: its cross product with
-    // `forward` was rounding.
+    // Within 1e-14 of the sight, `up` gave a `right` that was off square by a hundredth: its cross product
+    // with `forward` was rounding.
     #[test]
     fn right_up_and_forward_are_square_however_near_up_is_to_the_sight() {
         for off in [1e-1, 1e-7, 1e-12, 1e-14, 4e-15, 1e-200] {

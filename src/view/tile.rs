@@ -2,7 +2,7 @@
 
 use crate::math::Size;
 
-/// Dots along each side of a tile: large enough that a thread seldom asks for work, small enough that many
+/// Dots along each side of a tile: large enough that a thread seldom runs out of work, small enough that many
 /// threads end together.
 pub const TILE: u32 = 32;
 

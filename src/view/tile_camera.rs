@@ -1,5 +1,5 @@
-//! What a tile looks at: its blocks, whose rays are made only where something may lie in their way, and the corners
-//! between which they run.
+//! A tile of the picture as seen from the eye: its blocks, whose rays are made only where they may meet
+//! something, and the corners between which they run.
 
 use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
 
@@ -25,7 +25,7 @@ pub struct TileCamera<'a> {
     /// Where they start, in the assembly's coordinates.
     pub eye: DVec3,
     /// How far they may go, in the assembly's unit ([`super::settled`]).
-    pub way: f64,
+    pub path: f64,
 }
 
 impl TileCamera<'_> {
@@ -47,10 +47,11 @@ impl TileCamera<'_> {
         let [left, top] = self.tile.corner;
         let Block { corner: [i, j], size } = self.block(number);
         let block = Block { corner: [left + i, top + j], size };
-        block.rays(self.pinhole, self.off, self.eye, self.way, level, packet);
+        block.rays(self.pinhole, self.off, self.eye, self.path, level, packet);
     }
 
-    /// The directions at the corners of the whole tile: the first two are neighbours. All rays lie between them.
+    /// The directions at the corners of the whole tile: the first two are neighbours. All rays lie between
+    /// them.
     pub fn ends(&self) -> [DVec3; CORNERS] {
         let Size { width, height } = self.tile.size;
         let last = |dots: u32| dots.next_multiple_of(BLOCK) - 1;
@@ -58,13 +59,13 @@ impl TileCamera<'_> {
         let [left, top] = self.tile.corner.map(|corner| f64::from(corner) + 0.5);
         [[0.0, 0.0], [x, 0.0], [0.0, y], [x, y]].map(|[i, j]| {
             let d = self.pinhole.directions(left + i + self.off[0], top + j + self.off[1]);
-            let d = all_settled(d, self.way);
+            let d = all_settled(d, self.path);
             DVec3::new(d.x, d.y, d.z)
         })
     }
 
-    /// The directions at the corners of each block, which may lie beyond the picture, in the order of [`TileCamera::ends`]: by
-    /// block four numbers of each column.
+    /// The directions at the corners of each block, which may lie beyond the picture, in the order of
+    /// [`TileCamera::ends`]: by block four numbers of each column.
     pub fn corners(&self, level: Level, corners: &mut [Lanes; 3]) {
         dispatch!(level, simd => self.all_corners(simd, corners));
     }
@@ -80,7 +81,7 @@ impl TileCamera<'_> {
             let x = f64x8::load_array(simd, [i, i, i, i, k, k, k, k]) + across;
             let y = f64x8::load_array(simd, [j, j, j, j, l, l, l, l]) + down;
             let d = self.pinhole.directions(x + left + self.off[0], y + top + self.off[1]);
-            corners.store(row, all_settled(d, self.way));
+            corners.store(row, all_settled(d, self.path));
         }
     }
 
@@ -112,7 +113,7 @@ mod tests {
         let dots = Size::new(75, 43);
         let pinhole = PinholeCamera::new(&camera, &Picture { dots, dot_aspect: 1.0 });
         for tile in tiles(dots) {
-            let sight = TileCamera { pinhole: &pinhole, tile, off: [0.2, -0.3], eye: camera.eye, way: 10.0 };
+            let sight = TileCamera { pinhole: &pinhole, tile, off: [0.2, -0.3], eye: camera.eye, path: 10.0 };
             let mut corners = [Lanes::filled(0.0); 3];
             sight.corners(Level::new(), &mut corners);
             let mut packet = RayPacket::EMPTY;

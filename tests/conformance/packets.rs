@@ -54,7 +54,7 @@ impl FastEngine {
         let mut nearest = vec![PacketHits::NOTHING; packets.len()];
         let from = leave.then_some(&from[..]);
         engine.first_of(&packets, from, &mut nearest, tile);
-        engine.first_apart(&packets, from, &mut nearest, tile);
+        engine.first_of_incoherent(&packets, from, &mut nearest, tile);
         let mut answer = |(place, (ray, departure)): (usize, &(Ray, Option<Departure>))| {
             let (k, lane) = (place / RAYS, place % RAYS);
             // What the exact engine says of its error holds for the same bits.
@@ -71,9 +71,9 @@ impl FastEngine {
                 t: far.0[lane] + (left.0[lane] + t),
                 error: alone.map_or(0.0, |hit| hit.error),
                 p: packets[k].ray(lane).at(t),
-                object: met.object.0[lane] as u32,
-                primitive: met.primitive.0[lane] as u32,
-                surface: met.surface.0[lane] as u32,
+                object: met.object.0[lane],
+                primitive: met.primitive.0[lane],
+                surface: met.surface.0[lane],
                 entering: met.entering >> lane & 1 == 1,
             })
         };

@@ -1,10 +1,11 @@
-//! Boxes of balls: what a box tells of the ball in it, without a look at the ball.
+//! Bounding boxes of balls: from one the ball follows, without reading the object.
 
 use crate::math::DVec3;
 use crate::solid::{Assembly, Body, WorldShape};
 
 use super::build_primitive::BuildPrimitive;
-use super::{MARGIN, Node};
+use super::node::Node;
+use super::rounding::MARGIN;
 
 /// Two balls about one point: a solid ball lies between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,8 +18,8 @@ pub struct BoundingSphere {
     pub inner: f32,
 }
 
-/// What lies deeper in the inner ball of a [`BoundingSphere`] than this, or so far outside its outer one, does so for every
-/// computation of crossings too: the errors of the ball are less.
+/// What lies deeper in the inner ball of a [`BoundingSphere`] than this, or so far outside its outer one,
+/// does so for every computation of crossings too: the errors of the ball are less.
 pub const ROOM: f64 = MARGIN;
 
 impl BoundingSphere {
@@ -31,8 +32,8 @@ impl BoundingSphere {
         Self {
             center: [0, 1, 2].map(|axis| 0.5 * lo[axis] + 0.5 * hi[axis]),
             outer: widest,
-            // The sides are moved outward by a margin, by the slack, which is mostly far less, and by a rounding: `holds`
-            // tells whether three are enough.
+            // The sides are moved outward by a margin, by the slack, which is mostly far less, and by a
+            // rounding: `holds` tells whether three are enough.
             inner: least - 3.0 * MARGIN as f32,
         }
     }
@@ -56,7 +57,8 @@ impl BoundingSphere {
 }
 
 impl Node {
-    /// What the box of a slot tells of the ball in it, where there is one between the two of [`BoundingSphere`].
+    /// What the box of a slot tells of the ball in it, where there is one between the two of
+    /// [`BoundingSphere`].
     #[inline(always)]
     pub fn ball(&self, slot: usize) -> Option<BoundingSphere> {
         (self.round >> slot & 1 == 1).then(
@@ -71,7 +73,7 @@ impl Node {
 
 #[cfg(test)]
 mod tests {
-    use crate::lattice::{Bvh8, Child};
+    use crate::lattice::{Bvh8, BvhChild};
     use crate::scene::{ReadOptions, read};
     use crate::solid::Assembly;
 
@@ -86,7 +88,7 @@ mod tests {
         let [root] = boxes.nodes() else { panic!("few objects fill one node") };
         let mut round = [false; 6];
         for slot in 0..root.len() {
-            let Some(Child::Object(object)) = root.child(slot) else { panic!("no other node") };
+            let Some(BvhChild::Object(object)) = root.child(slot) else { panic!("no other node") };
             round[assembly.objects[object as usize].number as usize] = root.ball(slot).is_some();
         }
         assert_eq!(round, [true, true, false, false, false, false]);

@@ -1,25 +1,26 @@
-//! Building the hierarchy: from the top by surface-area cost in two parts each, then joined to nodes of eight.
+//! Building the hierarchy: from the top by surface-area cost in two parts each, then joined to nodes of
+//! eight.
 //!
-//! Which of the parts in two become nodes is the choice of the least area in all, by dynamic programming over the
-//! slots that a part may fill (H. Ylitie, T. Karras, S. Laine: Efficient incoherent ray traversal on GPUs through
-//! compressed wide BVHs, 2017).
+//! Which of the parts in two become nodes is the choice of the least area in all, by dynamic programming over
+//! the slots that a part may fill (H. Ylitie, T. Karras, S. Laine: Efficient incoherent ray traversal on GPUs
+//! through compressed wide BVHs, 2017).
 
 use fearless_simd::{Level, dispatch};
 use rayon::prelude::*;
 
 use super::build_primitive::{About, BuildPrimitive};
+use super::node::{BvhChild, Node, WIDE};
 use super::split::parted;
-use super::{Child, Node, WIDE};
 
-/// Up to this many objects stay together: they fill a node, which tells them apart at once.
+/// Up to this many objects stay together: they fill a node, which tests them all at once.
 const FEW: usize = WIDE;
 
-/// A part of up to this many objects becomes nodes as soon as it is parted, so that what was needed to part it is in
-/// memory for few parts at a time; larger ones are parted by all threads.
+/// A part of up to this many objects becomes nodes as soon as it is parted, so that what was needed to part
+/// it is in memory for few parts at a time; larger ones are parted by all threads.
 const SETTLED: usize = 4096;
 
-/// The nodes over the boxes of `count` objects; the root is the first. Neither the number of threads nor the level
-/// changes anything about them.
+/// The nodes over the boxes of `count` objects; the root is the first. Neither the number of threads nor the
+/// level changes anything about them.
 pub fn built(level: Level, count: usize, reach: impl Fn(usize) -> BuildPrimitive + Send + Sync) -> Vec<Node> {
     let mut items = Vec::new();
     (0..count).into_par_iter().with_min_len(SETTLED).map(reach).collect_into_vec(&mut items);
@@ -86,7 +87,7 @@ fn settled<'a>(level: Level, items: &'a mut [BuildPrimitive], about: &About, dep
     Grown { reach: about.reach, cost: [whole; WIDE], first: [0; WIDE], kind: Kind::Settled(nodes) }
 }
 
-/// Two halves as one part, with the cheapest way to share any number of slots.
+/// Two halves as one part, with the cheapest split of any number of slots.
 fn joined<'a>(reach: BuildPrimitive, low: Grown<'a>, high: Grown<'a>) -> Grown<'a> {
     let mut cost = [0.0; WIDE];
     let mut first = [0; WIDE];
@@ -124,7 +125,7 @@ struct Slot<'a> {
     filling: Filling<'a>,
 }
 
-/// The slots of a node on the way to be filled.
+/// The slots of a node that are being filled.
 struct Slots<'a> {
     filled: [Option<Slot<'a>>; WIDE],
     len: usize,
@@ -181,11 +182,11 @@ fn lay(part: &Grown, nodes: &mut Vec<Node>) {
     nodes.push(Node::EMPTY);
     for slot in order.iter().filter_map(|&(_, n)| slots.filled[n]) {
         let child = match slot.filling {
-            Filling::Object(object) => Child::Object(object),
+            Filling::Object(object) => BvhChild::Object(object),
             Filling::Part(part) => {
                 let child = nodes.len() as u32;
                 lay(part, nodes);
-                Child::Node(child)
+                BvhChild::Node(child)
             }
         };
         nodes[index].push(&slot.reach, child);

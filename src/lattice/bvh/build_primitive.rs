@@ -4,7 +4,7 @@ use fearless_simd::{Select, Simd, SimdBase, f32x4, f32x8};
 
 use crate::math::{Bounds, DVec3};
 
-use super::{MARGIN, lower, upper};
+use super::rounding::{MARGIN, lower, upper};
 
 /// Where the longest edge stands.
 const LONGEST: usize = 3;
@@ -18,9 +18,9 @@ const OBJECT: usize = 7;
 /// Marks the number of an object whose box tells what ball it is.
 const ROUND: u32 = 1 << 31;
 
-/// A box as a node holds it, in single precision, and as how far it reaches: along −x, −y and −z, its longest edge, and
-/// along x, y and z. Two are joined by the larger of each, the longest edge too: that of a joined one is the longest of
-/// any box in it.
+/// A box as a node holds it, in single precision, and as how far it reaches: along −x, −y and −z, its longest
+/// edge, and along x, y and z. Two are joined by the larger of each, the longest edge too: that of a joined
+/// one is the longest of any box in it.
 ///
 /// The last number is an object's, by its bits, where the box is one's own; else it says nothing.
 #[derive(Clone, Copy)]
@@ -45,7 +45,7 @@ impl BuildPrimitive {
         self.0[OBJECT].to_bits() & !ROUND
     }
 
-    /// The box of a ball that it tells ([`BoundingSphere`](super::Round)).
+    /// The box of a ball that it tells ([`BoundingSphere`](super::BoundingSphere)).
     pub fn round(mut self) -> Self {
         self.0[OBJECT] = f32::from_bits(self.object() | ROUND);
         self

@@ -1,33 +1,33 @@
 //! Parting a range of boxes in two where that costs least.
 //!
-//! Where to part is looked for among a few bins of the boxes' centres (I. Wald: On fast construction of SAH-based
-//! bounding volume hierarchies, 2007).
+//! Where to part is looked for among a few bins of the boxes' centres (I. Wald: On fast construction of
+//! SAH-based bounding volume hierarchies, 2007).
 
 use fearless_simd::{Level, Simd, SimdBase, dispatch, f32x4};
 use rayon::prelude::*;
 
-use super::WIDE;
 use super::build_primitive::{About, BuildPrimitive};
+use super::node::WIDE;
 
-/// Up to this many objects centres are binned along every axis, past it along the axis where they reach farthest: of
-/// very many that is the best nearly always.
+/// Up to this many objects centres are binned along every axis, past it along the axis where they reach
+/// farthest: of very many that is the best nearly always.
 const EVERY_AXIS: usize = 128;
 
 /// The most bins of centres. Twice as many change the cost by less than a hundredth.
 const BINS: usize = 16;
 
-/// Sizes are told apart down to this power of 1/4 of the largest.
+/// Sizes are distinguished down to this power of 1/4 of the largest.
 const POWERS: usize = 3;
 
 /// Past this depth parts are halved by number, so that no input makes the hierarchy deeper than that and 32.
 const DEEPEST: u32 = 64;
 
-/// Ranges past this many are binned and parted in stretches of so many, by all threads; so many are in the nearer
-/// caches of a processor.
+/// Ranges past this many are binned and parted in stretches of so many, by all threads; so many are in the
+/// nearer caches of a processor.
 const STRETCH: usize = 8192;
 
-/// Orders a range of two boxes or more so that the first `n` are one part and the others the other; returns `n`, at
-/// least 1 and less than all, and what is known of both.
+/// Orders a range of two boxes or more so that the first `n` are one part and the others the other; returns
+/// `n`, at least 1 and less than all, and what is known of both.
 pub fn parted(
     level: Level,
     items: &mut [BuildPrimitive],
@@ -46,11 +46,11 @@ pub fn parted(
     (middle, all(&items[..middle]), all(&items[middle..]))
 }
 
-/// By what boxes are told apart.
+/// By what boxes are sorted.
 #[derive(Clone, Copy)]
 enum Key {
     Center(usize),
-    /// The longest edge: sets a floor apart from what stands on it.
+    /// The longest edge: separates a floor from what stands on it.
     Size,
 }
 
@@ -134,7 +134,7 @@ impl Split {
     #[inline(always)]
     fn parted_at_once<S: Simd>(&self, simd: S, items: &mut [BuildPrimitive]) -> (usize, About, About) {
         let scale = &self.scale;
-        // Each key by itself, so that it is not asked for in the loop.
+        // Each key by itself, so that the loop does not branch on it.
         let middle = match scale.key {
             Key::Center(axis) => self.moved(items, |item| scale.bin_along(axis % 3, item)),
             Key::Size => self.moved(items, |item| scale.bin(item)),
@@ -156,8 +156,8 @@ impl Split {
     }
 }
 
-/// Brings all lower parts before all upper ones, where each stretch begins with its lower part, of `lows` boxes. What
-/// stands on the wrong side of the middle is exchanged in the order in which it stands there.
+/// Brings all lower parts before all upper ones, where each stretch begins with its lower part, of `lows`
+/// boxes. What stands on the wrong side of the middle is exchanged in the order in which it stands there.
 fn exchange(items: &mut [BuildPrimitive], middle: usize, lows: &[usize]) {
     let (left, right) = items.split_at_mut(middle);
     // The stretch in which the middle is.
@@ -289,7 +289,7 @@ fn cost(reach: &BuildPrimitive, count: u32) -> f64 {
     f64::from(count.div_ceil(WIDE as u32)) * reach.area()
 }
 
-/// The split of the least cost; `None` where no key tells the boxes apart.
+/// The split of the least cost; `None` where no key distinguishes the boxes.
 fn cheapest(level: Level, items: &[BuildPrimitive], about: &About) -> Option<Split> {
     // Few objects need few bins: there is hardly more than one to a bin.
     let last = (items.len() / 2).min(BINS) - 1;
@@ -300,7 +300,7 @@ fn cheapest(level: Level, items: &[BuildPrimitive], about: &About) -> Option<Spl
         let bins = Bins::of(level, &scale, items);
         dispatch!(level, simd => bins.swept(simd, last)).map(|(cost, last)| (cost, Split { scale, last }))
     };
-    // Only what is as long as a good part of the range is worth to be set apart.
+    // Only what is as long as a good part of the range is worth to be separated.
     let longest = about.reach.longest();
     if f64::from(longest) > 0.5 * about.reach.edges().max_element() {
         let scale = Scale { key: Key::Size, low: longest, per_bin: 1.0, last: POWERS };

@@ -1,16 +1,19 @@
-//! Rays without reordering through the hierarchy, many on their way at once.
+//! Incoherent rays through the hierarchy, many under way at once.
 //!
-//! A single ray waits: for the node that it asks next, and for the processor, which can not guess what it meets. So each
-//! of many takes one step in its turn, and what one waits for the others do meanwhile.
+//! A single ray stalls: on the memory of the node that it is tested against next, and on branches that no
+//! processor can predict. So each of many takes one step in its turn, and the others' steps fill the stalls
+//! of one.
 
 use fearless_simd::{Simd, SimdBase, dispatch, f32x8};
 
 use crate::math::Ray;
 
-use super::walk::{RayF32, RaySimd, WAITING, first_two};
-use super::{Bvh8, INNER, Node, WIDE, upper};
+use super::Bvh8;
+use super::node::{INNER, Node, WIDE};
+use super::rounding::upper;
+use super::walk::{RayF32, RaySimd, STACK, first_two};
 
-/// Rays that are on their way at once: what waits for them has room in the nearest memory.
+/// Rays that are under way at once: their stacks have room in the nearest cache.
 const ABREAST: usize = 24;
 
 /// A ray and an object whose box it meets.
@@ -24,44 +27,44 @@ pub struct Candidate {
     pub near: f32,
 }
 
-/// The rays, and how far each still looks.
+/// The rays, and how far away what each meets may be to matter.
 #[derive(Debug, Default)]
 pub struct StreamRays {
-    ways: Vec<RayF32>,
+    rays: Vec<RayF32>,
     ends: Vec<f32>,
 }
 
 /// Rays, and the memory of their walk, used again for the next.
 #[derive(Debug, Default)]
 pub struct Stream {
-    ways: StreamRays,
+    rays: StreamRays,
     walkers: Vec<Walker>,
     steps: Steps,
     met: Vec<Candidate>,
 }
 
-/// One of those that are on their way.
+/// A ray that is under way.
 #[derive(Debug)]
 struct Walker {
     ray: u32,
     node: u32,
     /// Behind a pointer: the last takes the place of one that is done.
-    waiting: Box<Waiting>,
+    stack: Box<NodeStack>,
 }
 
-/// What each of those that are on their way meets in the next step: where it enters each box, and a bit for each.
+/// What each ray that is under way meets in the next step: where it enters each box, and a bit for each.
 #[derive(Debug, Default)]
 struct Steps {
     enter: [[f32; WIDE]; ABREAST],
     met: [u32; ABREAST],
 }
 
-/// A node that waits for a ray, which enters its box at a distance of 0 or more, or before: the bits of that distance
-/// above those of the index, so that of two the smaller is the nearer.
+/// A node that is to be walked by a ray, which enters its box at a distance of 0 or more, or before: the bits
+/// of that distance above those of the index, so that of two the smaller is the nearer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Ahead(u64);
+struct PackedNode(u64);
 
-impl Ahead {
+impl PackedNode {
     /// Farther than all nodes, and beyond the end of any ray: its distance is not a number.
     const NONE: Self = Self(u64::MAX);
 
@@ -81,57 +84,58 @@ impl Ahead {
     }
 }
 
-/// The nodes that wait for one ray, the next one last; below them there is none.
+/// The nodes that are to be walked by one ray, the next one last; the lowest stands for none.
 #[derive(Debug)]
-struct Waiting {
-    near: [Ahead; WAITING],
-    /// At least 1, at most [`WAITING`].
+struct NodeStack {
+    near: [PackedNode; STACK],
+    /// At least 1, at most [`STACK`].
     len: usize,
     /// Those that came long before.
-    before: Vec<Ahead>,
+    before: Vec<PackedNode>,
 }
 
-impl Waiting {
-    const NOTHING: Self = Self { near: [Ahead::NONE; WAITING], len: 1, before: Vec::new() };
+impl NodeStack {
+    const EMPTY: Self = Self { near: [PackedNode::NONE; STACK], len: 1, before: Vec::new() };
 
-    /// Of the nodes among a node's children that a ray meets the nearest, or what waited for it; the others wait. What it
-    /// meets is known by chance only, so that nothing is asked here but whether there are more than two.
+    /// Pushes the nodes among a node's children that a ray meets, and pops the nearest of them, or the last
+    /// of the stack where it meets none. The only branch is whether there are more than two: no other could
+    /// be predicted.
     #[inline(always)]
-    fn step(&mut self, node: &Node, enter: &[f32; WIDE], met: u32) -> Ahead {
-        if self.len > WAITING - WIDE {
+    fn step(&mut self, node: &Node, enter: &[f32; WIDE], met: u32) -> PackedNode {
+        if self.len > STACK - WIDE {
             self.before.extend_from_slice(&self.near[1..self.len]);
             self.len = 1;
         }
         let (slots, mut rest) = first_two(met);
         let count = met.count_ones();
-        let a = Ahead::new(enter[slots[0]], node.children[slots[0]]);
-        let b = Ahead::new(enter[slots[1]], node.children[slots[1]]);
-        let b = if count > 1 { b } else { Ahead::NONE };
+        let a = PackedNode::new(enter[slots[0]], node.children[slots[0]]);
+        let b = PackedNode::new(enter[slots[1]], node.children[slots[1]]);
+        let b = if count > 1 { b } else { PackedNode::NONE };
         let mut nearest = a.min(b);
-        self.near[self.len % WAITING] = a.max(b);
+        self.near[self.len % STACK] = a.max(b);
         self.len += usize::from(count > 1);
         while rest != 0 {
             let slot = rest.trailing_zeros() as usize % WIDE;
             rest &= rest - 1;
-            let c = Ahead::new(enter[slot], node.children[slot]);
-            self.near[self.len % WAITING] = nearest.max(c);
+            let c = PackedNode::new(enter[slot], node.children[slot]);
+            self.near[self.len % STACK] = nearest.max(c);
             self.len += 1;
             nearest = nearest.min(c);
         }
-        let last = self.near[(self.len - 1) % WAITING];
+        let last = self.near[(self.len - 1) % STACK];
         self.len -= usize::from(count == 0);
         if count == 0 { last } else { nearest }
     }
 
-    /// The last that waits, none where nothing does.
+    /// Pops the last node; none where the stack is empty.
     #[inline]
-    fn pop(&mut self) -> Ahead {
+    fn pop(&mut self) -> PackedNode {
         if self.len > 1 {
             self.len -= 1;
-            self.near[self.len % WAITING]
+            self.near[self.len % STACK]
         } else {
             self.len = 1;
-            self.before.pop().unwrap_or(Ahead::NONE)
+            self.before.pop().unwrap_or(PackedNode::NONE)
         }
     }
 }
@@ -149,44 +153,45 @@ impl StreamRays {
         self.ends.is_empty()
     }
 
-    /// A ray looks no farther than this; below 0 it looks for nothing any more.
+    /// Sets how far away what a ray meets may be to matter; below 0 where nothing matters any more.
     #[inline]
-    pub fn look(&mut self, ray: u32, to: f64) {
+    pub fn limit(&mut self, ray: u32, to: f64) {
         self.ends[ray as usize] = upper(to);
     }
 
-    /// Whether a meeting still matters.
+    /// Whether a candidate still matters.
     #[inline]
-    pub fn matters(&self, meeting: &Candidate) -> bool {
-        meeting.near <= self.ends[meeting.ray as usize]
+    pub fn matters(&self, candidate: &Candidate) -> bool {
+        candidate.near <= self.ends[candidate.ray as usize]
     }
 }
 
 impl Stream {
-    /// Forgets all rays.
+    /// Takes all rays out.
     #[inline]
     pub fn clear(&mut self) {
-        self.ways.ways.clear();
-        self.ways.ends.clear();
+        self.rays.rays.clear();
+        self.rays.ends.clear();
     }
 
-    /// One more ray, that looks as far as `to`.
+    /// Adds a ray that meets nothing that matters beyond `to`.
     #[inline(always)]
     pub fn push(&mut self, ray: &Ray, to: f64) {
-        self.ways.ways.push(RayF32::new(ray, 0.0));
-        self.ways.ends.push(upper(to));
+        self.rays.rays.push(RayF32::new(ray, 0.0));
+        self.rays.ends.push(upper(to));
     }
 
     /// The rays.
     #[inline]
-    pub fn ways(&self) -> &StreamRays {
-        &self.ways
+    pub fn rays(&self) -> &StreamRays {
+        &self.rays
     }
 }
 
 impl Bvh8 {
-    /// Calls `visit` again and again with some rays and the objects whose boxes they meet, each pair once, of one ray the
-    /// nearer nodes first; at last with none. `visit` says by [`StreamRays::look`] how far a ray still matters.
+    /// Calls `visit` again and again with some rays and the objects whose boxes they meet, each pair once, of
+    /// one ray the nearer nodes first; at last with none. `visit` says by [`StreamRays::limit`] how far a ray
+    /// still matters.
     #[inline]
     pub fn walk_stream(
         &self,
@@ -194,23 +199,23 @@ impl Bvh8 {
         cells_visited: &mut u64,
         visit: &mut dyn FnMut(&[Candidate], &mut StreamRays),
     ) {
-        dispatch!(self.level, simd => walked(simd, &self.nodes, stream, cells_visited, visit));
+        dispatch!(self.level, simd => walk_all(simd, &self.nodes, stream, cells_visited, visit));
     }
 }
 
 #[inline(always)]
-fn walked<S: Simd>(
+fn walk_all<S: Simd>(
     simd: S,
     nodes: &[Node],
-    Stream { ways, walkers, steps, met }: &mut Stream,
+    Stream { rays: all, walkers, steps, met }: &mut Stream,
     cells_visited: &mut u64,
     visit: &mut dyn FnMut(&[Candidate], &mut StreamRays),
 ) {
-    let rays = ways.len() as u32;
+    let rays = all.len() as u32;
     let mut started = rays.min(ABREAST as u32);
     let mut active = started as usize;
     while walkers.len() < active {
-        walkers.push(Walker { ray: 0, node: 0, waiting: Box::new(Waiting::NOTHING) });
+        walkers.push(Walker { ray: 0, node: 0, stack: Box::new(NodeStack::EMPTY) });
     }
     for (ray, walker) in walkers.iter_mut().enumerate().take(active) {
         (walker.ray, walker.node) = (ray as u32, 0);
@@ -218,19 +223,19 @@ fn walked<S: Simd>(
     met.resize(ABREAST * WIDE, Candidate { ray: 0, object: 0, near: 0.0 });
     while active != 0 {
         *cells_visited += active as u64;
-        // All nodes are asked before anything depends on an answer, so that none waits for the memory of another.
+        // All nodes are tested before anything depends on a result, so that their memory is fetched at once.
         for (k, Walker { ray, node, .. }) in walkers[..active].iter().enumerate() {
-            let (way, end) = (&ways.ways[*ray as usize], ways.ends[*ray as usize]);
+            let (ray, end) = (&all.rays[*ray as usize], all.ends[*ray as usize]);
             let here = &nodes[*node as usize];
-            let (enter, met) = RaySimd::new(simd, way).meets(simd, here, f32x8::splat(simd, end));
+            let (enter, met) = RaySimd::new(simd, ray).meets(simd, here, f32x8::splat(simd, end));
             enter.store_slice(&mut steps.enter[k]);
             steps.met[k] = met;
         }
         let mut count = 0;
         let mut k = 0;
         while k < active {
-            let Walker { ray, node, waiting } = &mut walkers[k];
-            let end = ways.ends[*ray as usize];
+            let Walker { ray, node, stack } = &mut walkers[k];
+            let end = all.ends[*ray as usize];
             let here = &nodes[*node as usize];
             let (enter, bits) = (&steps.enter[k], steps.met[k]);
             let objects = bits & !u32::from(here.inner);
@@ -248,22 +253,22 @@ fn walked<S: Simd>(
                 next += 1;
             }
             count += objects.count_ones() as usize;
-            let mut ahead = waiting.step(here, enter, bits & u32::from(here.inner));
+            let mut next_node = stack.step(here, enter, bits & u32::from(here.inner));
             k += 1;
-            if ahead.from() <= end {
-                *node = ahead.node();
+            if next_node.from() <= end {
+                *node = next_node.node();
                 continue;
             }
-            // Seldom: what waits lies behind what the ray met, or nothing does.
-            waiting.len = waiting.len.max(1);
+            // Seldom: the next node lies behind what the ray met, or there is none.
+            stack.len = stack.len.max(1);
             loop {
-                ahead = waiting.pop();
-                if ahead.from() <= end || ahead == Ahead::NONE {
+                next_node = stack.pop();
+                if next_node.from() <= end || next_node == PackedNode::NONE {
                     break;
                 }
             }
-            if ahead != Ahead::NONE {
-                *node = ahead.node();
+            if next_node != PackedNode::NONE {
+                *node = next_node.node();
             } else if started < rays {
                 (*ray, *node) = (started, 0);
                 started += 1;
@@ -277,8 +282,8 @@ fn walked<S: Simd>(
             }
         }
         if count != 0 {
-            visit(&met[..count], ways);
+            visit(&met[..count], all);
         }
     }
-    visit(&[], ways);
+    visit(&[], all);
 }

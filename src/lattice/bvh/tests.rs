@@ -2,8 +2,11 @@
 
 use std::ops::ControlFlow;
 
+use super::build_primitive::*;
+use super::node::*;
+use super::rounding::*;
 use super::*;
-use crate::math::Ray;
+use crate::math::{Bounds, Ray};
 
 /// Numbers in 0..1 that look like chance.
 pub(super) struct Noise(pub u64);
@@ -52,13 +55,13 @@ fn checked(of: &Bvh8, boxes: &[Bounds]) -> usize {
             let own = node.bounds(slot);
             match node.child(slot) {
                 None => assert_eq!(own, Bounds::EMPTY),
-                Some(Child::Object(object)) => {
+                Some(BvhChild::Object(object)) => {
                     seen[object as usize] += 1;
                     let held = boxes[object as usize];
                     assert!(fits(&own, &held), "{own:?} around {held:?}");
                     all = all.join(&held);
                 }
-                Some(Child::Node(child)) => {
+                Some(BvhChild::Node(child)) => {
                     assert!(child > index);
                     let (held, below) = visit(of, child, seen, boxes);
                     assert!(fits(&own, &held), "a node's box is the box of its children");
@@ -131,11 +134,11 @@ fn a_floor_is_set_apart_near_the_root() {
     boxes.push(Bounds::new(DVec3::ZERO, DVec3::new(1.0, 1.0, 0.001)));
     let of = over(&boxes);
     checked(&of, &boxes);
-    let floor = Child::Object(10_000);
+    let floor = BvhChild::Object(10_000);
     let holds = |node: &Node| (0..node.len()).any(|slot| node.child(slot) == Some(floor));
     let root = &of.nodes()[0];
     let below = (0..root.len()).filter_map(|slot| match root.child(slot) {
-        Some(Child::Node(child)) => Some(&of.nodes()[child as usize]),
+        Some(BvhChild::Node(child)) => Some(&of.nodes()[child as usize]),
         _ => None,
     });
     assert!(holds(root) || below.into_iter().any(holds), "the floor stands deeper");
@@ -364,7 +367,7 @@ fn a_ray_of_a_stream_that_looks_no_farther_meets_no_more() {
         for meeting in some.iter().filter(|meeting| ways.matters(meeting)).copied().collect::<Vec<_>>() {
             if ways.matters(&meeting) {
                 asked[meeting.ray as usize] += 1;
-                ways.look(meeting.ray, -1.0);
+                ways.limit(meeting.ray, -1.0);
             }
         }
     });

@@ -6,39 +6,42 @@ use fearless_simd::{Simd, SimdBase, SimdMask, dispatch, f32x8};
 
 use crate::math::Ray;
 
-use super::{Bvh8, INNER, Node, WIDE, lower, upper};
+use super::Bvh8;
+use super::node::{INNER, Node, WIDE};
+use super::rounding::{lower, upper};
 
-/// Nodes that may wait in place: at most seven more wait for each node on the way down, and one or two mostly.
-pub(super) const WAITING: usize = 64;
+/// Nodes that a stack holds in place: at most seven more for each level of the tree, and one or two mostly.
+pub(super) const STACK: usize = 64;
 
-/// Nodes that wait, the next one last. Those that came long before have memory of their own.
-struct Waiting<T> {
-    near: [T; WAITING],
-    /// At most [`WAITING`].
+/// Nodes that are to be walked, the next one last. Those that came long before are kept on the heap.
+struct NodeStack<T> {
+    near: [T; STACK],
+    /// At most [`STACK`].
     len: usize,
     before: Vec<T>,
 }
 
-impl<T: Copy> Waiting<T> {
+impl<T: Copy> NodeStack<T> {
     #[inline(always)]
     fn new(none: T) -> Self {
-        Self { near: [none; WAITING], len: 0, before: Vec::new() }
+        Self { near: [none; STACK], len: 0, before: Vec::new() }
     }
 
     /// Makes room for the children of a node.
     #[inline(always)]
     fn make_room(&mut self) {
-        if self.len > WAITING - WIDE {
+        if self.len > STACK - WIDE {
             self.before.extend_from_slice(&self.near[..self.len]);
             self.len = 0;
         }
     }
 
-    /// Adds both, or the first alone, or none: it is not asked which, as that is known by chance only. There is room.
+    /// Adds both, or only the first, or none, without a branch, which no processor could predict. There is
+    /// room.
     #[inline(always)]
     fn push(&mut self, both: [T; 2], count: u32) {
-        self.near[self.len % WAITING] = both[0];
-        self.near[(self.len + 1) % WAITING] = both[1];
+        self.near[self.len % STACK] = both[0];
+        self.near[(self.len + 1) % STACK] = both[1];
         self.len += count.min(2) as usize;
     }
 
@@ -47,16 +50,16 @@ impl<T: Copy> Waiting<T> {
         match self.len.checked_sub(1) {
             Some(last) => {
                 self.len = last;
-                Some(self.near[last % WAITING])
+                Some(self.near[last % STACK])
             }
             None => self.before.pop(),
         }
     }
 }
 
-/// A node that waits.
+/// A node that is to be walked.
 #[derive(Clone, Copy)]
-struct Ahead {
+struct StackEntry {
     /// Where the ray enters its box, or before.
     from: f32,
     node: u32,
@@ -68,9 +71,9 @@ pub(super) struct RayF32 {
     o: [f32; 3],
     /// 1 / d, and the largest number where that is larger.
     ///
-    /// A difference of 0 times that is 0, so no product is not a number. Where it is too small, the padding is far enough:
-    /// a box whose planes the ray lies between is entered before its start and left far behind its end, and one beside it
-    /// is not.
+    /// A difference of 0 times that is 0, so no product is not a number. Where it is too small, the padding
+    /// is far enough: a box whose planes the ray lies between is entered before its start and left far behind
+    /// its end, and one beside it is not.
     inverse: [f32; 3],
     /// Which of the two sides along each axis the ray comes to first.
     first: [u32; 3],
@@ -90,7 +93,7 @@ impl RayF32 {
     }
 }
 
-/// A ray as the boxes are asked about it.
+/// A ray as it is tested against eight boxes.
 pub(super) struct RaySimd<S: Simd> {
     o: [f32x8<S>; 3],
     inverse: [f32x8<S>; 3],
@@ -100,24 +103,25 @@ pub(super) struct RaySimd<S: Simd> {
 
 impl<S: Simd> RaySimd<S> {
     #[inline(always)]
-    pub fn new(simd: S, way: &RayF32) -> Self {
+    pub fn new(simd: S, ray: &RayF32) -> Self {
         // Not by `map`, nor by a closure, which are compiled by themselves, for any processor.
-        let ([ox, oy, oz], [x, y, z]) = (way.o, way.inverse);
+        let ([ox, oy, oz], [x, y, z]) = (ray.o, ray.inverse);
         Self {
             o: [f32x8::splat(simd, ox), f32x8::splat(simd, oy), f32x8::splat(simd, oz)],
             inverse: [f32x8::splat(simd, x), f32x8::splat(simd, y), f32x8::splat(simd, z)],
-            first: way.first,
-            from: f32x8::splat(simd, way.from),
+            first: ray.first,
+            from: f32x8::splat(simd, ray.from),
         }
     }
 
-    /// Where the ray enters the boxes of a node before `to`, or before, and a bit for each that it meets. What rounding may
-    /// do is in the boxes ([`MARGIN`](super::MARGIN)). Nothing here is not a number.
+    /// Where the ray enters the boxes of a node before `to`, or before, and a bit for each that it meets.
+    /// What rounding may do is in the boxes ([`MARGIN`](super::rounding::MARGIN)). Nothing here is not a
+    /// number.
     #[inline(always)]
     pub fn meets(&self, simd: S, node: &Node, to: f32x8<S>) -> (f32x8<S>, u32) {
-        let [near_x, far_x] = self.stretch(simd, node, 0);
-        let [near_y, far_y] = self.stretch(simd, node, 1);
-        let [near_z, far_z] = self.stretch(simd, node, 2);
+        let [near_x, far_x] = self.slab(simd, node, 0);
+        let [near_y, far_y] = self.slab(simd, node, 1);
+        let [near_z, far_z] = self.slab(simd, node, 2);
         let enter = near_x.max(near_y).max(near_z.max(self.from));
         let leave = far_x.min(far_y).min(far_z.min(to));
         (enter, enter.simd_le(leave).to_bitmask() as u32)
@@ -125,7 +129,7 @@ impl<S: Simd> RaySimd<S> {
 
     /// Between which distances the ray is between the two sides along an axis.
     #[inline(always)]
-    fn stretch(&self, simd: S, node: &Node, axis: usize) -> [f32x8<S>; 2] {
+    fn slab(&self, simd: S, node: &Node, axis: usize) -> [f32x8<S>; 2] {
         let (sides, first) = (&node.sides[axis], self.first[axis] as usize);
         let (near, far) = (&sides[first & 1], &sides[(first & 1) ^ 1]);
         let (o, inverse) = (self.o[axis], self.inverse[axis]);
@@ -148,9 +152,9 @@ pub(super) fn first_two(bits: u32) -> ([usize; 2], u32) {
 }
 
 impl Bvh8 {
-    /// Calls `visit` with each object whose box the ray meets between `from` and `to`, and where it enters that box, or
-    /// before, until it breaks; of the nodes in a node the nearest first. `visit` returns how far the ray still matters:
-    /// boxes that begin beyond that are not visited.
+    /// Calls `visit` with each object whose box the ray meets between `from` and `to`, and where it enters
+    /// that box, or before, until it breaks; of the nodes in a node the nearest first. `visit` returns how
+    /// far the ray still matters: boxes that begin beyond that are not visited.
     pub fn walk<B>(
         &self,
         ray: &Ray,
@@ -161,11 +165,11 @@ impl Bvh8 {
     ) -> Option<B> {
         // Behind a pointer, so that not all that a visit does is compiled for every kind of processor.
         let visit: &mut Visit<B> = &mut visit;
-        dispatch!(self.level, simd => walked(simd, &self.nodes, ray, [from, to], cells_visited, visit))
+        dispatch!(self.level, simd => walk_nearest(simd, &self.nodes, ray, &Range { from, to }, cells_visited, visit))
     }
 
-    /// Calls `visit` with each object whose box the ray meets before `to`, in no order, until it says yes. Answers whether
-    /// it did.
+    /// Calls `visit` with each object whose box the ray meets before `to`, in no order, until it says yes.
+    /// Answers whether it did.
     pub fn any(
         &self,
         ray: &Ray,
@@ -174,30 +178,36 @@ impl Bvh8 {
         mut visit: impl FnMut(u32) -> bool,
     ) -> bool {
         let visit: &mut dyn FnMut(u32) -> bool = &mut visit;
-        dispatch!(self.level, simd => any_walked(simd, &self.nodes, ray, to, cells_visited, visit))
+        dispatch!(self.level, simd => walk_any(simd, &self.nodes, ray, to, cells_visited, visit))
     }
+}
+
+/// Part of a ray.
+struct Range {
+    from: f64,
+    to: f64,
 }
 
 type Visit<'a, B> = dyn FnMut(u32, f64) -> ControlFlow<B, f64> + 'a;
 
 #[inline(always)]
-fn walked<S: Simd, B>(
+fn walk_nearest<S: Simd, B>(
     simd: S,
     nodes: &[Node],
     ray: &Ray,
-    [from, to]: [f64; 2],
+    &Range { from, to }: &Range,
     cells_visited: &mut u64,
     visit: &mut Visit<B>,
 ) -> Option<B> {
-    let asked = RaySimd::new(simd, &RayF32::new(ray, from));
+    let ray = RaySimd::new(simd, &RayF32::new(ray, from));
     let mut end = upper(to);
-    let mut waiting = Waiting::new(Ahead { from: 0.0, node: 0 });
-    let mut next = Ahead { from: lower(from), node: 0 };
+    let mut stack = NodeStack::new(StackEntry { from: 0.0, node: 0 });
+    let mut next = StackEntry { from: lower(from), node: 0 };
     loop {
         if next.from <= end {
             *cells_visited += 1;
             let node = &nodes[next.node as usize];
-            let (enter, met) = asked.meets(simd, node, f32x8::splat(simd, end));
+            let (enter, met) = ray.meets(simd, node, f32x8::splat(simd, end));
             let enter: [f32; WIDE] = enter.into();
             let mut objects = met & !u32::from(node.inner);
             while objects != 0 {
@@ -210,39 +220,39 @@ fn walked<S: Simd, B>(
                     }
                 }
             }
-            push_nearest_last(&mut waiting, node, &enter, met & u32::from(node.inner));
+            push_nearest_last(&mut stack, node, &enter, met & u32::from(node.inner));
         }
-        next = waiting.pop()?;
+        next = stack.pop()?;
     }
 }
 
-/// Puts the nodes among a node's children that were met with those that wait.
+/// Pushes the nodes among a node's children that were met, the nearest last.
 #[inline(always)]
-fn push_nearest_last(waiting: &mut Waiting<Ahead>, node: &Node, enter: &[f32; WIDE], met: u32) {
-    waiting.make_room();
-    let first = waiting.len;
+fn push_nearest_last(stack: &mut NodeStack<StackEntry>, node: &Node, enter: &[f32; WIDE], met: u32) {
+    stack.make_room();
+    let first = stack.len;
     let (slots, mut rest) = first_two(met);
     let count = met.count_ones();
-    let a = Ahead { from: enter[slots[0]], node: node.children[slots[0]] & !INNER };
-    let b = Ahead { from: enter[slots[1]], node: node.children[slots[1]] & !INNER };
+    let a = StackEntry { from: enter[slots[0]], node: node.children[slots[0]] & !INNER };
+    let b = StackEntry { from: enter[slots[1]], node: node.children[slots[1]] & !INNER };
     let both = if count > 1 && a.from < b.from { [b, a] } else { [a, b] };
-    waiting.push(both, count);
+    stack.push(both, count);
     while rest != 0 {
         let slot = rest.trailing_zeros() as usize % WIDE;
         rest &= rest - 1;
         let from = enter[slot];
-        let mut place = waiting.len % WAITING;
-        while place > first && waiting.near[place - 1].from < from {
-            waiting.near[place] = waiting.near[place - 1];
+        let mut place = stack.len % STACK;
+        while place > first && stack.near[place - 1].from < from {
+            stack.near[place] = stack.near[place - 1];
             place -= 1;
         }
-        waiting.near[place] = Ahead { from, node: node.children[slot] & !INNER };
-        waiting.len += 1;
+        stack.near[place] = StackEntry { from, node: node.children[slot] & !INNER };
+        stack.len += 1;
     }
 }
 
 #[inline(always)]
-fn any_walked<S: Simd>(
+fn walk_any<S: Simd>(
     simd: S,
     nodes: &[Node],
     ray: &Ray,
@@ -250,16 +260,16 @@ fn any_walked<S: Simd>(
     cells_visited: &mut u64,
     visit: &mut dyn FnMut(u32) -> bool,
 ) -> bool {
-    let asked = RaySimd::new(simd, &RayF32::new(ray, 0.0));
+    let ray = RaySimd::new(simd, &RayF32::new(ray, 0.0));
     let end = f32x8::splat(simd, upper(to));
-    let mut waiting = Waiting::new(0);
+    let mut stack = NodeStack::new(0);
     let mut next = Some(0);
     while let Some(first) = next {
-        // Two at once take little longer than one: each step of a question waits for the one before it.
-        let second = waiting.pop();
+        // Two at once take little longer than one: each step of a test depends on the one before it.
+        let second = stack.pop();
         let two = [&nodes[first as usize], &nodes[second.unwrap_or(first) as usize]];
-        let (_, met) = asked.meets(simd, two[0], end);
-        let (_, also_met) = asked.meets(simd, two[1], end);
+        let (_, met) = ray.meets(simd, two[0], end);
+        let (_, also_met) = ray.meets(simd, two[1], end);
         *cells_visited += 1 + u64::from(second.is_some());
         let met = [met, if second.is_some() { also_met } else { 0 }];
         for k in 0..2 {
@@ -274,16 +284,16 @@ fn any_walked<S: Simd>(
         }
         for k in 0..2 {
             let (node, met) = (two[k], met[k] & u32::from(two[k].inner));
-            waiting.make_room();
+            stack.make_room();
             let ([a, b], mut rest) = first_two(met);
-            waiting.push([node.children[a] & !INNER, node.children[b] & !INNER], met.count_ones());
+            stack.push([node.children[a] & !INNER, node.children[b] & !INNER], met.count_ones());
             while rest != 0 {
                 let slot = rest.trailing_zeros() as usize % WIDE;
                 rest &= rest - 1;
-                waiting.push([node.children[slot] & !INNER, 0], 1);
+                stack.push([node.children[slot] & !INNER, 0], 1);
             }
         }
-        next = waiting.pop();
+        next = stack.pop();
     }
     false
 }

@@ -10,10 +10,11 @@ use super::{Cell, MOST_POINTERS, Node, Pointers, SIDE, Tree};
 /// Nodes within nodes: at 64 cells each, past any number of objects unless they lie in one another.
 const DEEPEST: u32 = 24;
 
-/// A node of more objects than this has its cells filled by all threads; below it a cell takes less than handing it over.
+/// A node of more objects than this has its cells filled by all threads; below it a cell takes less than
+/// handing it over.
 pub const SHARED: usize = 8192;
 
-/// An object on its way down.
+/// An object that is sorted into cells.
 #[derive(Clone, Copy)]
 struct Part {
     object: u32,
@@ -21,8 +22,8 @@ struct Part {
     allowance: u32,
 }
 
-/// The tree over these boxes, numbered as they stand. Nodes of more than `shared` objects are filled by all threads of the
-/// pool at hand, which changes nothing about the tree.
+/// The tree over these boxes, numbered as they stand. Nodes of more than `shared` objects are filled by all
+/// threads of the pool at hand, which changes nothing about the tree.
 pub fn built(boxes: &[Bounds], limit: &Bounds, shared: usize) -> Tree {
     let mut tree = Tree::default();
     let parts: Vec<Part> =
@@ -70,13 +71,13 @@ impl Builder<'_> {
         let cells: Vec<usize> = (0..CELLS).filter(|bit| full >> bit & 1 == 1).collect();
         if parts.len() > self.shared {
             let (boxes, shared) = (self.boxes, self.shared);
-            let apart = |&bit: &usize| {
+            let grow = |&bit: &usize| {
                 let mut tree = Tree::default();
                 let mut builder = Builder { boxes, shared, tree: &mut tree };
                 let cell = builder.cell(held.of(bit), &cell_box(cuts, b, bit), depth + 1);
                 (cell, tree)
             };
-            let grown: Vec<(Cell, Tree)> = cells.par_iter().map(apart).collect();
+            let grown: Vec<(Cell, Tree)> = cells.par_iter().map(grow).collect();
             for (place, (cell, tree)) in grown.into_iter().enumerate() {
                 self.tree.cells[first_cell + place] = self.graft(cell, tree);
             }
@@ -89,7 +90,8 @@ impl Builder<'_> {
         Cell::Node(index as u32)
     }
 
-    /// Takes over a tree that grew apart, and the cell that it fills. The whole is the same as if it had grown here.
+    /// Takes over a tree that was built separately, and the cell that it fills. The whole is the same as if
+    /// it had grown here.
     fn graft(&mut self, cell: Cell, grown: Tree) -> Cell {
         let (nodes, cells) = (self.tree.nodes.len() as u32, self.tree.cells.len() as u32);
         let pointers = self.tree.pointers.len() as u32;

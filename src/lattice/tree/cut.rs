@@ -1,16 +1,16 @@
 //! Where a node is cut: planes by surface-area cost.
 //!
-//! The cost of a way through a node is the steps from cell to cell and the tests in them. Along one axis the
-//! expected tests of a slab are its share of the node's surface times the objects that reach into it; over three
-//! axes the shares are taken as independent. (J. D. `MacDonald` and K. S. Booth: Heuristics for ray tracing using space
-//! subdivision, 1990.)
+//! The cost of a ray's path through a node is the steps from cell to cell and the tests in them. Along one
+//! axis the expected tests of a slab are its share of the node's surface times the objects that reach into
+//! it; over three axes the shares are taken as independent. (J. D. `MacDonald` and K. S. Booth: Heuristics
+//! for ray tracing using space subdivision, 1990.)
 
 use crate::math::Bounds;
 
 use super::SIDE;
 
-/// What a step to the next cell costs, in tests of an object. Measured: a step is a comparison of three distances
-/// and a bit, a test of a sphere a square root and two dozen products.
+/// What a step to the next cell costs, in tests of an object. Measured: a step is a comparison of three
+/// distances and a bit, a test of a sphere a square root and two dozen products.
 const STEP: f64 = 0.2;
 
 /// What entering a node costs, in tests of an object: three places to locate.
@@ -130,8 +130,8 @@ impl Axis {
     }
 }
 
-/// Bounds of the boxes strictly between `lo` and `hi`, ascending, each once, at most [`CANDIDATES`]: the nearest to
-/// even steps where there are more.
+/// Bounds of the boxes strictly between `lo` and `hi`, ascending, each once, at most [`CANDIDATES`]: the
+/// nearest to even steps where there are more.
 fn candidates(boxes: &[Bounds], lo: f64, hi: f64, axis: usize) -> Vec<f64> {
     let inside = |x: f64| lo < x && x < hi;
     if boxes.len() * 2 <= 4 * CANDIDATES {

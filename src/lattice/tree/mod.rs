@@ -1,12 +1,13 @@
 //! The lattice at every size: lattices of at most 4 × 4 × 4 cells within lattices.
 //!
-//! Each node cuts its box by up to three planes across each axis, chosen among its objects' bounds by surface-area
-//! cost. A bit mask says which of its cells hold something; a cell that does is a few objects, or a node. Planes at
-//! bounds leave empty space in cells of its own, which a ray steps over by one bit.
+//! Each node cuts its box by up to three planes across each axis, chosen among its objects' bounds by
+//! surface-area cost. A bit mask says which of its cells hold something; a cell that does is a few objects,
+//! or a node. Planes at bounds leave empty space in cells of its own, which a ray steps over by one bit.
 //!
-//! An object that reaches into several cells is pointed to from each, but never from more than [`MOST_POINTERS`]:
-//! it carries an allowance, which its cells share, and where that runs out it stays with the node and is tested when
-//! a ray enters the node. Memory is linear in the objects, whatever their overlap.
+//! An object that reaches into several cells is pointed to from each, but never from more than
+//! [`MOST_POINTERS`]: it carries an allowance, which its cells share, and where that runs out it stays with
+//! the node and is tested when a ray enters the node. Memory is linear in the objects, whatever their
+//! overlap.
 
 mod build;
 mod cut;
@@ -18,8 +19,8 @@ use crate::solid::Assembly;
 /// Cells along each axis of a node.
 const SIDE: usize = 4;
 
-/// The most pointers to one object. Eight let a small object lie across the corner of a node's cells; 64 let that
-/// happen on two levels.
+/// The most pointers to one object. Eight let a small object lie across the corner of a node's cells; 64 let
+/// that happen on two levels.
 pub const MOST_POINTERS: u32 = 64;
 
 /// Lattices within lattices over a whole scene.

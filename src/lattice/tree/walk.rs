@@ -4,13 +4,13 @@ use std::ops::ControlFlow;
 
 use crate::math::{DVec3, Ray};
 
-use super::super::planes::Step;
+use super::super::planes::CellStep;
 use super::{Cell, Node, SIDE, Tree};
 
-/// How far apart in the mask the neighbours along each axis are.
+/// The distance in the mask between neighbours along each axis.
 const STRIDE: [u32; 3] = [1, SIDE as u32, (SIDE * SIDE) as u32];
 
-/// What stays the same for all nodes on a ray's way.
+/// What stays the same for all nodes that a ray passes.
 struct Walk<'a, 'v, V> {
     tree: &'a Tree,
     ray: &'a Ray,
@@ -24,16 +24,16 @@ struct Walk<'a, 'v, V> {
 }
 
 impl Tree {
-    /// Calls `visit` with the objects of each full cell that the ray passes between `from` and `to`, and of each
-    /// node when it is entered, in order, until it breaks. `visit` returns how far the ray still matters: cells that
-    /// begin beyond that are not visited.
+    /// Calls `visit` with the objects of each full cell that the ray passes between `from` and `to`, and of
+    /// each node when it is entered, in order, until it breaks. `visit` returns how far the ray still
+    /// matters: cells that begin beyond that are not visited.
     pub fn walk<B>(
         &self,
         ray: &Ray,
         from: f64,
         to: f64,
         cells_visited: &mut u64,
-        mut visit: impl FnMut(&[u32], Step) -> ControlFlow<B, f64>,
+        mut visit: impl FnMut(&[u32], CellStep) -> ControlFlow<B, f64>,
     ) -> Option<B> {
         let inverse = ray.d.recip();
         let mut walk = Walk { tree: self, ray, inverse, visit: &mut visit, cells_visited, farthest: to };
@@ -45,11 +45,11 @@ impl Tree {
     }
 }
 
-impl<B, V: FnMut(&[u32], Step) -> ControlFlow<B, f64>> Walk<'_, '_, V> {
+impl<B, V: FnMut(&[u32], CellStep) -> ControlFlow<B, f64>> Walk<'_, '_, V> {
     fn node(&mut self, node: &Node, from: f64, to: f64) -> ControlFlow<B> {
         *self.cells_visited += 1;
         if node.own.count > 0 {
-            self.farthest = (self.visit)(self.tree.list(node.own), Step { cell: 0, from, to })?;
+            self.farthest = (self.visit)(self.tree.list(node.own), CellStep { cell: 0, from, to })?;
         }
         if node.full == 0 {
             return ControlFlow::Continue(());
@@ -83,7 +83,7 @@ impl<B, V: FnMut(&[u32], Step) -> ControlFlow<B, f64>> Walk<'_, '_, V> {
                 match self.tree.cells[(node.first_cell + before) as usize] {
                     Cell::Objects(list) => {
                         *self.cells_visited += 1;
-                        let step = Step { cell: bit as usize, from: now, to: end };
+                        let step = CellStep { cell: bit as usize, from: now, to: end };
                         self.farthest = (self.visit)(self.tree.list(list), step)?;
                     }
                     Cell::Node(index) => self.node(&self.tree.nodes[index as usize], now, end)?,

@@ -1,114 +1,75 @@
 //! Memory of one worker.
 
-use fearless_simd::Simd;
-
 use crate::lattice::{FRUSTA, Frustum, FrustumSoa};
 use crate::math::{RayPacket, Real};
 use crate::solid::{PacketCrossings, PacketScratch, PacketShear, PrunedExpr, Pruning};
 use crate::stage::Counts;
 
+use super::incoherent::IncoherentRays;
 use super::packet_culler::PacketCuller;
 use super::packet_hits::PacketHits;
 use super::reordering::RayReordering;
-use super::source::PacketSource;
-use super::stream::Apart;
-use super::walk::Waits;
 
 /// What tracing a tile needs, used again for every tile.
 #[derive(Debug)]
 pub struct TileMemory {
-    /// By packet: its own frustum, if it asks, and how far its rays have still to look.
+    /// By packet: its own frustum, if its rays are traced, and how far away what they meet may be to matter.
     pub(super) frustums: Vec<Option<Frustum>>,
     pub(super) far: Vec<f64>,
     /// Their rays in single precision, for as many as a frusta has.
-    pub(super) thin: Vec<PacketCuller>,
+    pub(super) cullers: Vec<PacketCuller>,
     pub(super) frusta: FrustumSoa,
     pub(super) reordering: RayReordering,
-    pub(super) apart: Apart,
-    /// By packet: the planes across its rays, where they were asked for.
+    pub(super) incoherent: IncoherentRays,
+    /// By packet: the planes across its rays, where they were needed.
     pub(super) sheared: Vec<PacketShear>,
     /// Nodes to be walked.
-    pub(super) stack: Vec<Waits>,
-    pub(super) numbers: Numbers<f64>,
-    pub(super) singles: Numbers<f32>,
+    pub(super) stack: Vec<StackItem>,
+    pub(super) doubles: PrecisionScratch<f64>,
+    pub(super) singles: PrecisionScratch<f32>,
     /// What rays meet of one object.
     pub(super) met: Box<PacketHits>,
     pub(super) pruning: Pruning,
     /// Pruned expressions that are not in use.
-    pub(super) remains: Vec<PrunedExpr>,
+    pub(super) pruned: Vec<PrunedExpr>,
     pub(super) counts: Counts,
 }
 
-/// Memory for what is asked of a packet, in numbers of this precision.
+/// A node that is to be walked.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct StackItem {
+    /// The lowest is walked first.
+    pub rank: f64,
+    /// Its index.
+    pub node: u32,
+    /// Which frustums may meet it, a bit for each.
+    pub frustums: u16,
+}
+
+impl StackItem {
+    /// The root, for these frustums.
+    pub fn root(frustums: u16) -> Self {
+        Self { rank: f64::NEG_INFINITY, node: 0, frustums }
+    }
+}
+
+/// Memory for packets that are traced in one precision.
 #[derive(Debug)]
-pub(super) struct Numbers<T> {
-    pub scratch: PacketScratch<T>,
+pub(super) struct PrecisionScratch<T> {
+    pub csg: PacketScratch<T>,
     pub found: Box<PacketCrossings<T>>,
-    /// By packet: its rays, and what they met, where those of the tile are others.
+    /// By packet: its rays, and what they met, where those of the tile are in another precision.
     pub rays: Vec<RayPacket<T>>,
     pub nearest: Vec<PacketHits<T>>,
 }
 
-impl<T: Real> Default for Numbers<T> {
+impl<T: Real> Default for PrecisionScratch<T> {
     fn default() -> Self {
         Self {
-            scratch: PacketScratch::default(),
+            csg: PacketScratch::default(),
             found: Box::new(PacketCrossings::NONE),
             rays: Vec::new(),
             nearest: Vec::new(),
-        }
-    }
-}
-
-/// Precisions in which rays are asked.
-pub(super) trait Asks: Real {
-    /// Their part of the memory.
-    fn numbers(memory: &mut TileMemory) -> &mut Numbers<Self>;
-
-    /// Makes a packet known in this precision, where they are not its own.
-    fn take<S: Simd>(simd: S, full: &RayPacket, own: &mut [RayPacket<Self>], k: usize);
-
-    /// A packet that was made known.
-    fn source<'a>(full: PacketSource<'a>, own: &'a [RayPacket<Self>], k: usize) -> PacketSource<'a, Self>;
-}
-
-impl Asks for f64 {
-    #[inline(always)]
-    fn numbers(memory: &mut TileMemory) -> &mut Numbers<Self> {
-        &mut memory.numbers
-    }
-
-    #[inline(always)]
-    fn take<S: Simd>(_: S, _: &RayPacket, _: &mut [RayPacket], _: usize) {}
-
-    #[inline(always)]
-    fn source<'a>(full: PacketSource<'a>, _: &'a [RayPacket], _: usize) -> PacketSource<'a> {
-        full
-    }
-}
-
-impl Asks for f32 {
-    #[inline(always)]
-    fn numbers(memory: &mut TileMemory) -> &mut Numbers<Self> {
-        &mut memory.singles
-    }
-
-    #[inline(always)]
-    fn take<S: Simd>(simd: S, full: &RayPacket, own: &mut [RayPacket<Self>], k: usize) {
-        simd.vectorize(
-            #[inline(always)]
-            || own[k].set_nearest(full),
-        );
-    }
-
-    #[inline(always)]
-    fn source<'a>(full: PacketSource<'a>, own: &'a [RayPacket<Self>], k: usize) -> PacketSource<'a, Self> {
-        // Only rays from the eye are asked so, which leave nothing.
-        PacketSource {
-            rays: &own[k],
-            departures: None,
-            full_rays: full.rays,
-            full_departures: full.departures,
         }
     }
 }
@@ -130,17 +91,17 @@ impl Default for TileMemory {
         Self {
             frustums: Vec::new(),
             far: Vec::new(),
-            thin: vec![PacketCuller::EMPTY; FRUSTA],
+            cullers: vec![PacketCuller::EMPTY; FRUSTA],
             frusta: FrustumSoa::default(),
             reordering: RayReordering::default(),
-            apart: Apart::default(),
+            incoherent: IncoherentRays::default(),
             sheared: vec![PacketShear::UNKNOWN; FRUSTA],
             stack: Vec::new(),
-            numbers: Numbers::default(),
-            singles: Numbers::default(),
+            doubles: PrecisionScratch::default(),
+            singles: PrecisionScratch::default(),
             met: Box::default(),
             pruning: Pruning::default(),
-            remains: Vec::new(),
+            pruned: Vec::new(),
             counts: Counts::default(),
         }
     }

@@ -1,18 +1,24 @@
-//! The fast engine: the rays of a tile side by side, with the bits that the exact engine finds for each alone, unless half the
-//! digits are enough.
+//! The fast engine: the rays of a tile side by side, with the bits that the exact engine finds for each
+//! single ray, unless single precision is enough.
 //!
-//! A tile of rays is bounded by frustums, which walk a hierarchy of boxes; what they leave is computed for eight rays
-//! at a time, by the same formulas in the same order. Where a ray's answer needs more than that, two surfaces in one
-//! place or a solid that is not convex, the exact engine is asked for that ray; and so are rays that have no
-//! company.
+//! A tile of rays is bounded by frustums, which walk a hierarchy of boxes; what they leave is computed for
+//! eight rays at a time, by the same formulas in the same order. Rays that are incoherent are traced as a
+//! stream. Where a ray's answer needs more than that, two surfaces in one place or a solid that is not
+//! convex, that ray is left to the exact engine.
 
+mod blocked;
+mod composite;
 mod first;
+mod glass;
+mod incoherent;
 mod memory;
+mod object;
 mod packet_culler;
 mod packet_hits;
+mod precision;
 mod reordering;
 mod shadow_packet;
-mod slices;
+mod sink;
 mod source;
 mod stream;
 mod transmittance;
@@ -26,19 +32,20 @@ use crate::solid::{Assembly, Crossing, Departure, Departures};
 use crate::stage::{Meter, Probe};
 use crate::view::TileCamera;
 
-use super::exact::all_moved_nearer;
-use super::{Engine, Exact, Hit, Memory};
+use super::Engine;
+use super::exact::{Exact, RayMemory, all_moved_nearer};
+use super::hit::Hit;
 
-use memory::Asks;
-use source::PacketSources;
+use precision::Precision;
+use source::{PacketSources, TracedPackets, TracedTile};
 
 pub use memory::TileMemory;
 pub use packet_hits::PacketHits;
 pub use shadow_packet::{ShadowPacket, ShadowQuery};
 pub use transmittance::{OpacityClass, Transmittance};
 
-/// So few rays of a tile towards a light take less time one by one than bringing them together does: what would not fill two
-/// packets.
+/// So few rays of a tile towards a light take less time one by one than bringing them together does: what
+/// would not fill two packets.
 const FEW_OF_TILE: u32 = 2 * PACKET as u32;
 
 /// The engine for tiles of rays, over an assembly and a hierarchy of its boxes.
@@ -48,10 +55,10 @@ pub struct Fast<'a> {
     assembly: &'a Assembly,
     boxes: &'a Bvh8,
     subs: &'a SubLattices,
-    /// How far apart two hits may seem that are one place.
+    /// How far two hits may seem to be from each other that are one place.
     slack: f64,
     level: Level,
-    /// Whether rays from the eye are asked in single precision.
+    /// Whether rays from the eye are traced in single precision.
     singles: bool,
 }
 
@@ -68,14 +75,15 @@ impl<'a> Fast<'a> {
         Self { level, ..self }
     }
 
-    /// The same engine that asks rays from the eye in single precision: what they meet first is off its place by up to
-    /// [`Real::COARSER`] times as much. Where these leave a doubt which of two things is met first, double precision is asked.
+    /// The same engine that traces rays from the eye in single precision: what they meet first is off its
+    /// place by up to [`Real::COARSER`] times as much. Where that leaves a doubt which of two things is met
+    /// first, double precision decides.
     #[must_use]
     pub fn in_singles(self, singles: bool) -> Self {
         Self { singles, ..self }
     }
 
-    /// How far apart two hits may seem that are one place, in numbers of this precision.
+    /// How far two hits may seem to be from each other that are one place, in this precision.
     fn slack_of<T: Real>(&self) -> f64 {
         self.slack * T::COARSER
     }
@@ -85,16 +93,17 @@ impl<'a> Fast<'a> {
         self.level
     }
 
-    /// Moves the starts of rays from the eye near to the world. Sets the way there, in two parts that are to be added to a
-    /// distance, the second first.
-    pub fn approach(&self, packet: &mut RayPacket, ways: &mut [Lanes; 2]) {
-        dispatch!(self.level, simd => approached(simd, packet, ways));
+    /// Moves the starts of rays from the eye near to the world. Sets the distance there, in two parts that
+    /// are to be added to that of a hit, the second first.
+    pub fn approach(&self, packet: &mut RayPacket, moved: &mut [Lanes; 2]) {
+        dispatch!(self.level, simd => approached(simd, packet, moved));
     }
 
-    /// The first hits of a tile of rays, by packets that are [closed](RayPacket::close), up to [`FRUSTA`]
-    /// of them; `departures` are the surfaces that the rays of each leave, none for rays from the eye. Those that are unsure,
-    /// and those that meet two objects in one place, are to be asked of [`Engine::first`] or [`Engine::next`] one by one.
-    /// Answers how many packets had so many objects between their rays that they were given up.
+    /// The first hits of a tile of rays, by packets that are [closed](RayPacket::close), up to [`FRUSTA`] of
+    /// them; `departures` are the surfaces that the rays of each leave, none for rays from the eye. Those
+    /// that are unsure, and those that meet two objects in one place, are left to [`Engine::first`] or
+    /// [`Engine::next`], one by one. Answers how many packets had so many objects between their rays that
+    /// they were given up.
     pub fn first_of(
         &self,
         packets: &[RayPacket],
@@ -102,17 +111,13 @@ impl<'a> Fast<'a> {
         nearest: &mut [PacketHits],
         memory: &mut TileMemory,
     ) -> usize {
-        self.first_of_sources::<f64>(
-            &mut PacketSources::Made { packets, departures },
-            (&mut [], nearest),
-            memory,
-        )
-        .1
+        let sources = &mut PacketSources::Made { packets, departures };
+        self.first_of_sources::<f64>(sources, &mut TracedPackets { own: &mut [], nearest }, memory).given_up
     }
 
-    /// The first hits of the rays from the eye through a tile, as [`Fast::first_of`] finds them. `packets` and `nearest` have
-    /// as many as the tile has blocks. The rays of a block are made, by `make`, where anything may lie in their way; the
-    /// answer has a bit for each block whose are. Of the others nothing is to be read.
+    /// The first hits of the rays from the eye through a tile, as [`Fast::first_of`] finds them. `packets`
+    /// and `nearest` have as many as the tile has blocks. The rays of a block are made, by `make`, where they
+    /// may meet anything; the answer has a bit for each block whose are. Of the others nothing is to be read.
     pub fn first_seen(
         &self,
         sight: &TileCamera,
@@ -123,13 +128,15 @@ impl<'a> Fast<'a> {
     ) -> u16 {
         let sources = &mut PacketSources::PrimaryHit { sight, packets, make };
         if !self.singles {
-            return self.first_of_sources::<f64>(sources, (&mut [], nearest), memory).0;
+            let traced = &mut TracedPackets { own: &mut [], nearest };
+            return self.first_of_sources::<f64>(sources, traced, memory).touched;
         }
         let (mut own, mut met) =
             (std::mem::take(&mut memory.singles.rays), std::mem::take(&mut memory.singles.nearest));
         own.resize(nearest.len(), RayPacket::EMPTY);
         met.resize(nearest.len(), PacketHits::NOTHING);
-        let touched = self.first_of_sources::<f32>(sources, (&mut own, &mut met), memory).0;
+        let traced = &mut TracedPackets { own: &mut own, nearest: &mut met };
+        let touched = self.first_of_sources::<f32>(sources, traced, memory).touched;
         dispatch!(self.level, simd => for (k, found) in nearest.iter_mut().enumerate() {
             found.forget_rays();
             if touched >> k & 1 == 1 {
@@ -143,25 +150,26 @@ impl<'a> Fast<'a> {
         touched
     }
 
-    fn first_of_sources<T: Asks>(
+    fn first_of_sources<T: Precision>(
         &self,
         sources: &mut PacketSources,
-        (own, nearest): (&mut [RayPacket<T>], &mut [PacketHits<T>]),
+        traced: &mut TracedPackets<T>,
         memory: &mut TileMemory,
-    ) -> (u16, usize) {
+    ) -> TracedTile {
         dispatch!(self.level, simd => {
-            let (touched, given_up) = self.first_of_tile(simd, sources, (own, nearest), memory);
-            for (k, found) in nearest.iter_mut().enumerate().filter(|(k, _)| touched >> k & 1 == 1) {
+            let tile = self.first_of_tile(simd, sources, traced, memory);
+            let nearest = traced.nearest.iter_mut().enumerate();
+            for (k, found) in nearest.filter(|(k, _)| tile.touched >> k & 1 == 1) {
                 found.doubt(simd, self.slack_of::<T>());
-                found.unsure &= sources.get(k).rays.live & !found.apart;
+                found.unsure &= sources.get(k).rays.live & !found.incoherent;
             }
-            (touched, given_up)
+            tile
         })
     }
 
-    /// Which rays towards one light are blocked, and what glass leaves of the light of the others. Those that are unsure are
-    /// to be asked of [`Engine::blocked`] one by one. Answers whether most shadow packets had so many objects between their rays that
-    /// they were given up.
+    /// Which rays towards one light are blocked, and what glass leaves of the light of the others. Those that
+    /// are unsure are left to [`Engine::blocked`], one by one. Answers whether most shadow packets had so
+    /// many objects between their rays that they were given up.
     pub fn blocked_of(
         &self,
         shadow_packets: &mut [ShadowPacket],
@@ -171,64 +179,64 @@ impl<'a> Fast<'a> {
     ) -> bool {
         let rays: u32 = shadow_packets.iter().map(|shadow_packet| shadow_packet.rays.live.count_ones()).sum();
         if rays < FEW_OF_TILE {
-            self.blocked_alone(shadow_packets, departures, lamp, memory);
+            self.blocked_of_incoherent(shadow_packets, departures, lamp, memory);
             return false;
         }
         let mut reordering = std::mem::take(&mut memory.reordering);
         let helps = dispatch!(self.level, simd => reordering.would_help(simd, shadow_packets, lamp.at));
-        let apart = if helps {
+        let incoherent = if helps {
             dispatch!(self.level, simd => reordering.gather(simd, shadow_packets, departures));
             let (new, leave) = reordering.shadow_packets();
-            let apart = self.blocked_in_reordering(new, leave, lamp, memory);
+            let incoherent = self.blocked_in_order(new, leave, lamp, memory);
             reordering.scatter(shadow_packets);
-            apart
+            incoherent
         } else {
-            self.blocked_in_reordering(shadow_packets, departures, lamp, memory)
+            self.blocked_in_order(shadow_packets, departures, lamp, memory)
         };
         memory.reordering = reordering;
-        apart
+        incoherent
     }
 
-    fn blocked_in_reordering(
+    fn blocked_in_order(
         &self,
         shadow_packets: &mut [ShadowPacket],
         departures: &[Departures],
         lamp: &ShadowQuery,
         memory: &mut TileMemory,
     ) -> bool {
-        let mut apart = false;
+        let mut incoherent = false;
         for (shadow_packets, departures) in shadow_packets.chunks_mut(FRUSTA).zip(departures.chunks(FRUSTA)) {
-            if apart {
+            if incoherent {
                 shadow_packets.iter_mut().for_each(ShadowPacket::give_up);
                 continue;
             }
-            let asking = shadow_packets.iter().filter(|shadow_packet| shadow_packet.rays.live != 0).count();
+            let live = shadow_packets.iter().filter(|shadow_packet| shadow_packet.rays.live != 0).count();
             let given_up = dispatch!(self.level, simd => self.blocked_of_tile(simd, shadow_packets, departures, lamp, memory));
-            apart = 2 * given_up > asking;
+            incoherent = 2 * given_up > live;
         }
-        self.blocked_apart(shadow_packets, departures, lamp, memory);
-        apart
+        self.stream_blocked(shadow_packets, departures, lamp, memory);
+        incoherent
     }
 }
 
 #[inline(always)]
-fn approached<S: Simd>(simd: S, packet: &mut RayPacket, ways: &mut [Lanes; 2]) {
+fn approached<S: Simd>(simd: S, packet: &mut RayPacket, moved: &mut [Lanes; 2]) {
     for row in 0..ROWS {
         let (near, [far, left]) = all_moved_nearer(&packet.load(simd, row));
         packet.o.store(row, near.o);
-        ways[0].store(row, far);
-        ways[1].store(row, left);
+        moved[0].store(row, far);
+        moved[1].store(row, left);
     }
 }
 
 impl Engine for Fast<'_> {
-    type Memory = Memory;
+    type Memory = RayMemory;
 
-    fn memory(&self) -> Memory {
+    fn memory(&self) -> RayMemory {
         self.exact.memory()
     }
 
-    fn first(&self, ray: &Ray, memory: &mut Memory, meter: &mut Meter<impl Probe>) -> Option<Hit> {
+    fn first(&self, ray: &Ray, memory: &mut RayMemory, meter: &mut Meter<impl Probe>) -> Option<Hit> {
         self.exact.first(ray, memory, meter)
     }
 
@@ -236,13 +244,13 @@ impl Engine for Fast<'_> {
         &self,
         ray: &Ray,
         departure: Departure,
-        memory: &mut Memory,
+        memory: &mut RayMemory,
         meter: &mut Meter<impl Probe>,
     ) -> Option<Hit> {
         self.exact.next(ray, departure, memory, meter)
     }
 
-    fn together<'m>(&self, memory: &'m Memory) -> &'m [(u32, Crossing)] {
+    fn together<'m>(&self, memory: &'m RayMemory) -> &'m [(u32, Crossing)] {
         self.exact.together(memory)
     }
 
@@ -251,7 +259,7 @@ impl Engine for Fast<'_> {
         ray: &Ray,
         departure: Departure,
         distance: f64,
-        memory: &mut Memory,
+        memory: &mut RayMemory,
         meter: &mut Meter<impl Probe>,
         visit: &mut dyn FnMut(u32, &Crossing) -> bool,
     ) -> bool {
@@ -264,7 +272,7 @@ impl Engine for Fast<'_> {
         ray: &Ray,
         departure: Departure,
         distance: f64,
-        memory: &mut Memory,
+        memory: &mut RayMemory,
         meter: &mut Meter<impl Probe>,
     ) -> Option<Crossing> {
         self.exact.of_object(object, ray, departure, distance, memory, meter)

@@ -1,7 +1,8 @@
-//! The rays of a packet in single precision: which of them certainly miss a ball, a box or a bar, sixteen at a time.
+//! The rays of a packet in single precision: which of them certainly miss a ball, a box or a bar, sixteen at
+//! a time.
 //!
-//! Most rays of a packet that are asked about a small solid miss it. They are told apart by numbers of 24 bits, with a
-//! bound on what these lose, and only the others are computed in full.
+//! Most rays of a packet that are tested against a small solid miss it. Single precision sorts these out,
+//! with a bound on what it loses, and only the others are intersected in the precision of the packet.
 
 use fearless_simd::{Select, Simd, SimdBase, SimdMask, f32x16};
 
@@ -9,45 +10,46 @@ use crate::lattice::{BoundingSphere, ROOM};
 use crate::math::{DVec3, PACKET, RayPacket};
 use crate::solid::Bar;
 
-use super::walk::wide;
-
 /// Rays in a register.
 const WIDTH: usize = 16;
 
 /// Registers of rays in a packet.
-const THIN_ROWS: usize = PACKET / WIDTH;
+const CULLER_ROWS: usize = PACKET / WIDTH;
 
 /// Half an ulp of a number near 1.
 const HALF_ULP: f64 = 1.0 / 16_777_216.0;
 
-/// What may be lost of the distance between a ray and a point, as a share of the way from the packet's first ray to
-/// that point and of how far the packet's rays start from each other: the start and the point are rounded (2 units of
-/// 2⁻²⁴), their difference (1), the dot product and its share of the direction (each three products, two sums and a
-/// rounded direction: 2 · 6), the product and the sum that move the start (2), and the square (4) and its root (half of
-/// that): 24, rounded up to 32.
+/// What may be lost of the distance between a ray and a point, as a share of the distance from the packet's
+/// first ray to that point and of how far the packet's rays start from each other: the start and the point
+/// are rounded (2 units of 2⁻²⁴), their difference (1), the dot product and its share of the direction (each
+/// three products, two sums and a rounded direction: 2 · 6), the product and the sum that move the start (2),
+/// and the square (4) and its root (half of that): 24, rounded up to 32.
 const LOST: f64 = 32.0 * HALF_ULP;
 
-/// What may be lost of a ray's way to a side of a box, where it is taken for the place of that side: of as much as a box
-/// and a start can be apart, and the box's size, on one axis (2 + 2 and [`WITHIN`]), the start, the middle of the box and
-/// half its size are rounded (3), the difference of the first two (1), the direction, its inverse and the products with it
-/// (2 · 3), and the sum of the products (1): 11, rounded up to 16.
+/// What may be lost of a ray's distance to a side of a box, where it is taken for the place of that side: of
+/// as much as a box and a start can lie from each other, and the box's size, on one axis (2 + 2 and
+/// [`WITHIN`]), the start, the middle of the box and half its size are rounded (3), the difference of the
+/// first two (1), the direction, its inverse and the products with it (2 · 3), and the sum of the products
+/// (1): 11, rounded up to 16.
 const LOST_OF_SIDE: f64 = 16.0 * HALF_ULP * (4.0 + WITHIN as f64);
 
-/// What may be lost of the product of two lines, in the same share: of the ray's moment, whose start and direction are
-/// rounded (2), the products and their difference (2); of the bar's direction (1), the product of both (1) and three sums
-/// (3): 9, and of the other half, with a moment that is rounded, less. Rounded up to 16.
+/// What may be lost of the product of two lines, in the same share: of the ray's moment, whose start and
+/// direction are rounded (2), the products and their difference (2); of the bar's direction (1), the product
+/// of both (1) and three sums (3): 9, and of the other half, with a moment that is rounded, less. Rounded up
+/// to 16.
 const LOST_OF_PRODUCT: f64 = 16.0 * HALF_ULP;
 
-/// What may be lost of the square of the sine of the angle between two directions: both are rounded (2), each product of
-/// the cosine and its sums are (3), its square doubles that and is rounded (11), and the difference (1): 12, rounded up
-/// to 16.
+/// What may be lost of the square of the sine of the angle between two directions: both are rounded (2), each
+/// product of the cosine and its sums are (3), its square doubles that and is rounded (11), and the
+/// difference (1): 12, rounded up to 16.
 const LOST_OF_SINE: f64 = 16.0 * HALF_ULP;
 
-/// On its whole way through the world, which is no longer than 2⁴, a ray that is slower than this along an axis does
-/// not move by what is lost of the place of any box: 2⁻²⁰ of a size that is more than rounding of f64 is.
+/// On its whole path through the world, which is no longer than 2⁴, a ray that is slower than this along an
+/// axis does not move by what is lost of the place of any box: 2⁻²⁰ of a size that is more than rounding of
+/// f64 is.
 const STILL: f32 = 1.0 / (1_u128 << 100) as f32;
 
-/// Rays within the world start within this; what starts elsewhere, or nowhere, is asked in full.
+/// Rays within the world start within this; what starts elsewhere, or nowhere, is never culled.
 const WITHIN: f32 = 8.0;
 
 /// Rays of a packet, seen from the start of its first.
@@ -61,14 +63,15 @@ pub struct PacketCuller {
     /// The inverse of the direction, and the moment `o × d`.
     inverse: [[f32; PACKET]; 3],
     moment: [[f32; PACKET]; 3],
-    /// How far each looks.
+    /// What lies farther along each does not matter.
     limit: [f32; PACKET],
     base: DVec3,
     /// How far the others start from there at most, added up over the axes.
     extent: f64,
-    /// The rays that are to be asked in full, whatever they are asked about.
+    /// The rays that are never culled.
     odd: u64,
-    /// Whether these are the rays of a packet, not yet forgotten; and whether what balls, boxes and bars ask for is known.
+    /// Whether these are the rays of a packet, not yet forgotten; and whether what tests against balls, boxes
+    /// and bars need is set.
     known: bool,
     points_known: bool,
     lines_known: bool,
@@ -119,7 +122,7 @@ impl PacketCuller {
         self.known = false;
     }
 
-    /// The rays of a closed packet, which look as far as they can.
+    /// Takes the rays of a closed packet, with no limit.
     #[inline(always)]
     pub fn set(&mut self, packet: &RayPacket) {
         self.known = true;
@@ -132,7 +135,7 @@ impl PacketCuller {
         }
     }
 
-    /// Makes the same rays known for what only balls and bars ask for.
+    /// Sets what tests against balls and bars need of the same rays.
     #[inline(always)]
     pub fn set_points<S: Simd>(&mut self, simd: S, packet: &RayPacket) {
         if std::mem::replace(&mut self.points_known, true) {
@@ -146,7 +149,7 @@ impl PacketCuller {
                 self.o[axis][lane] = (packet.o[axis].0[lane] - base) as f32;
             }
             let mut most = f32x16::splat(simd, 0.0);
-            for row in 0..THIN_ROWS {
+            for row in 0..CULLER_ROWS {
                 let o = row_of(simd, &self.o[axis], row).abs();
                 most = o.simd_gt(most).select(o, most);
             }
@@ -154,16 +157,16 @@ impl PacketCuller {
         }
     }
 
-    /// The rays look no farther than this, and what is lost of it.
+    /// Sets for each lane how far away what the ray meets may be to matter, and what is lost of that.
     #[inline(always)]
-    pub fn look(&mut self, limit: impl Fn(usize) -> f64) {
+    pub fn limit(&mut self, limit: impl Fn(usize) -> f64) {
         for lane in 0..PACKET {
             // Rounded twice, by half an ulp.
             self.limit[lane] = limit(lane) as f32 * (1.0 + 2.0 * f32::EPSILON);
         }
     }
 
-    /// Makes the same rays known for what only boxes ask for.
+    /// Sets what tests against boxes need of the same rays.
     #[inline(always)]
     pub fn set_lines<S: Simd>(&mut self, simd: S, packet: &RayPacket) {
         if std::mem::replace(&mut self.lines_known, true) {
@@ -177,7 +180,7 @@ impl PacketCuller {
         }
         let (one, still) = (f32x16::splat(simd, 1.0), f32x16::splat(simd, STILL));
         let within = f32x16::splat(simd, WITHIN);
-        for row in 0..THIN_ROWS {
+        for row in 0..CULLER_ROWS {
             for axis in 0..3 {
                 let (start, d) = (row_of(simd, &self.start[axis], row), row_of(simd, &self.d[axis], row));
                 let plain = start.abs().simd_lt(within) & d.abs().simd_lt(within);
@@ -188,14 +191,14 @@ impl PacketCuller {
         }
     }
 
-    /// Makes the same rays, which are known to balls and boxes, known for what only bars ask for.
+    /// Sets what only tests against bars need of the same rays; those for balls and boxes are set.
     #[inline(always)]
     fn set_moments<S: Simd>(&mut self, simd: S, packet: &RayPacket) {
         if std::mem::replace(&mut self.moments_known, true) {
             return;
         }
         self.set_points(simd, packet);
-        for row in 0..THIN_ROWS {
+        for row in 0..CULLER_ROWS {
             let [o, d] = [
                 [row_of(simd, &self.o[0], row), row_of(simd, &self.o[1], row), row_of(simd, &self.o[2], row)],
                 [row_of(simd, &self.d[0], row), row_of(simd, &self.d[1], row), row_of(simd, &self.d[2], row)],
@@ -208,9 +211,9 @@ impl PacketCuller {
         }
     }
 
-    /// Which of some rays may meet a ball between the two of `round`, ahead of their starts and no farther than they look: all
-    /// others do not. And which certainly go into it ahead of their starts, and before the end of what they look at. The rays are
-    /// [known](Self::set_points) as points.
+    /// Which of some rays may meet a ball between the two of `round`, ahead of their starts and within their
+    /// limits: all others do not. And which certainly go into it ahead of their starts, and within their
+    /// limits. The rays are [set](Self::set_points) as points.
     #[inline(always)]
     pub fn ball<S: Simd>(&self, simd: S, round: &BoundingSphere, slack: f64, wanted: u64) -> (u64, u64) {
         let from_base = wide(round.center) - self.base;
@@ -219,13 +222,14 @@ impl PacketCuller {
         // The radius itself, and its square, are rounded.
         let limit = f32x16::splat(simd, (outer * outer) as f32 * (1.0 + 4.0 * f32::EPSILON));
         let deep = f32x16::splat(simd, (inner.max(0.0) * inner.max(0.0)) as f32 * (1.0 - 4.0 * f32::EPSILON));
-        // How far the ends of a chord, as they are computed, may lie from its middle, as that is computed here.
+        // How far the ends of a chord, as they are computed, may lie from its middle, as that is computed
+        // here.
         let reach = f32x16::splat(simd, (outer + lost + ROOM) as f32 * (1.0 + 4.0 * f32::EPSILON));
         let early = f32x16::splat(simd, (lost + ROOM + slack) as f32 * (1.0 + 4.0 * f32::EPSILON));
         let shorter = f32x16::splat(simd, 1.0 - 8.0 * f32::EPSILON);
         let [cx, cy, cz] = splats(simd, from_base);
         let (mut near, mut inside) = (0, 0);
-        for row in 0..THIN_ROWS {
+        for row in 0..CULLER_ROWS {
             if (wanted >> (row * WIDTH)) as u16 == 0 {
                 continue;
             }
@@ -248,12 +252,12 @@ impl PacketCuller {
         (near & wanted, inside & wanted)
     }
 
-    /// Those of some rays that may pass a box, ahead of their starts and no farther than they look; all others do not. As for
-    /// all that follows, the rays are [known](Self::set_lines) as lines too.
+    /// Those of some rays that may pass a box, ahead of their starts and within their limits; all others do
+    /// not. As for all that follows, the rays are [set](Self::set_lines) as lines too.
     #[inline(always)]
     pub fn passing<S: Simd>(&self, simd: S, slabs: &Slabs<S>, wanted: u64) -> u64 {
         let mut rays = 0;
-        for row in 0..THIN_ROWS {
+        for row in 0..CULLER_ROWS {
             if (wanted >> (row * WIDTH)) as u16 != 0 {
                 let (near, end) = self.through(simd, slabs, row);
                 rays |= (!near.simd_gt(end)).to_bitmask() << (row * WIDTH);
@@ -262,14 +266,14 @@ impl PacketCuller {
         (rays | self.odd) & wanted
     }
 
-    /// Between which distances some rays pass a box, all of them, as far as they look.
+    /// Between which distances some rays pass a box, all of them, within their limits.
     #[inline(always)]
-    pub fn reach<S: Simd>(&self, simd: S, slabs: &Slabs<S>, passing: u64) -> (f64, f64) {
+    pub fn range<S: Simd>(&self, simd: S, slabs: &Slabs<S>, passing: u64) -> (f64, f64) {
         if self.odd & passing != 0 {
             return (0.0, f64::INFINITY);
         }
         let (mut from, mut to) = (f32x16::splat(simd, f32::INFINITY), f32x16::splat(simd, 0.0));
-        for row in 0..THIN_ROWS {
+        for row in 0..CULLER_ROWS {
             let (near, end) = self.through(simd, slabs, row);
             let beside = near.simd_gt(end);
             (from, to) = (from.min(beside.select(from, near)), to.max(beside.select(to, end)));
@@ -277,8 +281,8 @@ impl PacketCuller {
         (f64::from(from.reduce_min()), f64::from(to.reduce_max()))
     }
 
-    /// Where the rays of a row come into a box, and where they leave it or look no farther: those that miss it the other
-    /// way round. Of rays that are odd that means nothing.
+    /// Where the rays of a row enter a box, and where they leave it or reach their limits: the second before
+    /// the first where they miss it. Of rays that are odd that means nothing.
     #[inline(always)]
     fn through<S: Simd>(
         &self,
@@ -290,14 +294,14 @@ impl PacketCuller {
         for axis in 0..3 {
             let inverse = row_of(simd, &self.inverse[axis], row);
             let t = (middle[axis] - row_of(simd, &self.start[axis], row)) * inverse;
-            let way = half[axis] * inverse.abs();
-            (near, end) = (near.max(t - way), end.min(t + way));
+            let half = half[axis] * inverse.abs();
+            (near, end) = (near.max(t - half), end.min(t + half));
         }
         (near, end)
     }
 
-    /// Those of some rays whose lines may come within a bar's radius of its axis, be it as long as it will; all others do
-    /// not.
+    /// Those of some rays whose lines may come within a bar's radius of its axis, be it as long as it will;
+    /// all others do not.
     #[inline(always)]
     pub fn beside<S: Simd>(
         &mut self,
@@ -309,7 +313,8 @@ impl PacketCuller {
     ) -> u64 {
         self.set_moments(simd, packet);
         let (from_base, along, radius) = (bar.middle - self.base, bar.along, bar.radius + slack);
-        // The product of two lines, by their moments, is their distance times the sine of the angle between them.
+        // The product of two lines, by their moments, is their distance times the sine of the angle between
+        // them.
         let moment = along.cross(from_base);
         let lost = LOST_OF_PRODUCT * (from_base.abs().element_sum() + self.extent);
         let square = radius * radius;
@@ -319,7 +324,7 @@ impl PacketCuller {
             (f32x16::splat(simd, square as f32 * up), f32x16::splat(simd, least as f32 * up));
         let ([ax, ay, az], [mx, my, mz]) = (splats(simd, along), splats(simd, moment));
         let mut rays = 0;
-        for row in 0..THIN_ROWS {
+        for row in 0..CULLER_ROWS {
             if (wanted >> (row * WIDTH)) as u16 == 0 {
                 continue;
             }
@@ -350,143 +355,11 @@ fn row_of<S: Simd>(simd: S, numbers: &[f32; PACKET], row: usize) -> f32x16<S> {
     f32x16::from_slice(simd, &numbers[row * WIDTH..][..WIDTH])
 }
 
-#[cfg(test)]
-mod tests {
-    use fearless_simd::{Level, dispatch};
-    use proptest::prelude::*;
-
-    use super::*;
-    use crate::math::Ray;
-
-    fn point() -> impl Strategy<Value = DVec3> {
-        // BoundingSphere numbers make rays along axes, and along the sides of boxes.
-        let coordinate = || prop_oneof![-2.0..2.0_f64, (-4..=4_i8).prop_map(|i| f64::from(i) / 2.0)];
-        (coordinate(), coordinate(), coordinate()).prop_map(|(x, y, z)| DVec3::new(x, y, z))
-    }
-
-    proptest! {
-        #[test]
-        fn whoever_goes_through_a_point_of_a_solid_is_asked(
-            starts in prop::collection::vec((point(), point(), point(), 0..4_usize), PACKET),
-            (a, b) in (point(), point()),
-            radius in 1e-6..0.1_f64,
-        ) {
-            let (lo, hi) = (a.min(b), a.max(b));
-            let (middle, along) = (0.5 * a + 0.5 * b, (b - a).normalize_or_zero());
-            let mut packet = RayPacket::EMPTY;
-            let mut expected = [0_u64; 3];
-            for (lane, &(o, to, free, kind)) in starts.iter().enumerate() {
-                let share = (to + 2.0) / 4.0;
-                // To a point of the box, of the bar and of the ball; or anywhere.
-                let target = match kind {
-                    0 => lo + (hi - lo) * share,
-                    1 => a + (b - a) * share.x + (free.cross(along)).normalize_or_zero() * (radius * share.y),
-                    2 => middle + free.normalize_or_zero() * (radius * share.y),
-                    _ => to,
-                };
-                packet.set(lane, &Ray::new(o, (target - o).normalize_or(DVec3::X)));
-                if kind < 3 && target != o {
-                    expected[kind] |= 1 << lane;
-                }
-            }
-            let bar = Bar { middle, along, radius };
-            // As a box tells of a ball: its numbers are rounded.
-            let round = BoundingSphere {
-                center: [middle.x as f32, middle.y as f32, middle.z as f32],
-                outer: (radius + ROOM) as f32,
-                inner: (radius - 2.0 * ROOM) as f32,
-            };
-            for level in [Level::new(), Level::baseline()] {
-                let mut thin = PacketCuller::EMPTY;
-                let (asked, inside) = dispatch!(level, simd => {
-                    thin.set(&packet);
-                    thin.set_points(simd, &packet);
-                    thin.set_lines(simd, &packet);
-                    let slabs = Slabs::around(simd, lo, hi, 0.0);
-                    let all = u64::MAX;
-                    let (near, inside) = thin.ball(simd, &round, 0.0, all);
-                    ([thin.passing(simd, &slabs, all), thin.beside(simd, &packet, &bar, 0.0, all), near], inside)
-                });
-                for lane in crate::math::lanes(inside) {
-                    let Ray { o, d } = packet.ray(lane);
-                    let to_middle = middle - o;
-                    let t = to_middle.dot(d);
-                    let depth = radius * radius - (to_middle - t * d).length_squared();
-                    prop_assert!(depth > 0.0 && t > depth.sqrt());
-                }
-                for (expected, asked) in expected.into_iter().zip(asked) {
-                    prop_assert_eq!(expected & !asked, 0);
-                }
-                let (from, to) = dispatch!(level, simd => {
-                    thin.reach(simd, &Slabs::around(simd, lo, hi, 0.0), u64::MAX)
-                });
-                for (lane, &(o, share, ..)) in starts.iter().enumerate() {
-                    if expected[0] >> lane & 1 == 1 {
-                        let t = (lo + (hi - lo) * ((share + 2.0) / 4.0)).distance(o);
-                        prop_assert!(from <= t && t <= to, "{} {} {}", from, t, to);
-                    }
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn a_ball_is_known_to_be_met_and_to_be_missed_but_for_its_rim() {
-        let mut packet = RayPacket::EMPTY;
-        for lane in 0..PACKET {
-            let aim = DVec3::new((lane % 8) as f64 / 8.0, (lane / 8) as f64 / 8.0, 0.0);
-            packet.set(
-                lane,
-                &Ray::new(DVec3::new(0.4, 0.4, -1.0), (aim - DVec3::new(0.4, 0.4, -1.0)).normalize()),
-            );
-        }
-        let round = BoundingSphere { center: [0.5, 0.5, 0.0], outer: 0.3, inner: 0.3 - 4.0 * ROOM as f32 };
-        let mut thin = PacketCuller::EMPTY;
-        let mut asked = |limit: f64| {
-            dispatch!(Level::new(), simd => {
-                thin.set(&packet);
-                    thin.set_points(simd, &packet);
-                thin.look(|_| limit);
-                thin.ball(simd, &round, 0.0, u64::MAX)
-            })
-        };
-        let (near, inside) = asked(9.0);
-        assert_eq!(near, inside);
-        assert!((8..40).contains(&near.count_ones()));
-        // Nearer than where any ray goes in, and between there and the middle.
-        assert_eq!(asked(0.6), (0, 0));
-        assert_eq!(asked(0.9), (near, 0));
-    }
-
-    #[test]
-    fn most_rays_miss_what_is_small_or_lies_behind_what_they_met() {
-        let mut packet = RayPacket::EMPTY;
-        for lane in 0..PACKET {
-            let aim = DVec3::new((lane % 8) as f64 / 8.0, (lane / 8) as f64 / 8.0, 1.0);
-            packet.set(lane, &Ray::new(DVec3::new(0.4, 0.4, -1.0), (aim - DVec3::Z).normalize_or(DVec3::Z)));
-        }
-        let (lo, hi) = (DVec3::new(0.6, 0.4, -1.1), DVec3::new(0.7, 0.5, -0.9));
-        let mut thin = PacketCuller::EMPTY;
-        let mut asked = |limit: f64| {
-            dispatch!(Level::new(), simd => {
-                thin.set(&packet);
-                    thin.set_points(simd, &packet);
-                thin.set_lines(simd, &packet);
-                thin.look(|_| limit);
-                thin.passing(simd, &Slabs::around(simd, lo, hi, 0.0), u64::MAX).count_ones()
-            })
-        };
-        assert!((1..32).contains(&asked(f64::INFINITY)));
-        assert_eq!(asked(0.19), 0);
-        // What is no number is asked in full.
-        packet.d[0].0[5] = f64::NAN;
-        let mut thin = PacketCuller::EMPTY;
-        let asked = dispatch!(Level::new(), simd => {
-            thin.set(&packet);
-                    thin.set_points(simd, &packet);
-            thin.set_lines(simd, &packet);
-            thin.passing(simd, &Slabs::around(simd, lo, hi, 0.0), u64::MAX)
-        });
-        assert_eq!(asked >> 5 & 1, 1);
-    }
+/// A corner of a box in double precision.
+#[inline(always)]
+pub fn wide([x, y, z]: [f32; 3]) -> DVec3 {
+    DVec3::new(f64::from(x), f64::from(y), f64::from(z))
 }
+
+#[cfg(test)]
+mod tests;

@@ -2,36 +2,36 @@
 
 use fearless_simd::Simd;
 
-use crate::math::{Lanes, Mask, Number, RayPacket, Real, RealMask, SimdRegister};
+use crate::math::{Lanes, Mask, Number, RayPacket, Real, RealIds, RealMask, SimdIds, SimdRegister};
 use crate::solid::Crossing;
 
-use super::super::Hit;
+use super::super::hit::Hit;
 
-/// How many of their errors two hits may seem apart that are one place: as [`slack`](crate::lattice::slack) is so many times what
-/// solids may be off.
+/// How many of their errors may lie between two hits that are one place: as [`slack`](crate::lattice::slack)
+/// is so many times what solids may be off.
 const FLUSH: f64 = 4.0;
 
 /// What each ray of a packet met first.
 #[derive(Clone, Debug)]
 pub struct PacketHits<T = f64> {
-    /// Where; infinite where nothing was met.
+    /// The distance; infinite where nothing was met.
     pub t: Lanes<T>,
     /// How far that may be off.
     pub error: Lanes<T>,
-    /// Where it met what comes next, another object's surface; of numbers that do not decide, where that is at least.
+    /// The distance of the next object's surface; in a precision that does not decide, a lower bound of it.
     pub second: Lanes<T>,
     /// The object, by its index in the assembly.
-    pub object: Lanes<T>,
+    pub object: Lanes<u32>,
     /// The primitive, by its index in the assembly.
-    pub primitive: Lanes<T>,
+    pub primitive: Lanes<u32>,
     /// The face of the primitive.
-    pub surface: Lanes<T>,
+    pub surface: Lanes<u32>,
     /// Which rays go into the object there, a bit for each.
     pub entering: u64,
-    /// Which rays are to be asked one by one.
+    /// Which rays are left to the exact engine, a bit for each.
     pub unsure: u64,
-    /// Which rays have no reordering, and are to be asked in a stream.
-    pub apart: u64,
+    /// Which rays are incoherent, and left to a stream.
+    pub incoherent: u64,
 }
 
 impl<T: Real> Default for PacketHits<T> {
@@ -47,15 +47,15 @@ impl<T: Real> PacketHits<T> {
         t: Lanes::filled(T::INFINITY),
         error: Lanes::filled(T::ZERO),
         second: Lanes::filled(T::INFINITY),
-        object: Lanes::filled(T::ZERO),
-        primitive: Lanes::filled(T::ZERO),
-        surface: Lanes::filled(T::ZERO),
+        object: Lanes::filled(0),
+        primitive: Lanes::filled(0),
+        surface: Lanes::filled(0),
         entering: 0,
         unsure: 0,
-        apart: 0,
+        incoherent: 0,
     };
 
-    /// Forgets all.
+    /// Marks every ray as meeting nothing.
     #[inline(always)]
     pub fn clear(&mut self) {
         self.t = Lanes::filled(T::INFINITY);
@@ -63,22 +63,22 @@ impl<T: Real> PacketHits<T> {
         self.forget_rays();
     }
 
-    /// Forgets which rays met anything in which way; where is left over.
+    /// Forgets which rays enter an object, and which are left to others; keeps the hits.
     #[inline]
     pub(super) fn forget_rays(&mut self) {
-        (self.entering, self.unsure, self.apart) = (0, 0, 0);
+        (self.entering, self.unsure, self.incoherent) = (0, 0, 0);
     }
 }
 
 impl PacketHits {
-    /// Forgets what one ray met.
+    /// Marks one ray as meeting nothing.
     #[inline]
     pub(super) fn forget(&mut self, lane: usize) {
         (self.t.0[lane], self.second.0[lane]) = (f64::INFINITY, f64::INFINITY);
         self.unsure &= !(1 << lane);
     }
 
-    /// A crossing of one ray with an object.
+    /// Takes a crossing of one ray with an object, if nothing nearer was met.
     #[inline]
     pub(super) fn offer_one(&mut self, lane: usize, object: u32, crossing: &Crossing) {
         let best = self.t.0[lane];
@@ -86,9 +86,9 @@ impl PacketHits {
         if crossing.t < best {
             self.t.0[lane] = crossing.t;
             self.error.0[lane] = crossing.error;
-            self.object.0[lane] = f64::from(object);
-            self.primitive.0[lane] = f64::from(crossing.primitive);
-            self.surface.0[lane] = f64::from(crossing.surface);
+            self.object.0[lane] = object;
+            self.primitive.0[lane] = crossing.primitive;
+            self.surface.0[lane] = crossing.surface;
             self.entering = self.entering & !(1 << lane) | u64::from(crossing.entering) << lane;
         }
     }
@@ -101,26 +101,26 @@ impl PacketHits {
         };
         self.t.0[lane] = hit.t;
         self.error.0[lane] = hit.error;
-        self.object.0[lane] = f64::from(hit.object);
-        self.primitive.0[lane] = f64::from(hit.primitive);
-        self.surface.0[lane] = f64::from(hit.surface);
+        self.object.0[lane] = hit.object;
+        self.primitive.0[lane] = hit.primitive;
+        self.surface.0[lane] = hit.surface;
         self.entering = self.entering & !(1 << lane) | u64::from(hit.entering) << lane;
     }
 
-    /// Sets what all met to the nearest of others' numbers.
+    /// Copies what all met, rounded to the nearest number of this precision.
     #[inline(always)]
     pub(super) fn set_nearest<T: Real>(&mut self, other: &PacketHits<T>) {
         self.t.set_nearest(&other.t);
         self.error.set_nearest(&other.error);
-        self.object.set_nearest(&other.object);
-        self.primitive.set_nearest(&other.primitive);
-        self.surface.set_nearest(&other.surface);
-        (self.entering, self.unsure, self.apart) = (other.entering, other.unsure, other.apart);
+        self.object = other.object;
+        self.primitive = other.primitive;
+        self.surface = other.surface;
+        (self.entering, self.unsure, self.incoherent) = (other.entering, other.unsure, other.incoherent);
     }
 }
 
 impl<T: Real> PacketHits<T> {
-    /// Crossings of some rays of a row with an object.
+    /// Takes crossings of some rays of a row with an object, where nothing nearer was met.
     #[inline(always)]
     pub fn offer<S: Simd>(&mut self, simd: S, row: usize, met: &HitCandidate<T, S>) {
         let (best, second) = (self.t.load(simd, row), self.second.load(simd, row));
@@ -137,15 +137,16 @@ impl<T: Real> PacketHits<T> {
         }
         self.t.put(simd, row, nearer, t);
         self.error.put(simd, row, nearer, met.error);
-        self.object.put(simd, row, nearer, T::all(simd, f64::from(met.object)));
-        self.primitive.put(simd, row, nearer, met.primitive);
-        self.surface.put(simd, row, nearer, met.surface);
-        let (nearer, entering) = (T::bits_of(simd, nearer, row), T::bits_of(simd, met.entering, row));
-        self.entering = self.entering & !nearer | entering & nearer;
+        let bits = T::bits_of(simd, nearer, row);
+        self.object.put_ids::<T, S>(simd, row, bits, RealIds::<T, S>::all(simd, met.object));
+        self.primitive.put_ids::<T, S>(simd, row, bits, met.primitive);
+        self.surface.put_ids::<T, S>(simd, row, bits, met.surface);
+        self.entering = self.entering & !bits | T::bits_of(simd, met.entering, row) & bits;
     }
 
-    /// Up to where something may be in one place with what the rays of a row met first. In double precision that is said by how far
-    /// solids may be off; in single also by the slope at which it was met, as what is flush with it is.
+    /// Up to where something may be in one place with what the rays of a row met first. In double precision
+    /// that is said by how far solids may be off; in single also by the slope at which it was met, as what is
+    /// flush with it is.
     #[inline(always)]
     fn reach<S: Simd>(&self, simd: S, row: usize) -> T::SimdReal<S> {
         let t = self.t.load(simd, row);
@@ -159,7 +160,7 @@ impl<T: Real> PacketHits<T> {
         if T::DECIDES { t } else { t + FLUSH * self.error.0[lane].into() }
     }
 
-    /// Is unsure of all rays that met two objects within `slack`.
+    /// Leaves the rays that met two objects within `slack` to the exact engine.
     #[inline(always)]
     pub fn doubt<S: Simd>(&mut self, simd: S, slack: f64) {
         for row in 0..T::ROWS {
@@ -173,7 +174,7 @@ impl<T: Real> PacketHits<T> {
     /// The greatest distance at which any of the rays may still meet something.
     #[inline(always)]
     pub fn farthest<S: Simd>(&self, simd: S, packet: &RayPacket<T>) -> f64 {
-        // Nobody knows what those met that are not there: what they leave is not set.
+        // What lanes met that are not live means nothing: the surfaces that they leave are not set.
         let nowhere = T::all(simd, f64::NEG_INFINITY);
         let mut most = nowhere;
         for row in 0..T::ROWS {
@@ -200,7 +201,7 @@ pub struct HitCandidate<T: Real, S: Simd> {
     /// The object.
     pub object: u32,
     /// The primitive.
-    pub primitive: T::SimdReal<S>,
+    pub primitive: RealIds<T, S>,
     /// The face.
-    pub surface: T::SimdReal<S>,
+    pub surface: RealIds<T, S>,
 }

@@ -1,12 +1,12 @@
 //! Other reordering for the rays towards a light: those that lie side by side seen from the light.
 //!
-//! Neighbours in the picture that start on things one behind the other are far apart in the light's view, and what
-//! stands between their ways is nothing to them. Sorted by that view, the rays of a tile make thin shadow packets again. Each
-//! ray finds what it finds in any company.
+//! Neighbours in the picture that start on things one behind the other are far from each other in the light's
+//! view, and what stands between them is in the way of neither. Sorted by that view, the rays of a tile make
+//! thin shadow packets again. Each ray finds what it finds in any packet.
 
 use fearless_simd::{Simd, SimdBase, f64x8};
 
-use crate::lattice::WAY;
+use crate::lattice::LONGEST_PATH;
 use crate::math::{DVec3, LaneVector, Lanes, Number, PACKET, ROWS, lanes};
 use crate::solid::Departures;
 
@@ -15,8 +15,8 @@ use super::shadow_packet::ShadowPacket;
 /// Cells across the light's view of a tile: as many in all as a tile has rays.
 const CELLS: usize = 32;
 
-/// Shadow packets wider than this on average, as a share of their tile, are to be put together anew: those of one surface,
-/// sixteen to a tile, are a quarter of it, and a little more where they lie askew.
+/// Shadow packets wider than this on average, as a share of their tile, are to be put together anew: those of
+/// one surface, sixteen to a tile, are a quarter of it, and a little more where they lie askew.
 const WIDE: f64 = 0.3;
 
 /// Rays put together anew.
@@ -48,7 +48,7 @@ impl RayReordering {
         }
         let (u, v) = sum.normalize_or(DVec3::X).any_orthonormal_pair();
         // Near a light the view is one of directions, far from it of places.
-        let near = lamp.abs().max_element() <= WAY;
+        let near = lamp.abs().max_element() <= LONGEST_PATH;
         let infinite = f64x8::splat(simd, f64::INFINITY);
         let (mut from, mut to) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         let (mut widths, mut count) = (0.0, 0.0);
@@ -188,7 +188,7 @@ mod tests {
                 let o = start(k, lane);
                 shadow_packet.rays.set(lane, &Ray::new(o, (lamp - o).normalize()));
                 shadow_packet.distance.0[lane] = (lamp - o).length();
-                left.primitive.0[lane] = (k * PACKET + lane) as f64;
+                left.primitive.0[lane] = (k * PACKET + lane) as u32;
             }
             dispatch!(Level::new(), simd => shadow_packet.close(simd));
         }

@@ -1,16 +1,18 @@
-//! The rays of a tile: those that surfaces sent on are there, those from the eye are made where anything may lie in their
-//! way.
+//! The rays of a tile: those that surfaces scatter are there, those from the eye are made where they may meet
+//! anything.
 
 use fearless_simd::{Level, Simd};
 
 use crate::lattice::{Basis, FRUSTA, Frustum, FrustumSoa, Spread};
-use crate::math::{LaneVector, Lanes, Number, RayPacket, Real};
+use crate::math::{LaneVector, Lanes, RayPacket, Real, RealIds, SimdIds, SimdReal};
 use crate::solid::{Departures, RayStarts};
 use crate::view::TileCamera;
 
 use super::super::exact::most_moved;
+use super::packet_hits::PacketHits;
 
-/// A packet, and the surfaces that its rays leave: none from the eye. In the precision in which it is asked, and in double.
+/// A packet, and the surfaces that its rays leave: none from the eye. In the precision in which it is traced,
+/// and in double.
 #[derive(Clone, Copy)]
 pub(super) struct PacketSource<'a, T = f64> {
     pub rays: &'a RayPacket<T>,
@@ -32,18 +34,24 @@ impl<'a, T: Real> PacketSource<'a, T> {
         PacketSource::new(self.full_rays, self.full_departures)
     }
 
+    /// Which rays leave a primitive to the outside, a bit for each: what is convex, or a surface, they do not
+    /// meet again.
+    #[inline]
+    pub fn leaving<S: Simd>(&self, simd: S, primitive: u32) -> u64 {
+        self.departures.map_or(0, |departures| departures.leaving(simd, primitive))
+    }
+
     /// The surfaces that the rays of a row start on, as seen from a primitive.
     #[inline(always)]
-    pub fn starts<S: Simd>(
-        &self,
-        simd: S,
-        row: usize,
-        primitive: T::SimdReal<S>,
-    ) -> RayStarts<T::SimdReal<S>> {
+    pub fn starts<S: Simd>(&self, simd: S, row: usize, primitive: u32) -> RayStarts<T::SimdReal<S>> {
         let no = T::row_of(simd, 0, row);
         let Some(departures) = self.departures else { return RayStarts { here: no, inward: no, off: None } };
+        let primitive = RealIds::<T, S>::all(simd, primitive);
         RayStarts {
-            here: departures.primitive.load(simd, row).is_equal(primitive),
+            here: T::SimdReal::<S>::answers(
+                simd,
+                departures.primitive.ids::<T, S>(simd, row).equal_bits(primitive),
+            ),
             inward: T::row_of(simd, departures.inward, row),
             off: Some(departures.off.load(simd, row)),
         }
@@ -62,13 +70,31 @@ pub(super) enum PacketSources<'a> {
     },
 }
 
+/// The packets of a tile in the precision in which they are traced, and what they meet.
+pub(super) struct TracedPackets<'a, T> {
+    /// Their rays, where those are not the tile's own ([`super::precision::Precision::take`]).
+    pub own: &'a mut [RayPacket<T>],
+    /// What they meet: as many as there are packets.
+    pub nearest: &'a mut [PacketHits<T>],
+}
+
+/// What became of the packets of a tile.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TracedTile {
+    /// Those that may have met anything, a bit for each. Of the others, if they are still to be made, it is
+    /// only known that none of their rays is unsure or incoherent.
+    pub touched: u16,
+    /// How many were given up as incoherent.
+    pub given_up: usize,
+}
+
 impl PacketSources<'_> {
-    /// Whether none of a packet's rays looks for anything. Of those that are still to be made some does.
+    /// Whether a packet has no live ray. Those that are still to be made have some.
     pub fn is_blind(&self, k: usize) -> bool {
         matches!(self, Self::Made { packets, .. } if packets[k].live == 0)
     }
 
-    /// Makes what is to be made of a packet.
+    /// Makes the rays of a packet, if that is to be done late.
     pub fn make(&mut self, k: usize) {
         if let Self::PrimaryHit { packets, make, .. } = self {
             make(k, &mut packets[k]);
@@ -104,7 +130,8 @@ impl PacketSources<'_> {
         &self,
         simd: S,
         level: Level,
-        (frustums, frusta): (&mut Vec<Option<Frustum>>, &mut FrustumSoa),
+        frustums: &mut Vec<Option<Frustum>>,
+        frusta: &mut FrustumSoa,
     ) {
         frustums.clear();
         match self {
@@ -135,7 +162,7 @@ impl PacketSources<'_> {
 /// The frustum around rays of any kind.
 #[inline(always)]
 fn around<S: Simd>(simd: S, packets: &[RayPacket]) -> Frustum {
-    Frustum::around(simd, packets.iter().map(|packet| (packet, None)), Spread::Apart)
+    Frustum::around(simd, packets.iter().map(|packet| (packet, None)), Spread::Diverging)
 }
 
 #[cfg(test)]
@@ -177,7 +204,7 @@ mod tests {
             let pinhole = PinholeCamera::new(&camera, &Picture { dots: Size::new(width, height), dot_aspect: 1.0 });
             let all = tiles(Size::new(width, height));
             let tile = all[pick % all.len()];
-            let sight = TileCamera { pinhole: &pinhole, tile, off: [off.0, off.1], eye, way: distance + 4.0 };
+            let sight = TileCamera { pinhole: &pinhole, tile, off: [off.0, off.1], eye, path: distance + 4.0 };
             let mut packets = vec![RayPacket::EMPTY; sight.blocks()];
             let level = Level::new();
             for (k, packet) in packets.iter_mut().enumerate() {
@@ -192,7 +219,7 @@ mod tests {
             let sources = PacketSources::PrimaryHit { sight: &sight, packets: &mut unmade, make: &mut make };
             let (mut frustums, mut frusta) = (Vec::new(), FrustumSoa::default());
             let whole = dispatch!(level, simd => {
-                sources.spread(simd, level, (&mut frustums, &mut frusta));
+                sources.spread(simd, level, &mut frustums, &mut frusta);
                 sources.whole(simd)
             });
             for (k, packet) in packets.iter().enumerate() {

@@ -1,112 +1,63 @@
-//! Rays that are incoherent: those of packets that were given up, many on their way at once.
+//! Incoherent rays, those of packets that were given up: single rays, many of them under way at once.
 //!
-//! Each finds what it finds alone. Where that is more than one thing in one place, it is asked of the exact engine.
+//! Each finds what it finds by itself. Where that is more than one thing in one place, it is left to the
+//! exact engine.
 
-use crate::lattice::{Candidate, Stream, StreamRays, entry};
-use crate::math::{LANES, Ray, RayIndex, RayPacket, lanes, places};
-use crate::solid::{BatchKind, Crossing, Departure, Departures, RayBatch, Scratch, WorldShape};
+use crate::lattice::{Candidate, StreamRays, entry};
+use crate::math::{LANES, RayIndex, RayPacket, lanes, places};
+use crate::solid::{BatchKind, Crossing, Departures, RayBatch, WorldShape};
 use crate::stage::{Counts, Meter, Silent};
 
 use super::Fast;
+use super::incoherent::{IncoherentRays, QueuedTest, StreamRay};
 use super::memory::TileMemory;
 use super::packet_hits::PacketHits;
 use super::shadow_packet::{ShadowPacket, ShadowQuery};
 use super::transmittance::OpacityClass;
 
-/// No index of a primitive: there are fewer.
-const NONE: u32 = u32::MAX;
-
-/// Memory for incoherent rays.
-#[derive(Debug, Default)]
-pub struct Apart {
-    stream: Stream,
-    rays: Vec<Alone>,
-    /// By ray, the primitive that it leaves to the outside, and [`NONE`] where it leaves none.
-    leaves: Vec<u32>,
-    balls: Queue,
-    tubes: Queue,
-    batch: RayBatch,
-    scratch: Scratch,
+/// What the rays of a stream look for: the first hit, or any before a light.
+trait StreamVisitor {
+    /// How far away a crossing may be to matter.
+    fn limit(&self, at: RayIndex) -> f64;
+    /// Takes a crossing with an object. Answers how far away boxes may be that the ray is still to be tested
+    /// against: below 0 where none are.
+    fn visit(&mut self, at: RayIndex, object: u32, crossing: &Crossing) -> f64;
 }
 
-/// A ray of a stream.
-#[derive(Clone, Copy, Debug)]
-struct Alone {
-    at: RayIndex,
-    ray: Ray,
-    departure: Option<Departure>,
-}
-
-/// Rays that wait to be asked about a primitive of one form.
-#[derive(Debug, Default)]
-struct Queue(Vec<Question>);
-
-#[derive(Clone, Copy, Debug)]
-struct Question {
-    meeting: Candidate,
-    /// The primitive.
-    index: u32,
-}
-
-impl Apart {
-    #[inline]
-    fn clear(&mut self) {
-        self.stream.clear();
-        self.rays.clear();
-        self.leaves.clear();
-    }
-
-    /// One more ray, that looks as far as `to`.
-    #[inline(always)]
-    fn push(&mut self, at: RayIndex, ray: Ray, departure: Option<Departure>, to: f64) {
-        self.stream.push(&ray, to);
-        self.leaves.push(departure.filter(|d| !d.inward).map_or(NONE, |d| d.primitive));
-        self.rays.push(Alone { at, ray, departure });
-    }
-}
-
-/// What rays without reordering are asked about.
-trait Asking {
-    /// How far a crossing may be to matter.
-    fn to(&self, at: RayIndex) -> f64;
-    /// A crossing with an object. Answers how far the ray still looks: below 0 where no farther at all.
-    fn meet(&mut self, at: RayIndex, object: u32, crossing: &Crossing) -> f64;
-}
-
-/// What rays meet first.
-struct First<'a> {
+/// Keeps the nearest hit of each ray.
+struct FirstHits<'a> {
     nearest: &'a mut [PacketHits],
     slack: f64,
 }
 
-impl Asking for First<'_> {
+impl StreamVisitor for FirstHits<'_> {
     #[inline]
-    fn to(&self, RayIndex { packet, lane }: RayIndex) -> f64 {
+    fn limit(&self, RayIndex { packet, lane }: RayIndex) -> f64 {
         self.nearest[packet].t.0[lane] + self.slack
     }
 
     #[inline]
-    fn meet(&mut self, RayIndex { packet, lane }: RayIndex, object: u32, crossing: &Crossing) -> f64 {
+    fn visit(&mut self, RayIndex { packet, lane }: RayIndex, object: u32, crossing: &Crossing) -> f64 {
         self.nearest[packet].offer_one(lane, object, crossing);
         self.nearest[packet].t.0[lane] + self.slack
     }
 }
 
-/// What stands between surfaces and a light.
-struct Blocked<'a> {
+/// Notes what stands between surfaces and a light.
+struct BlockedRays<'a> {
     shadow_packets: &'a mut [ShadowPacket],
     lamp: &'a ShadowQuery<'a>,
     slack: f64,
 }
 
-impl Asking for Blocked<'_> {
+impl StreamVisitor for BlockedRays<'_> {
     #[inline]
-    fn to(&self, RayIndex { packet, lane }: RayIndex) -> f64 {
+    fn limit(&self, RayIndex { packet, lane }: RayIndex) -> f64 {
         self.shadow_packets[packet].distance.0[lane]
     }
 
     #[inline]
-    fn meet(&mut self, RayIndex { packet, lane }: RayIndex, object: u32, crossing: &Crossing) -> f64 {
+    fn visit(&mut self, RayIndex { packet, lane }: RayIndex, object: u32, crossing: &Crossing) -> f64 {
         let (shadow_packet, bit) = (&mut self.shadow_packets[packet], 1 << lane);
         let distance = shadow_packet.distance.0[lane];
         match self.lamp.opacity.get(object as usize).copied() {
@@ -123,32 +74,42 @@ impl Asking for Blocked<'_> {
     }
 }
 
+/// Rays that are to be intersected with a primitive each, all of one form.
+struct QueuedTests<'a> {
+    /// Up to eight.
+    tests: &'a [QueuedTest],
+    /// Whether the primitives are tubes; balls if not.
+    are_tubes: bool,
+    /// All rays of the stream.
+    rays: &'a [StreamRay],
+}
+
 impl Fast<'_> {
-    /// The first hits of the rays of some packets that are incoherent: those in [`PacketHits::apart`].
-    pub fn first_apart(
+    /// The first hits of the rays of some packets that are incoherent: those in [`PacketHits::incoherent`].
+    pub fn first_of_incoherent(
         &self,
         packets: &[RayPacket],
         departures: Option<&[Departures]>,
         nearest: &mut [PacketHits],
         memory: &mut TileMemory,
     ) {
-        let TileMemory { apart, counts, .. } = memory;
-        apart.clear();
+        let TileMemory { incoherent, counts, .. } = memory;
+        incoherent.clear();
         for (k, (packet, found)) in packets.iter().zip(&mut *nearest).enumerate() {
-            for at in places(k, found.apart) {
+            for at in places(k, found.incoherent) {
                 found.forget(at.lane);
                 if departures.is_some_and(|all| self.leaves_mesh(&all[k], at.lane)) {
                     found.unsure |= 1 << at.lane;
                 } else {
                     let departure = departures.map(|all| all[k].get(at.lane));
-                    apart.push(at, packet.ray(at.lane), departure, f64::INFINITY);
+                    incoherent.push(at, packet.ray(at.lane), departure, f64::INFINITY);
                 }
             }
         }
-        let mut asking = First { nearest, slack: self.slack };
-        self.ask_stream(apart, &mut asking, counts);
+        let mut visitor = FirstHits { nearest, slack: self.slack };
+        self.trace_stream(incoherent, &mut visitor, counts);
         for found in nearest {
-            for lane in lanes(std::mem::take(&mut found.apart)) {
+            for lane in lanes(std::mem::take(&mut found.incoherent)) {
                 let t = found.t.0[lane];
                 let close = found.second.0[lane] <= t + self.slack && t < f64::INFINITY;
                 found.unsure |= u64::from(close) << lane;
@@ -156,9 +117,9 @@ impl Fast<'_> {
         }
     }
 
-    /// The same as [`Fast::blocked_of`] finds, for rays of which none has company.
+    /// The same as [`Fast::blocked_of`] finds, for rays none of which are coherent.
     #[inline]
-    pub fn blocked_alone(
+    pub fn blocked_of_incoherent(
         &self,
         shadow_packets: &mut [ShadowPacket],
         departures: &[Departures],
@@ -166,76 +127,83 @@ impl Fast<'_> {
         memory: &mut TileMemory,
     ) {
         shadow_packets.iter_mut().for_each(ShadowPacket::give_up);
-        self.blocked_apart(shadow_packets, departures, lamp, memory);
+        self.stream_blocked(shadow_packets, departures, lamp, memory);
     }
 
-    /// Which of the rays towards a light that have no reordering, those in [`ShadowPacket::apart`], are blocked, and what glass leaves
-    /// of the light of the others.
-    pub(super) fn blocked_apart(
+    /// Which of the rays towards a light that are incoherent, those in [`ShadowPacket::incoherent`], are
+    /// blocked, and what glass leaves of the light of the others.
+    pub(super) fn stream_blocked(
         &self,
         shadow_packets: &mut [ShadowPacket],
         departures: &[Departures],
         lamp: &ShadowQuery,
         memory: &mut TileMemory,
     ) {
-        let TileMemory { apart, counts, .. } = memory;
-        apart.clear();
+        let TileMemory { incoherent, counts, .. } = memory;
+        incoherent.clear();
         for (k, shadow_packet) in shadow_packets.iter_mut().enumerate() {
-            shadow_packet.tint.forget(shadow_packet.apart);
-            for at in places(k, std::mem::take(&mut shadow_packet.apart)) {
+            shadow_packet.tint.forget(shadow_packet.incoherent);
+            for at in places(k, std::mem::take(&mut shadow_packet.incoherent)) {
                 if self.leaves_mesh(&departures[k], at.lane) {
                     shadow_packet.unsure |= 1 << at.lane;
                 } else {
                     let (departure, to) =
                         (departures[k].get(at.lane), shadow_packet.distance.0[at.lane] + self.slack);
-                    apart.push(at, shadow_packet.rays.ray(at.lane), Some(departure), to);
+                    incoherent.push(at, shadow_packet.rays.ray(at.lane), Some(departure), to);
                 }
             }
         }
-        let mut asking = Blocked { shadow_packets, lamp, slack: self.slack };
-        self.ask_stream(apart, &mut asking, counts);
+        let mut visitor = BlockedRays { shadow_packets, lamp, slack: self.slack };
+        self.trace_stream(incoherent, &mut visitor, counts);
     }
 
-    /// Whether a ray leaves a mesh, which has many faces: of those nothing is noted for a packet.
+    /// Whether a ray leaves a mesh, which has many faces: a packet does not say which.
     #[inline]
     fn leaves_mesh(&self, departures: &Departures, lane: usize) -> bool {
         let primitive = departures.primitive.0[lane];
-        primitive >= 0.0 && matches!(self.assembly.primitives[primitive as usize].form, WorldShape::Mesh(_))
+        primitive != Departures::NOWHERE
+            && matches!(self.assembly.primitives[primitive as usize].form, WorldShape::Mesh(_))
     }
 
-    /// Asks all rays of a stream.
-    fn ask_stream(&self, apart: &mut Apart, asking: &mut impl Asking, counts: &mut Counts) {
-        let Apart { stream, rays, leaves, balls, tubes, batch, scratch } = apart;
+    /// Traces all rays of a stream.
+    fn trace_stream(
+        &self,
+        incoherent: &mut IncoherentRays,
+        visitor: &mut impl StreamVisitor,
+        counts: &mut Counts,
+    ) {
+        let IncoherentRays { stream, rays, leaves, balls, tubes, eight, scratch } = incoherent;
         let mut visited = 0;
         let mut meter = Meter::new(Silent);
-        self.boxes.walk_stream(stream, &mut visited, &mut |met: &[Candidate], ways: &mut StreamRays| {
-            for meeting in met {
-                if !ways.matters(meeting) {
+        self.boxes.walk_stream(stream, &mut visited, &mut |met: &[Candidate], limits: &mut StreamRays| {
+            for candidate in met {
+                if !limits.matters(candidate) {
                     continue;
                 }
-                let Candidate { ray: number, object, .. } = *meeting;
+                let Candidate { ray: number, object, .. } = *candidate;
                 let (kind, index) = self.assembly.kind(object);
                 if kind != BatchKind::Other {
                     // What is convex is not met again by a ray that leaves it.
                     if leaves[number as usize] != index {
                         let queue = if kind == BatchKind::Ball { &mut *balls } else { &mut *tubes };
-                        queue.0.push(Question { meeting: *meeting, index });
+                        queue.0.push(QueuedTest { candidate: *candidate, index });
                     }
                     continue;
                 }
-                let Alone { at, ray, departure } = &rays[number as usize];
-                let to = asking.to(*at);
+                let StreamRay { at, ray, departure } = &rays[number as usize];
+                let to = visitor.limit(*at);
                 if let Some(crossing) = self.exact.object(object, ray, *departure, to, scratch, &mut meter) {
-                    ways.look(number, asking.meet(*at, object, &crossing));
+                    limits.limit(number, visitor.visit(*at, object, &crossing));
                 }
             }
-            // Where few rays are left none waits for company.
+            // Where few rays are left, registers are not filled first.
             let least = if met.len() < LANES { 1 } else { LANES };
-            for (queue, is_tubes) in [(&mut *balls, false), (&mut *tubes, true)] {
+            for (queue, are_tubes) in [(&mut *balls, false), (&mut *tubes, true)] {
                 while queue.0.len() >= least {
                     let some = queue.0.len().saturating_sub(LANES);
                     meter.counts.primitive_tests += (queue.0.len() - some) as u64;
-                    self.ask_batch((&queue.0[some..], is_tubes), rays, batch, asking, ways);
+                    let tests = QueuedTests { tests: &queue.0[some..], are_tubes, rays };
+                    self.intersect_queued(&tests, eight, visitor, limits);
                     queue.0.truncate(some);
                 }
             }
@@ -244,30 +212,29 @@ impl Fast<'_> {
         counts.cells_visited += visited;
     }
 
-    /// Asks up to eight rays about a primitive each, all of one form.
-    fn ask_batch(
+    /// Intersects up to eight rays with a primitive each, all of one form.
+    fn intersect_queued(
         &self,
-        (questions, tubes): (&[Question], bool),
-        rays: &[Alone],
-        batch: &mut RayBatch,
-        asking: &mut impl Asking,
-        ways: &mut StreamRays,
+        &QueuedTests { tests, are_tubes, rays }: &QueuedTests,
+        eight: &mut RayBatch,
+        visitor: &mut impl StreamVisitor,
+        limits: &mut StreamRays,
     ) {
         let primitives = &self.assembly.primitives;
-        for (lane, Question { meeting, index }) in questions.iter().enumerate() {
-            batch.set(lane, &rays[meeting.ray as usize].ray, &primitives[*index as usize]);
+        for (lane, QueuedTest { candidate, index }) in tests.iter().enumerate() {
+            eight.set(lane, &rays[candidate.ray as usize].ray, &primitives[*index as usize]);
         }
-        if tubes {
-            batch.meet_tubes(self.level);
+        if are_tubes {
+            eight.meet_tubes(self.level);
         } else {
-            batch.meet_balls(self.level);
+            eight.meet_balls(self.level);
         }
-        let met = batch.met(tubes);
-        for (lane, Question { meeting, index }) in questions.iter().enumerate() {
-            if met >> lane & 1 == 1 && ways.matters(meeting) {
-                let Alone { at, departure, .. } = &rays[meeting.ray as usize];
-                if let Some(crossing) = batch.first(lane, &primitives[*index as usize], *index, *departure) {
-                    ways.look(meeting.ray, asking.meet(*at, meeting.object, &crossing));
+        let met = eight.met(are_tubes);
+        for (lane, QueuedTest { candidate, index }) in tests.iter().enumerate() {
+            if met >> lane & 1 == 1 && limits.matters(candidate) {
+                let StreamRay { at, departure, .. } = &rays[candidate.ray as usize];
+                if let Some(crossing) = eight.first(lane, &primitives[*index as usize], *index, *departure) {
+                    limits.limit(candidate.ray, visitor.visit(*at, candidate.object, &crossing));
                 }
             }
         }

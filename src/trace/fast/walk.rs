@@ -1,124 +1,180 @@
-//! What every walk of a tile does.
+//! The walk of a tile's frustums through the hierarchy of boxes, the same for what rays meet first and for
+//! whether anything stands in their way: a [`TileVisitor`] says what differs.
+//!
+//! The frustum of the whole tile is tested against the boxes of each node once. Where it meets objects, the
+//! frustums of the packets are tested against each, all at once; the visitor intersects the packets that are
+//! left.
 
-use fearless_simd::Simd;
+use fearless_simd::{Simd, f32x8};
 
-use crate::lattice::{Child, FrustumHits, FrustumSoa, Node};
-use crate::math::{Bounds, DVec3, Mask, Number, RayPacket, Rays, Real, SimdRegister};
-use crate::solid::WorldShape;
+use crate::lattice::{BoundingSphere, Bvh8, BvhChild, FRUSTA, Frustum, FrustumHits, FrustumSoa, Node};
+use crate::math::RayPacket;
 
-use super::packet_culler::{PacketCuller, Slabs};
+use super::memory::{StackItem, TileMemory};
+use super::packet_culler::{PacketCuller, Slabs, wide};
 
-/// A node that is to be walked.
-#[derive(Clone, Copy, Debug)]
-pub struct Waits {
-    /// How near it is at least.
-    pub near: f64,
-    /// Its index.
-    pub node: u32,
-    /// Which frustums may meet it, a bit for each.
-    pub frustums: u16,
+/// What a walk looks for.
+pub(super) trait TileVisitor<S: Simd> {
+    /// The packets that may still meet something that matters, a bit for each.
+    fn open(&self) -> u16;
+
+    /// Whether what is ranked so is farther away than anything that still matters to any packet.
+    fn is_beyond(&self, rank: f64, memory: &TileMemory) -> bool;
+
+    /// Sets the frustums of the packets in `memory`, before the first of them is tested.
+    fn spread(&mut self, _: S, _: &mut TileMemory) {}
+
+    /// In which order nodes are walked, the lowest first, by how near they are at least to the start of any
+    /// ray.
+    fn rank(near: f32x8<S>) -> f32x8<S>;
+
+    /// Whether of an object that is a ball this says all that there is to know.
+    fn takes_ball(&self, object: u32) -> bool;
+
+    /// Intersects packet `k` with an object that its frustum may meet, no nearer to any ray's start than
+    /// `near`.
+    fn visit(&mut self, simd: S, target: &Target<S>, k: usize, near: f32, memory: &mut TileMemory);
 }
 
-impl Waits {
-    /// The root, for these frustums.
-    pub fn root(frustums: u16) -> Self {
-        Self { near: f64::NEG_INFINITY, node: 0, frustums }
+/// An object whose box some packets may meet.
+pub(super) struct Target<S: Simd> {
+    /// By its index in the assembly.
+    pub object: u32,
+    ball: Option<BoundingSphere>,
+    slabs: Slabs<S>,
+    slack: f64,
+}
+
+impl<S: Simd> Target<S> {
+    /// Which of some rays may come into the object's box, or its ball, within their limits; and which
+    /// certainly go into the ball there.
+    #[inline(always)]
+    pub fn cull(&self, simd: S, culler: &mut PacketCuller, packet: &RayPacket, wanted: u64) -> (u64, u64) {
+        if let Some(ball) = &self.ball {
+            culler.set_points(simd, packet);
+            culler.ball(simd, ball, self.slack, wanted)
+        } else {
+            culler.set_lines(simd, packet);
+            (culler.passing(simd, &self.slabs, wanted), 0)
+        }
     }
 }
 
-/// Puts the nodes among a node's children that were met, and that some of the frustums may meet, on the stack, the nearest
-/// last.
+/// Walks the boxes with the frustum `whole` around all packets. Boxes are taken to be larger by `slack`.
 #[inline(always)]
-pub fn push_nearest_last<S: Simd>(
+pub(super) fn walk_tile<S: Simd, V: TileVisitor<S>>(
     simd: S,
-    stack: &mut Vec<Waits>,
+    boxes: &Bvh8,
+    whole: &Frustum,
+    slack: f64,
+    visitor: &mut V,
+    memory: &mut TileMemory,
+) {
+    memory.stack.clear();
+    memory.stack.push(StackItem::root(visitor.open()));
+    let mut spread = false;
+    while let Some(StackItem { rank, node, frustums }) = memory.stack.pop() {
+        let frustums = frustums & visitor.open();
+        if frustums == 0 || visitor.is_beyond(rank, memory) {
+            continue;
+        }
+        let node = &boxes.nodes()[node as usize];
+        memory.counts.cells_visited += 1;
+        let (lo, hi) = node.sides(simd);
+        let met = whole.meets_boxes(simd, &lo, &hi);
+        if met.boxes == 0 {
+            continue;
+        }
+        if !spread {
+            spread = true;
+            visitor.spread(simd, memory);
+        }
+        let mut objects = met.boxes & !node.inner();
+        while objects != 0 {
+            let slot = objects.trailing_zeros() as usize;
+            objects &= objects - 1;
+            let Some(BvhChild::Object(object)) = node.child(slot) else { continue };
+            let (lo, hi) = node.corners(slot);
+            let ball = node.ball(slot).filter(
+                #[inline(always)]
+                |_| visitor.takes_ball(object),
+            );
+            let met = match &ball {
+                Some(ball) => memory.frusta.meets_ball(simd, ball.center, ball.outer),
+                None => memory.frusta.meets(simd, lo, hi),
+            };
+            let mut packets = met.frustums & frustums & visitor.open();
+            if packets == 0 {
+                continue;
+            }
+            let slabs = Slabs::around(simd, wide(lo), wide(hi), slack);
+            let target = Target { object, ball, slabs, slack };
+            while packets != 0 {
+                let k = packets.trailing_zeros() as usize;
+                packets &= packets - 1;
+                visitor.visit(simd, &target, k, met.near[k], memory);
+            }
+            if visitor.open() == 0 {
+                return;
+            }
+        }
+        let TileMemory { frusta, stack, .. } = memory;
+        let ranked = FrustumHits { near: V::rank(met.near), ..met };
+        push_lowest_last(simd, stack, node, &ranked, frusta, frustums & visitor.open());
+    }
+}
+
+/// Puts the nodes among a node's children that were met, and that some of the frustums may meet, on the
+/// stack, the one of the lowest rank last.
+#[inline(always)]
+fn push_lowest_last<S: Simd>(
+    simd: S,
+    stack: &mut Vec<StackItem>,
     node: &Node,
-    met: &FrustumHits<S>,
-    (frusta, frustums): (&FrustumSoa, u16),
+    ranked: &FrustumHits<S>,
+    frusta: &FrustumSoa,
+    frustums: u16,
 ) {
     let first = stack.len();
-    let mut left = met.boxes & node.inner();
+    let mut left = ranked.boxes & node.inner();
     while left != 0 {
         let slot = left.trailing_zeros() as usize;
         left &= left - 1;
-        let Some(Child::Node(index)) = node.child(slot) else { continue };
+        let Some(BvhChild::Node(index)) = node.child(slot) else { continue };
         let (lo, hi) = node.corners(slot);
         let frustums = frusta.meets(simd, lo, hi).frustums & frustums;
         if frustums == 0 {
             continue;
         }
-        let near = f64::from(met.near[slot]);
+        let rank = f64::from(ranked.near[slot]);
         let mut place = stack.len();
-        stack.push(Waits { near, node: index, frustums });
-        while place > first && stack[place - 1].near < near {
+        stack.push(StackItem { rank, node: index, frustums });
+        while place > first && stack[place - 1].rank < rank {
             stack.swap(place - 1, place);
             place -= 1;
         }
     }
 }
 
-/// Those of some rays of a packet that may meet a surface, as far as its own form says.
-pub fn asking<S: Simd>(
-    simd: S,
-    thin: &mut PacketCuller,
-    packet: &RayPacket,
-    form: &WorldShape,
-    slack: f64,
-    wanted: u64,
-) -> u64 {
-    let WorldShape::Tube(tube) = form else { return wanted };
-    simd.vectorize(
-        #[inline(always)]
-        || thin.beside(simd, packet, &tube.bar(), slack, wanted),
-    )
-}
+/// How many objects each packet may still be intersected with before it is given up as incoherent.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TestBudget([u32; FRUSTA]);
 
-/// Between which distances some rays of a packet pass a box, all of them.
-pub fn reach<S: Simd>(simd: S, thin: &PacketCuller, b: &Bounds, slack: f64, passing: u64) -> (f64, f64) {
-    simd.vectorize(
-        #[inline(always)]
-        || thin.reach(simd, &Slabs::around(simd, b.lo, b.hi, slack), passing),
-    )
-}
+impl TestBudget {
+    /// Nothing for any.
+    pub const NONE: Self = Self([0; FRUSTA]);
 
-/// The box around the way of some rays of a packet between two distances.
-pub fn bounds_between<S: Simd, T: Real>(
-    simd: S,
-    packet: &RayPacket<T>,
-    rays: u64,
-    from: f64,
-    to: f64,
-) -> Bounds {
-    simd.vectorize(
-        #[inline(always)]
-        || {
-            let infinite = T::all(simd, f64::INFINITY);
-            let (mut lo, mut hi) = ([infinite; 3], [-infinite; 3]);
-            for row in 0..T::ROWS {
-                if !T::has_any(rays, row) {
-                    continue;
-                }
-                let asks = T::row_of(simd, rays, row);
-                let Rays { o, d } = packet.load(simd, row);
-                for axis in 0..3 {
-                    let (o, d) = (o.along(axis), d.along(axis));
-                    // The end may be no number, where that is infinitely far and the ray does not move: then it is the start.
-                    let (start, end) = (o + d * from, o + d * to);
-                    lo[axis] = asks.choose(end.smaller(start).smaller(lo[axis]), lo[axis]);
-                    hi[axis] = asks.choose(end.larger(start).larger(hi[axis]), hi[axis]);
-                }
-            }
-            let (lo, hi) = (
-                [lo[0].least(), lo[1].least(), lo[2].least()],
-                [hi[0].greatest(), hi[1].greatest(), hi[2].greatest()],
-            );
-            Bounds::new(DVec3::from_array(lo), DVec3::from_array(hi))
-        },
-    )
-}
+    /// Gives packet `k` so many objects for each of its rays.
+    #[inline(always)]
+    pub fn grant(&mut self, k: usize, objects: u32, rays: u64) {
+        self.0[k] = objects * rays.count_ones();
+    }
 
-/// A corner of a box in double precision.
-#[inline(always)]
-pub fn wide([x, y, z]: [f32; 3]) -> DVec3 {
-    DVec3::new(f64::from(x), f64::from(y), f64::from(z))
+    /// Takes one object from what packet `k` has. False where nothing is left.
+    #[inline(always)]
+    pub fn spend(&mut self, k: usize) -> bool {
+        let left = self.0[k].checked_sub(1);
+        self.0[k] = left.unwrap_or(0);
+        left.is_some()
+    }
 }

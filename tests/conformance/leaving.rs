@@ -3,15 +3,15 @@
 use ray13::math::{DMat3, DVec3, Ray};
 use ray13::scene::{Primitive, Scene, Shape, Solid};
 
-use crate::aim::aimed;
-use crate::chance::Chance;
-use crate::engine::{Cut, Found, Start, Subject};
-use crate::expressions::random::any_solid;
-use crate::faults::assert_none;
-use crate::long::{cases, report};
-use crate::oracle::{Big, Verdict, verdict};
-use crate::solids::{CONE, CYLINDER, FRUSTUM, placed, primitive, prism, scene};
-use crate::tally::{said, ulp};
+use crate::conformance::aim::aimed;
+use crate::conformance::chance::Chance;
+use crate::conformance::engine::{Cut, Found, Start, Subject};
+use crate::conformance::expressions::random::any_solid;
+use crate::conformance::faults::assert_none;
+use crate::conformance::long::{cases, report};
+use crate::conformance::solids::{CONE, CYLINDER, FRUSTUM, placed, primitive, prism, scene};
+use crate::conformance::tally::{said, ulp};
+use crate::support::oracle::{Big, Verdict, verdict};
 
 /// All shapes of convex solids, turned and not.
 fn any_convex(chance: &mut Chance) -> (Shape, DMat3) {

@@ -9,7 +9,7 @@ use ray13::solid::{Departure, Departures};
 use ray13::stage::{Meter, Silent};
 use ray13::trace::{Engine, Fast, Hit, PacketHits, ShadowPacket, ShadowQuery, TileMemory};
 
-use crate::engine::{Cut, ExactEngine, Found, Range, Start, Subject, drawn};
+use crate::conformance::engine::{Cut, ExactEngine, Found, Range, Start, Subject, drawn};
 
 /// Rays of a packet here: one less than it can hold, since a whole one is taken for a block of dots, whose corners bound
 /// the rest.

@@ -3,10 +3,10 @@
 use ray13::math::{DVec3, Ray};
 use ray13::scene::{Scene, Shape, Solid};
 
-use crate::chance::Chance;
-use crate::engine::{Cut, Start, Subject};
-use crate::long::{cases, report};
-use crate::solids::{placed, scene};
+use crate::conformance::chance::Chance;
+use crate::conformance::engine::{Cut, Start, Subject};
+use crate::conformance::long::{cases, report};
+use crate::conformance::solids::{placed, scene};
 
 /// Boxes that fill a grid of 3 by 3 by 3, of uneven steps that f64 holds exactly.
 fn grid(chance: &mut Chance) -> ([[f64; 4]; 3], Vec<Solid>) {

@@ -6,9 +6,9 @@ use ray13::math::{DVec3, Size};
 use ray13::plan::{EngineChoice, Options, Precision, PrecisionChoice, Shading, StructureChoice};
 use ray13::scene::{ReadOptions, Scene, read};
 
-use crate::request::request;
-use crate::same::difference;
-use crate::scenery::embedded_scenes;
+use crate::support::request::request;
+use crate::support::same::difference;
+use crate::support::scenery::embedded_scenes;
 
 /// Several tiles, those at the rim cut, and their last blocks too.
 pub const DOTS: Size = Size::new(75, 43);
@@ -31,38 +31,7 @@ pub const FLUSH: &str = "
 ";
 
 /// Surfaces that bound no solid: polygons, one above the other, patches with normals of their own, cones; and a mirror.
-pub const SURFACES: &str = "v
-from 3 -7 4
-at 0 0 0.5
-up 0 0 1
-angle 45
-hither 0.1
-resolution 64 64
-b 0.1 0.2 0.4
-l 4 -6 8 1 1 1
-l -5 -3 6 0.2 0.4 1
-f 0.8 0.5 0.3 0.8 0.2 20 0 1
-p 4
--3 -3 0
-3 -3 0
-3 3 0
--3 3 0
-f 0.3 0.5 0.8 0.8 0.2 20 0.5 1.2
-p 4
--2 -2 0
-1 -2 0
-1 1 0
--2 1 0
-f 0.9 0.9 0.9 0.5 0.5 60 0 1
-pp 3
--1 0 1 -0.5 0 1
-1 0 1 0.5 0 1
-0 1 2 0 0.5 1
-c
--1.5 0 0 0.6
--1.5 0 1.5 0
-s 1.2 -0.6 0.5 0.5
-";
+pub const SURFACES: &str = include_str!("../files/surfaces.nff");
 
 /// A solid that is not convex, from so far that the way there is most of each distance.
 const FAR: &str = "

@@ -9,7 +9,7 @@ use ray13::scene::{self, ReadOptions};
 use ray13::stage::{Counts, Stage};
 use ray13::tone::Tone;
 
-use crate::request::request;
+use crate::support::request::request;
 
 /// Not a multiple of any tile, with a rim of half a cell.
 const DOTS: Size = Size::new(121, 83);

@@ -6,8 +6,8 @@ use ray13::plan::{Options, Shading};
 use ray13::scene::{Anchor, Light, Material, MaterialId, Scene, Solid};
 use ray13::solid::AssemblyError;
 
-use crate::hits::{DOTS, FLUSH, SURFACES, all, assert_same, scene, traced};
-use crate::request::request;
+use super::hits::{DOTS, FLUSH, SURFACES, all, assert_same, scene, traced};
+use crate::support::request::request;
 
 /// A change of a scene, by what it changes.
 type Change = (&'static str, fn(&mut Scene));

@@ -9,7 +9,7 @@ use ray13::frame::{Frame, Request, Studio};
 use ray13::math::DAffine3;
 use ray13::scene::{Camera, Material, MaterialId, Object, Primitive, Scene, Shape, Solid};
 
-use crate::pty::{Pty, Size};
+use super::pty::{Pty, Size};
 use crate::{Reading, SMALLEST};
 
 #[test]

@@ -3,13 +3,13 @@
 use ray13::math::{DAffine3, DMat3, DVec3, Ray};
 use ray13::scene::{Corner, Scene, Shape, Solid};
 
-use crate::chance::Chance;
-use crate::engine::{Cut, Found, Subject};
-use crate::faults::assert_none;
-use crate::long::{cases, report};
-use crate::oracle::{Big, Hit, Oracle};
-use crate::solids::{CONE, CYLINDER, FRUSTUM, mesh, moved, prism, scene, solid};
-use crate::tally::ulp;
+use crate::conformance::chance::Chance;
+use crate::conformance::engine::{Cut, Found, Subject};
+use crate::conformance::faults::assert_none;
+use crate::conformance::long::{cases, report};
+use crate::conformance::solids::{CONE, CYLINDER, FRUSTUM, mesh, moved, prism, scene, solid};
+use crate::conformance::tally::ulp;
+use crate::support::oracle::{Big, Hit, Oracle};
 
 /// Axes permuted and reversed, or any turn.
 pub fn any_turn(chance: &mut Chance) -> DMat3 {

@@ -2,9 +2,9 @@
 //! the oracle.
 
 use ray13::frame::{Frame, Studio};
-use ray13::math::Size;
+use ray13::math::{DVec3, Size};
 use ray13::plan::StructureChoice;
-use ray13::scene::{Anchor, ReadOptions, read, read_file};
+use ray13::scene::{Anchor, Camera, FieldSpan, ReadOptions, read, read_file};
 
 use crate::support::beside;
 use crate::support::oracle::{Oracle, Wide};
@@ -40,14 +40,14 @@ struct Expected {
 #[track_caller]
 fn holds(expected: &Expected) {
     if let Some(studio) = studio(expected.name) {
-        holds_of(expected, &studio, Size::new(513, 513), 4);
+        holds_of(expected, &studio, studio.camera(0, 1.0), Size::new(513, 513), 4);
     }
 }
 
-/// The picture of a scene's own camera, with so many generations after the primary rays.
+/// With so many generations after the primary rays.
 #[track_caller]
-fn holds_of(expected: &Expected, studio: &Studio, dots: Size, depth: u32) {
-    let mut request = request(studio.camera(0, 1.0), dots);
+fn holds_of(expected: &Expected, studio: &Studio, camera: Camera, dots: Size, depth: u32) {
+    let mut request = request(camera, dots);
     request.options.depth = depth;
     request.options.cutoff = 0.0;
     let counts = studio.draw(&request).counts;
@@ -102,10 +102,18 @@ counted!(tree, 169_909, 1_097_835, 43_403, 0, 0, 0.005);
 /// How far from a surface the oracle starts a ray, in the scene's unit: far more than rounding, far less than a ball.
 const OFF: f64 = 1e-7;
 
+fn at_rest(anchor: Anchor) -> DVec3 {
+    match anchor {
+        Anchor::World(place) => place,
+        other => panic!("a lamp of NFF at {other:?}"),
+    }
+}
+
 #[test]
 fn the_oracle_counts_as_many_rays() {
     let studio = own_balls();
-    let (scene, camera, dots) = (studio.scene(), studio.camera(0, 1.0), Size::new(96, 96));
+    let (scene, dots) = (studio.scene(), Size::new(96, 96));
+    let camera = Camera { span: FieldSpan::Edges, ..studio.camera(0, 1.0) };
     let oracle = Oracle::<Wide>::new(scene);
     let mut expected = Expected {
         name: "balls.nff",
@@ -116,31 +124,32 @@ fn the_oracle_counts_as_many_rays() {
         secondary_hits: 0,
         share: 0.001,
     };
+    let lamps: Vec<DVec3> = scene.lights.iter().map(|light| light.anchor).map(at_rest).collect();
     let mut met = vec![false; scene.objects.len()];
+    let mut shadows = |lit: DVec3, normal: DVec3| {
+        for way in lamps.iter().map(|&lamp| lamp - lit).filter(|way| normal.dot(*way) > 0.0) {
+            expected.shadow_rays += 1;
+            let between = oracle.hit(lit, way.normalize());
+            expected.shadow_hits += u64::from(between.is_some_and(|other| other.t < way.length()));
+        }
+    };
     for toward in directions(&camera, dots) {
         let Some(hit) = oracle.hit(camera.eye, toward) else { continue };
         expected.primary_hits += 1;
         met[hit.object as usize - 1] = true;
-        let place = camera.eye + hit.t * toward;
-        let lit = place + OFF * hit.normal;
-        for light in &scene.lights {
-            let Anchor::World(lamp) = light.anchor else { panic!("lights of NFF stand still") };
-            let way = lamp - lit;
-            if hit.normal.dot(way) > 0.0 {
-                expected.shadow_rays += 1;
-                let between = oracle.hit(lit, way.normalize());
-                expected.shadow_hits += u64::from(between.is_some_and(|other| other.t < way.length()));
-            }
-        }
+        let lit = camera.eye + hit.t * toward + OFF * hit.normal;
+        shadows(lit, hit.normal);
         // The floor is the first object, and no mirror.
         if hit.object > 1 {
             expected.secondary_rays += 1;
-            let mirrored = toward - 2.0 * toward.dot(hit.normal) * hit.normal;
-            expected.secondary_hits += u64::from(oracle.hit(lit, mirrored).is_some());
+            let toward = toward - 2.0 * toward.dot(hit.normal) * hit.normal;
+            let Some(mirrored) = oracle.hit(lit, toward) else { continue };
+            expected.secondary_hits += 1;
+            shadows(lit + mirrored.t * toward + OFF * mirrored.normal, mirrored.normal);
         }
     }
     assert!(met.iter().all(|&met| met) && expected.shadow_hits > 100 && expected.secondary_hits > 100);
-    holds_of(&expected, &studio, dots, 1);
+    holds_of(&expected, &studio, camera, dots, 1);
 }
 
 fn same(a: &Frame, b: &Frame) -> bool {

@@ -2,11 +2,15 @@
 
 use std::process::Command;
 
+/// So few cells that the whole picture is sampled, however long that takes: six tiles. Of a larger one so much is sampled as a
+/// tenth of a second allows, which is less on a busy machine.
+const FEW: &str = "--cells=40x12";
+
 /// The plan of a picture by the command line, a line for each stage and term.
 fn plan(arguments: &[&str]) -> String {
     let program = env!("CARGO_BIN_EXE_ray13");
     let output = Command::new(program)
-        .args(["plan", "--json", "--cells", "80x25"])
+        .args(["plan", "--json", FEW])
         .args(arguments)
         .env_remove("NO_COLOR")
         .output()

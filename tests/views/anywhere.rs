@@ -103,21 +103,57 @@ const LIGHTS: &str = "world(ambient = 0.1, background = [0.1, 0.2, 0.3], k = 1);
     light(at = [0, 0, 0]); light(at = [1, 1, 1], intensity = 0.3); light(at = [9, -9, 9], color = [1, 0.5, 0.2]);
     light(at = [1e-200, 0, 1]);";
 
-#[test]
-fn from_every_place_on_and_in_a_solid() {
-    for (number, (name, solid)) in SOLIDS.into_iter().enumerate() {
-        for (kind, material) in MATERIALS.into_iter().enumerate() {
-            let text = format!("{LIGHTS} {material} {{ {solid} }}");
-            let studio = studio(&text);
-            for (from, eye) in PLACES.into_iter().enumerate() {
-                // One pair of places with each material, all pairs with one or another.
-                let target = PLACES[(from + 1 + (number + kind) % (PLACES.len() - 1)) % PLACES.len()];
-                if eye != target && (target - eye).is_finite() {
-                    all_sound(&format!("{name}, {material}"), &text, &studio, &camera(eye, target));
-                }
+/// Every material on one of [`SOLIDS`], from every place.
+fn from_every_place(solid: &str) {
+    let number = SOLIDS.iter().position(|(name, _)| *name == solid).unwrap();
+    let (name, solid) = SOLIDS[number];
+    for (kind, material) in MATERIALS.into_iter().enumerate() {
+        let text = format!("{LIGHTS} {material} {{ {solid} }}");
+        let studio = studio(&text);
+        for (from, eye) in PLACES.into_iter().enumerate() {
+            // One pair of places with each material, all pairs with one or another.
+            let target = PLACES[(from + 1 + (number + kind) % (PLACES.len() - 1)) % PLACES.len()];
+            if eye != target && (target - eye).is_finite() {
+                all_sound(&format!("{name}, {material}"), &text, &studio, &camera(eye, target));
             }
         }
     }
+}
+
+/// A test for each of [`SOLIDS`].
+macro_rules! from_every_place_on_and_in {
+    ($($test:ident: $solid:literal,)*) => {
+        mod from_every_place_on_and_in {
+            $(#[test]
+            fn $test() {
+                super::from_every_place($solid);
+            })*
+
+            #[test]
+            fn all_of_them() {
+                assert_eq!(super::SOLIDS.map(|(name, _)| name), [$($solid),*]);
+            }
+        }
+    };
+}
+
+from_every_place_on_and_in! {
+    a_ball: "ball",
+    an_ellipsoid: "ellipsoid",
+    a_cube: "cube",
+    a_turned_cube: "turned cube",
+    a_cylinder: "cylinder",
+    a_cone: "cone",
+    a_turned_cone: "turned cone",
+    a_frustum: "frustum",
+    a_prism: "prism",
+    a_mesh: "mesh",
+    a_hollow_cube: "hollow cube",
+    a_wedge: "wedge",
+    touching_cubes: "touching cubes",
+    a_needle: "needle",
+    a_plate: "plate",
+    nested_balls: "nested balls",
 }
 
 #[test]

@@ -105,7 +105,7 @@ const OFF: f64 = 1e-7;
 fn at_rest(anchor: Anchor) -> DVec3 {
     match anchor {
         Anchor::World(place) => place,
-        other => panic!("a lamp of NFF at {other:?}"),
+        Anchor::Eye(_) => panic!("a lamp of NFF that moves"),
     }
 }
 

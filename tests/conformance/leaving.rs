@@ -125,7 +125,7 @@ pub fn a_way_is_blocked_by_the_next_hit<S: Subject>() {
                 starts.iter().zip(&next).map(|(start, found)| (*start, distance(found))).collect();
             // Where nothing is ahead nothing blocks; a hit nearer than its own error says nothing.
             let clear = |found: Option<Found>| found.is_none_or(|found| found.t > 4.0 * found.error);
-            for cut in Cut::ALL {
+            for &cut in S::CUTS {
                 let answers = S::new(&world, cut).blocked(&ways);
                 for ((way, found), answer) in ways.iter().zip(&next).zip(answers) {
                     asked += 1;

@@ -90,6 +90,9 @@ impl Subject for FastEngine {
     /// That of the exact engine, which it asks where it is unsure.
     const RANGE: Range = ExactEngine::RANGE;
 
+    /// It goes through boxes whatever it is told.
+    const CUTS: &'static [Cut] = &[Cut::Boxes];
+
     fn new(scene: &Scene, cut: Cut) -> Self {
         Self(ExactEngine::new(scene, cut))
     }

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::sync::mpsc;
+use std::sync::{LazyLock, mpsc};
 use std::time::Duration;
 use std::{fs, thread};
 
@@ -80,8 +80,8 @@ pub fn placed(errors: &Diagnostics) -> Result<(), String> {
     Ok(())
 }
 
-/// Texts that are right: the scenes within the program, this repository's files, and those beside it.
-fn texts() -> Vec<(&'static str, Vec<u8>)> {
+/// Texts that are right, read once: the scenes within the program, this repository's files, and those beside it.
+static TEXTS: LazyLock<Vec<(&str, Vec<u8>)>> = LazyLock::new(|| {
     let mut all: Vec<_> = embedded().iter().map(|s| ("test.scene", s.text.as_bytes().to_vec())).collect();
     all.extend(KEPT.map(|(name, text)| (name, text.to_vec())));
     for (folder, name) in [("openscad", "test.csg"), ("spd", "test.nff")] {
@@ -93,7 +93,7 @@ fn texts() -> Vec<(&'static str, Vec<u8>)> {
         }
     }
     all
-}
+});
 
 /// This repository's own files, of every format.
 const KEPT: [(&str, &[u8]); 4] = [
@@ -134,8 +134,7 @@ proptest! {
 
     #[test]
     fn right_texts_gone_wrong(text in any::<Index>(), mutations in prop::collection::vec(any::<Mutation>(), 1..5)) {
-        let all = texts();
-        let (name, mut bytes) = all[text.index(all.len())].clone();
+        let (name, mut bytes) = TEXTS[text.index(TEXTS.len())].clone();
         for mutation in &mutations {
             mutation.apply(&mut bytes);
         }
@@ -145,8 +144,8 @@ proptest! {
 
 #[test]
 fn right_texts() {
-    for (name, bytes) in texts() {
-        if let Err(fault) = answer(name, bytes) {
+    for (name, bytes) in &*TEXTS {
+        if let Err(fault) = answer(*name, bytes.clone()) {
             panic!("{fault}");
         }
     }
@@ -157,7 +156,7 @@ fn right_texts() {
 fn the_program_answers_as_the_library() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("any_text");
     fs::create_dir_all(&folder).unwrap();
-    for (number, (name, bytes)) in texts().into_iter().enumerate() {
+    for (number, (name, bytes)) in TEXTS.iter().enumerate() {
         for (cut, insert) in [(3, "1e400"), (5, "\""), (7, "é\r\n\t["), (11, "nan"), (2, "")] {
             let mut bytes = bytes.clone();
             let middle = bytes.len() * (cut - 1) / cut;

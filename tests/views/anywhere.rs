@@ -282,7 +282,7 @@ fn what_has_no_picture_is_refused() {
         ("cube(1);\ncamera(eye = [1e308, 0, 0], target = [-1e308, 0, 0]);", "2:14", "farther apart"),
         ("cube(1);\ncamera(eye = [0, 0, 0]);", "2:14", "the same point"),
         ("cube(1); camera(eye = [0, 5, 0], up = [1e-15, 1, 0]);", "1:39", "along the line of sight"),
-        // Found by tests/fuzz_text.rs: these were read, and then could not be put together, at no place.
+        // Found by tests/formats/any_text.rs: these were read, and then could not be put together, at no place.
         ("sphere(5e-324);", "1:1", "smaller than"),
         ("multmatrix([[1, 1, 0, 0], [0, 5e-324, 0, 0], [0, 0, 1, 0]]) cube(2);", "1:61", "smaller than"),
         ("translate([0, 0, 1e306]) cube(1);", "1:26", "farther than 1e305"),

@@ -2,7 +2,6 @@
 //! `cargo bench --bench kernels`; each figure is the time of the rays that [`forms::rays`] sends.
 
 #[expect(dead_code, reason = "not every scene that can be written is measured")]
-#[path = "../examples/million/scenery.rs"]
 mod scenery;
 
 mod forms;

@@ -6,7 +6,6 @@
 //! quotients and roots do, which go through another unit beside them; loads, stores and the order of things come on top.
 
 #[expect(dead_code, reason = "no scene of many objects is measured")]
-#[path = "../examples/million/scenery.rs"]
 mod scenery;
 #[expect(dead_code, reason = "criterion measures no limits")]
 mod setting;

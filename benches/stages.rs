@@ -1,7 +1,6 @@
 //! The stages of a picture, from text to characters. `cargo bench --bench stages`.
 
 #[expect(dead_code, reason = "not every scene that can be written is measured")]
-#[path = "../examples/million/scenery.rs"]
 mod scenery;
 mod setting;
 

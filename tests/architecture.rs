@@ -216,11 +216,14 @@ fn tests_of_errata(paper: &str) -> Vec<&str> {
 
 #[test]
 fn each_erratum_names_a_test_that_exists() {
-    let (paper, code) = (read("docs/paper.md"), read("tests/errata.rs"));
+    let (paper, code) = (read("docs/paper.md"), read("tests/light/errata.rs"));
     let named = tests_of_errata(&paper);
     assert!(named.len() >= 7, "{named:?}");
     for test in named {
-        assert!(code.contains(&format!("#[test]\nfn {test}() {{")), "tests/errata.rs has no test `{test}`");
+        assert!(
+            code.contains(&format!("#[test]\nfn {test}() {{")),
+            "tests/light/errata.rs has no test `{test}`"
+        );
     }
 }
 

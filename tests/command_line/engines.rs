@@ -56,7 +56,7 @@ mod the_preset {
     #[test]
     fn is_the_picture_of_the_paper() {
         let picture = text(&levels(&[]));
-        let snapshot = include_str!("../snapshots/pcat__front.snap");
+        let snapshot = include_str!("../pictures/snapshots/pictures__pictures__pcat__front.snap");
         assert!(snapshot.contains(picture.trim_end()), "not figure 8");
         assert_eq!(picture.lines().map(str::len).collect::<Vec<_>>(), [164; 188]);
     }

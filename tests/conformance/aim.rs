@@ -3,7 +3,7 @@
 use ray13::math::{DVec3, Ray};
 use ray13::scene::{Primitive, Shape};
 
-use crate::chance::Chance;
+use crate::conformance::chance::Chance;
 
 /// A point of a shape's surface and the outward normal there, in the shape's own coordinates.
 fn on_surface(shape: &Shape, chance: &mut Chance) -> (DVec3, DVec3) {

@@ -4,11 +4,11 @@ use ray13::frame::Frame;
 use ray13::math::{DAffine3, DVec3, Ray, Size};
 use ray13::scene::{Camera, FieldSpan, ReadOptions, Scene, Shape, Solid, read};
 
-use crate::chance::Chance;
-use crate::engine::{Cut, Subject};
-use crate::faults::assert_none;
-use crate::long::{cases, report};
-use crate::solids::{CYLINDER, moved, placed, scene};
+use crate::conformance::chance::Chance;
+use crate::conformance::engine::{Cut, Subject};
+use crate::conformance::faults::assert_none;
+use crate::conformance::long::{cases, report};
+use crate::conformance::solids::{CYLINDER, moved, placed, scene};
 
 const DOTS: Size = Size::new(40, 40);
 

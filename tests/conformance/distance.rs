@@ -3,12 +3,12 @@
 use ray13::math::{DMat3, DVec3};
 use ray13::scene::{Primitive, Scene, Shape, Solid};
 
-use crate::aim::aimed;
-use crate::chance::Chance;
-use crate::engine::{Cut, Subject};
-use crate::long::{cases, report, skipped};
-use crate::solids::{placed, primitive, scene};
-use crate::tally::Tally;
+use crate::conformance::aim::aimed;
+use crate::conformance::chance::Chance;
+use crate::conformance::engine::{Cut, Subject};
+use crate::conformance::long::{cases, report, skipped};
+use crate::conformance::solids::{placed, primitive, scene};
+use crate::conformance::tally::Tally;
 
 /// Solids for each decade, and rays at each of them.
 const SOLIDS: usize = 5;

@@ -65,6 +65,9 @@ pub trait Subject: Sized {
     /// Where it claims to be right.
     const RANGE: Range;
 
+    /// The ways to cut space that make a difference to it; the others would be the same again.
+    const CUTS: &'static [Cut];
+
     /// Makes a scene ready.
     fn new(scene: &Scene, cut: Cut) -> Self;
 
@@ -133,6 +136,8 @@ impl ExactEngine {
 
 impl Subject for ExactEngine {
     const RANGE: Range = Range { distance: 1e9, world: 1e9, ratio: 1e6, decades: 150.0 };
+
+    const CUTS: &'static [Cut] = &Cut::ALL;
 
     fn new(scene: &Scene, cut: Cut) -> Self {
         let assembly = Assembly::new(scene).unwrap();

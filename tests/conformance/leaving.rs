@@ -3,15 +3,15 @@
 use ray13::math::{DMat3, DVec3, Ray};
 use ray13::scene::{Primitive, Scene, Shape, Solid};
 
-use crate::aim::aimed;
-use crate::chance::Chance;
-use crate::engine::{Cut, Found, Start, Subject};
-use crate::expressions::random::any_solid;
-use crate::faults::assert_none;
-use crate::long::{cases, report};
-use crate::oracle::{Big, Verdict, verdict};
-use crate::solids::{CONE, CYLINDER, FRUSTUM, placed, primitive, prism, scene};
-use crate::tally::{said, ulp};
+use crate::conformance::aim::aimed;
+use crate::conformance::chance::Chance;
+use crate::conformance::engine::{Cut, Found, Start, Subject};
+use crate::conformance::expressions::random::any_solid;
+use crate::conformance::faults::assert_none;
+use crate::conformance::long::{cases, report};
+use crate::conformance::solids::{CONE, CYLINDER, FRUSTUM, placed, primitive, prism, scene};
+use crate::conformance::tally::{said, ulp};
+use crate::support::oracle::{Big, Verdict, verdict};
 
 /// All shapes of convex solids, turned and not.
 fn any_convex(chance: &mut Chance) -> (Shape, DMat3) {
@@ -125,7 +125,7 @@ pub fn a_way_is_blocked_by_the_next_hit<S: Subject>() {
                 starts.iter().zip(&next).map(|(start, found)| (*start, distance(found))).collect();
             // Where nothing is ahead nothing blocks; a hit nearer than its own error says nothing.
             let clear = |found: Option<Found>| found.is_none_or(|found| found.t > 4.0 * found.error);
-            for cut in Cut::ALL {
+            for &cut in S::CUTS {
                 let answers = S::new(&world, cut).blocked(&ways);
                 for ((way, found), answer) in ways.iter().zip(&next).zip(answers) {
                     asked += 1;

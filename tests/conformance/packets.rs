@@ -9,7 +9,7 @@ use ray13::solid::{Departure, Departures};
 use ray13::stage::{Meter, Silent};
 use ray13::trace::{Engine, Fast, Hit, PacketHits, ShadowPacket, ShadowQuery, TileMemory};
 
-use crate::engine::{Cut, ExactEngine, Found, Range, Start, Subject, drawn};
+use crate::conformance::engine::{Cut, ExactEngine, Found, Range, Start, Subject, drawn};
 
 /// Rays of a packet here: one less than it can hold, since a whole one is taken for a block of dots, whose corners bound
 /// the rest.
@@ -89,6 +89,9 @@ impl FastEngine {
 impl Subject for FastEngine {
     /// That of the exact engine, which it asks where it is unsure.
     const RANGE: Range = ExactEngine::RANGE;
+
+    /// It goes through boxes whatever it is told.
+    const CUTS: &'static [Cut] = &[Cut::Boxes];
 
     fn new(scene: &Scene, cut: Cut) -> Self {
         Self(ExactEngine::new(scene, cut))

@@ -3,10 +3,10 @@
 use ray13::math::{DVec3, Ray};
 use ray13::scene::{Scene, Shape, Solid};
 
-use crate::chance::Chance;
-use crate::engine::{Cut, Start, Subject};
-use crate::long::{cases, report};
-use crate::solids::{placed, scene};
+use crate::conformance::chance::Chance;
+use crate::conformance::engine::{Cut, Start, Subject};
+use crate::conformance::long::{cases, report};
+use crate::conformance::solids::{placed, scene};
 
 /// Boxes that fill a grid of 3 by 3 by 3, of uneven steps that f64 holds exactly.
 fn grid(chance: &mut Chance) -> ([[f64; 4]; 3], Vec<Solid>) {
@@ -73,7 +73,7 @@ pub fn one_of_two_abutting_boxes_claims_a_ray<S: Subject>() {
         let rays: Vec<Ray> = (0..20).map(|_| along_planes(&lines, chance)).collect();
         let all = scene(boxes.clone());
         let first = S::new(&all, Cut::None).first(&rays);
-        for cut in [Cut::Lattice, Cut::Tree, Cut::Boxes] {
+        for &cut in S::CUTS {
             assert_eq!(first, S::new(&all, cut).first(&rays), "case {case}, {cut:?}");
         }
         // Each box asked alone: the chords must follow each other from one end of the grid to the other.
@@ -130,8 +130,8 @@ pub fn faces_are_half_open<S: Subject>() {
                 o[second] += size[second] * f64::from(u);
                 o[third] += size[third] * f64::from(v);
                 let ray = Ray::new(o, DVec3::AXES[axis]);
-                let met = Cut::ALL.map(|cut| S::new(&scene, cut).first(&[ray])[0]);
-                assert!(met[0] == met[1] && met[1] == met[2], "{met:?}");
+                let met: Vec<_> = S::CUTS.iter().map(|&cut| S::new(&scene, cut).first(&[ray])[0]).collect();
+                assert!(met.iter().all(|found| *found == met[0]), "{met:?}");
                 assert_eq!(met[0].is_some(), u < 2 && v < 2, "axis {axis} {u} {v} {scene:?}");
                 assert!(met[0].is_none_or(|found| found.t == 4.0), "{met:?}");
             }
@@ -146,7 +146,7 @@ pub fn a_union_of_boxes_is_one<S: Subject>() {
         let (lines, boxes) = grid(chance);
         let rays: Vec<Ray> = (0..20).map(|_| along_planes(&lines, chance)).collect();
         let joined = scene([Solid::Union(boxes)]);
-        for cut in Cut::ALL {
+        for &cut in S::CUTS {
             let subject = S::new(&joined, cut);
             for (ray, hit) in rays.iter().zip(subject.first(&rays)) {
                 let hit = hit.unwrap_or_else(|| panic!("case {case}, {cut:?}: missed by {ray:?}"));

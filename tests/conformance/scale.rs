@@ -7,9 +7,9 @@ use ray13::scene::{
 };
 use ray13::tone::Tone;
 
-use crate::engine::{Cut, Subject};
-use crate::long::{is_long, report, skipped};
-use crate::solids::{CONE, CYLINDER, mapped, placed, scene, solid};
+use crate::conformance::engine::{Cut, Subject};
+use crate::conformance::long::{is_long, report, skipped};
+use crate::conformance::solids::{CONE, CYLINDER, mapped, placed, scene, solid};
 
 const DOTS: Size = Size::new(64, 48);
 

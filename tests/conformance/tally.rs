@@ -3,8 +3,8 @@
 use ray13::math::{DVec3, Ray};
 use ray13::scene::{Primitive, Shape};
 
-use crate::engine::{Found, Subject};
-use crate::oracle::{Big, Chord, Number, Verdict, chord, silhouette, verdict};
+use crate::conformance::engine::{Found, Subject};
+use crate::support::oracle::{Big, Chord, Number, Verdict, chord, silhouette, verdict};
 
 /// What was found over many rays.
 #[derive(Clone, Debug, Default)]

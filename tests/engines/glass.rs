@@ -2,7 +2,7 @@
 
 use ray13::math::{DVec3, Size};
 
-use crate::same::same;
+use crate::support::same::same;
 
 // Found by random scenes: one way goes into the first and leaves both in one place, where the second is passed over.
 #[test]

@@ -2,7 +2,7 @@
 
 use ray13::math::Size;
 
-use crate::same::same;
+use crate::support::same::same;
 
 // Found by an attack: where rays of a tile came to the lamp from opposite sides, what stood before it was passed over by
 // those that ran against the axis of the tile's shadow packet, and light leaked through.

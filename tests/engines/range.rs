@@ -6,8 +6,8 @@ use ray13::math::{DVec3, Size};
 use ray13::plan::StructureChoice;
 use ray13::scene::{Camera, FieldSpan, read};
 
-use crate::request::request;
-use crate::same::{difference, exact, fast};
+use crate::support::request::request;
+use crate::support::same::{difference, exact, fast};
 
 const DOTS: Size = Size::new(19, 19);
 

@@ -7,9 +7,10 @@ use ray13::math::{DVec3, Size};
 use ray13::plan::StructureChoice;
 use ray13::scene::{Camera, ReadOptions, Scene, read_file};
 
-use crate::request::request;
-use crate::same::{difference, exact, fast};
-use crate::scenery::embedded_scenes;
+use crate::support::beside;
+use crate::support::request::request;
+use crate::support::same::{difference, exact, fast};
+use crate::support::scenery::embedded_scenes;
 
 /// Several tiles, those at the rim cut.
 const DOTS: Size = Size::new(131, 97);
@@ -57,21 +58,22 @@ fn all_same(name: &str, scene: Scene, structures: &[StructureChoice]) {
     assert!(hits > 0, "{name}: no ray meets it");
 }
 
-/// The files of a folder that may stand beside this repository, by name.
-pub fn beside(folder: &str) -> Vec<(String, Scene)> {
-    let place = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/scenes").join(folder);
-    let Ok(entries) = place.read_dir() else {
-        println!("skipped: ../shared/scenes/{folder} is not here");
-        return Vec::new();
-    };
-    let mut paths: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
-    paths.sort();
-    let scene = |path: &std::path::PathBuf| {
+/// The files of a folder that may stand beside this repository, by name, behind this repository's own of that kind.
+pub fn with_those_beside(own: &[&str], folder: &str) -> Vec<(String, Scene)> {
+    let files = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/files");
+    let paths = own.iter().map(|name| files.join(name)).chain(beside::files(folder));
+    let scene = |path: std::path::PathBuf| {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
-        (name, read_file(path, &ReadOptions::default()).unwrap_or_else(|e| panic!("{e}")))
+        (name, read_file(&path, &ReadOptions::default()).unwrap_or_else(|e| panic!("{e}")))
     };
-    paths.iter().map(scene).collect()
+    paths.map(scene).collect()
 }
+
+/// This repository's own files as OpenSCAD exports them.
+pub const CSG: [&str; 1] = ["bracket.csg"];
+
+/// This repository's own files of NFF.
+pub const NFF: [&str; 2] = ["balls.nff", "surfaces.nff"];
 
 #[test]
 fn inside_the_program() {
@@ -82,14 +84,14 @@ fn inside_the_program() {
 
 #[test]
 fn of_openscad() {
-    for (name, scene) in beside("openscad") {
+    for (name, scene) in with_those_beside(&CSG, "openscad") {
         all_same(&name, scene, &[StructureChoice::None, StructureChoice::Boxes]);
     }
 }
 
 #[test]
 fn of_the_standard_procedural_database() {
-    for (name, scene) in beside("spd") {
+    for (name, scene) in with_those_beside(&NFF, "spd") {
         // Through cells, which share nothing with boxes; all their thousands of objects would take minutes.
         all_same(&name, scene, &[StructureChoice::Tree]);
     }

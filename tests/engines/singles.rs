@@ -1,4 +1,4 @@
-//! Single precision against all of them: every ray meets the same object in nearly the same place.
+//! Single precision against double: every ray meets the same object in nearly the same place.
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -8,10 +8,10 @@ use ray13::plan::{Options, Precision, PrecisionChoice, Shading};
 use ray13::scene::{Camera, ReadOptions, Scene, read};
 use ray13::tone::Tone;
 
-use crate::random::any_scene;
-use crate::request::request;
-use crate::scenery::embedded_scenes;
-use crate::scenes::{beside, views};
+use super::random::any_scene;
+use super::scenes::{CSG, views, with_those_beside};
+use crate::support::request::request;
+use crate::support::scenery::embedded_scenes;
 
 const DOTS: Size = Size::new(256, 192);
 
@@ -80,8 +80,8 @@ fn alike(name: &str, scene: Scene) -> usize {
 fn scenes_as_people_write_them() {
     let inside: usize = embedded_scenes().into_iter().map(|(name, scene)| alike(name, scene)).sum();
     assert!(inside >= 6, "{inside} views took single precision");
-    for (name, scene) in beside("openscad") {
-        assert!(alike(&name, scene) > 0, "{name} took all digits");
+    for (name, scene) in with_those_beside(&CSG, "openscad") {
+        assert!(alike(&name, scene) > 0, "{name} took double precision");
     }
 }
 
@@ -103,7 +103,7 @@ fn same_from(text: &str, eyes: &[DVec3]) {
     }
 }
 
-/// What single precision can not tell apart is asked with all: a wall of a millionth, with one face from each of two primitives.
+/// What single precision can not tell apart is traced in double precision: a wall of a millionth, with one face from each of two primitives.
 #[test]
 fn thin_walls_stay() {
     let eyes = [DVec3::new(1.0, -2.0, 6.0), DVec3::new(5.0, 0.1, 1.0)];

@@ -6,9 +6,9 @@ use ray13::math::Size;
 use ray13::plan::{Options, PrecisionChoice};
 use ray13::scene::{Scene, read};
 
-use crate::request::request;
-use crate::same::{difference, fast};
-use crate::scenery::embedded_scenes;
+use crate::support::request::request;
+use crate::support::same::{difference, fast};
+use crate::support::scenery::embedded_scenes;
 
 /// All widths that this processor has; and none, where that is compiled (`--features fallback`).
 fn levels() -> Vec<(&'static str, Level)> {

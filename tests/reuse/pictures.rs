@@ -9,7 +9,7 @@ use ray13::scene::{self, ReadOptions};
 use ray13::stage::{Counts, Stage};
 use ray13::tone::Tone;
 
-use crate::request::request;
+use crate::support::request::request;
 
 /// Not a multiple of any tile, with a rim of half a cell.
 const DOTS: Size = Size::new(121, 83);
@@ -23,11 +23,18 @@ fn plain(studio: &Studio) -> Request {
     Request { wants: Wants::CELLS, ..request(studio.camera(0, 1.5), DOTS) }
 }
 
-/// Whether its light was computed.
-fn traced(frame: &Frame) -> bool {
-    assert_eq!(frame.trace.is_zero(), frame.counts == Counts::default());
-    assert_eq!(frame.times[Stage::Shade].is_zero(), frame.counts.primary_hits == 0);
-    frame.counts.primary_hits > 0
+/// Its light was computed, and takes time and counts.
+#[track_caller]
+fn assert_traced(frame: &Frame) {
+    assert!(frame.counts.primary_hits > 0);
+    assert!(!frame.trace.is_zero() && !frame.times[Stage::Shade].is_zero());
+}
+
+/// Its light was there, for nothing.
+#[track_caller]
+fn assert_taken_over(frame: &Frame) {
+    assert_eq!(frame.counts, Counts::default());
+    assert!(frame.trace.is_zero() && frame.times[Stage::Shade].is_zero());
 }
 
 /// Everything of a frame that is not a figure.
@@ -43,7 +50,8 @@ fn the_same_request_is_answered_by_the_same_grids() {
     let studio = studio();
     let first = studio.draw(&plain(&studio));
     let again = studio.draw(&plain(&studio));
-    assert!(traced(&first) && !traced(&again));
+    assert_traced(&first);
+    assert_taken_over(&again);
     assert!(Arc::ptr_eq(&first.light, &again.light));
     assert!(Arc::ptr_eq(first.cells.as_ref().unwrap(), again.cells.as_ref().unwrap()));
     assert_eq!(again.times.total(), std::time::Duration::ZERO);
@@ -55,7 +63,8 @@ fn a_fresh_picture_is_traced_whatever_was_drawn_before() {
     let first = studio.draw(&plain(&studio));
     let fresh = studio.draw_anew(&plain(&studio));
     assert_eq!(first.counts, fresh.counts);
-    assert!(traced(&fresh) && !Arc::ptr_eq(&first.light, &fresh.light));
+    assert_traced(&fresh);
+    assert!(!Arc::ptr_eq(&first.light, &fresh.light));
     assert_same_picture(&first, &fresh);
 }
 
@@ -71,7 +80,7 @@ fn glyphs_palette_and_tone_need_no_rays() {
     ] {
         let before = studio.draw(&plain).cells;
         let frame = studio.draw(&changed);
-        assert!(!traced(&frame));
+        assert_taken_over(&frame);
         assert!(!frame.times[Stage::Dither].is_zero());
         assert_ne!(frame.cells, before);
         assert_same_picture(&frame, &self::studio().draw(&changed));
@@ -98,7 +107,7 @@ fn whatever_dots_depend_on_is_computed() {
         let mut request = plain.clone();
         change(&mut request);
         let frame = studio.draw(&request);
-        assert!(traced(&frame), "{request:?}");
+        assert_traced(&frame);
         assert_same_picture(&frame, &self::studio().draw(&request));
     }
 }
@@ -109,7 +118,7 @@ fn a_frame_has_what_is_wanted_and_nothing_else() {
     let all = Request { wants: Wants::ALL, ..plain(&studio) };
     let full = studio.draw(&all);
     let light = studio.draw(&Request { wants: Wants::LIGHT, ..all.clone() });
-    assert!(!traced(&light));
+    assert_taken_over(&light);
     assert!(
         light.cells.is_none() && light.depth.is_none() && light.normal.is_none() && light.object.is_none()
     );
@@ -127,7 +136,7 @@ fn a_frame_has_what_is_wanted_and_nothing_else() {
         assert_eq!(frame.cells, full.cells.clone().filter(|_| wants.cells));
     }
     // The studio still has them.
-    assert!(!traced(&studio.draw(&all)));
+    assert_taken_over(&studio.draw(&all));
 }
 
 #[test]

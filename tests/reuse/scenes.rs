@@ -6,8 +6,8 @@ use ray13::plan::{Options, Shading};
 use ray13::scene::{Anchor, Light, Material, MaterialId, Scene, Solid};
 use ray13::solid::AssemblyError;
 
-use crate::hits::{DOTS, FLUSH, SURFACES, all, assert_same, scene, traced};
-use crate::request::request;
+use super::hits::{DOTS, FLUSH, SURFACES, all, assert_looked_up, assert_same, assert_traced, scene};
+use crate::support::request::request;
 
 /// A change of a scene, by what it changes.
 type Change = (&'static str, fn(&mut Scene));
@@ -66,26 +66,36 @@ fn paint(solid: &mut Solid, next: &mut impl FnMut() -> MaterialId) {
 
 #[test]
 fn what_does_not_depend_on_light_and_materials_is_kept() {
-    for (name, scene, mut plain) in all() {
-        for threads in [1, 2] {
-            plain.options.threads = threads;
-            let mut studio = Studio::new(scene.clone()).unwrap();
-            let before = studio.draw(&plain);
+    for (name, scene, plain) in all() {
+        let on = |threads| Request { options: Options { threads, ..plain.options }, ..plain.clone() };
+        let mut studios = [on(1), on(2)].map(|request| {
+            let studio = Studio::new(scene.clone()).unwrap();
+            let before = studio.draw(&request);
             let built = studio.built();
-            for (number, (what, change)) in changed().into_iter().enumerate() {
-                let mut scene = scene.clone();
-                change(&mut scene);
+            (studio, request, before, built)
+        });
+        for (number, (what, change)) in changed().into_iter().enumerate() {
+            let mut scene = scene.clone();
+            change(&mut scene);
+            let anew = Studio::new(scene.clone()).unwrap().draw_anew(&plain);
+            for (studio, request, _, built) in &mut studios {
                 studio.set_scene(scene.clone()).unwrap();
                 assert_eq!(studio.scene(), &scene);
-                let frame = studio.draw(&plain);
-                let anew = Studio::new(scene).unwrap().draw_anew(&plain);
-                let what = format!("{name}, {what}, {threads} threads");
+                let frame = studio.draw(request);
+                let what = format!("{name}, {what}, {} threads", request.options.threads);
                 assert_same(&frame, &anew, &what);
-                assert_eq!(traced(&frame, &anew), number == 0, "{what}");
-                assert_eq!(studio.built(), built, "{what}");
+                // The first change keeps what it traces.
+                if number == 0 {
+                    assert_traced(&frame, &anew, &what);
+                } else {
+                    assert_looked_up(&frame, &anew, &what);
+                }
+                assert_eq!(studio.built(), *built, "{what}");
             }
+        }
+        for (studio, request, before, _) in &mut studios {
             studio.set_scene(scene.clone()).unwrap();
-            assert_same(&studio.draw(&plain), &before, name);
+            assert_same(&studio.draw(request), before, name);
         }
     }
 }
@@ -110,7 +120,7 @@ fn an_edited_file_keeps_its_solids_and_numbers_its_materials_anew() {
         let edited = scene(name, &text.replacen(from, to, 1));
         studio.set_scene(edited.clone()).unwrap();
         let (frame, anew) = (studio.draw(&plain), Studio::new(edited).unwrap().draw_anew(&plain));
-        assert!(!traced(&frame, &anew), "{name}, {to}");
+        assert_looked_up(&frame, &anew, &format!("{name}, {to}"));
         assert_same(&frame, &anew, to);
     }
 }
@@ -138,7 +148,7 @@ fn other_solids_are_made_ready_anew() {
         assert!(!studio.scene().has_solids_of(&edited), "{to}");
         studio.set_scene(edited.clone()).unwrap();
         let (frame, anew) = (studio.draw(&plain), Studio::new(edited).unwrap().draw_anew(&plain));
-        assert!(traced(&frame, &anew), "{to}");
+        assert_traced(&frame, &anew, to);
         assert_same(&frame, &anew, to);
     }
 }

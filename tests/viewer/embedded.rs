@@ -9,7 +9,7 @@ use ray13::frame::{Frame, Request, Studio};
 use ray13::math::DAffine3;
 use ray13::scene::{Camera, Material, MaterialId, Object, Primitive, Scene, Shape, Solid};
 
-use crate::pty::{Pty, Size};
+use super::pty::{Pty, Size};
 use crate::{Reading, SMALLEST};
 
 #[test]
@@ -56,7 +56,7 @@ const BROKEN_PART: &str = "RAY13_TEST_BROKEN_PART";
 
 /// This test program itself, as a viewer that panics.
 fn start_broken(part: &str) -> Pty {
-    start_self("embedded::a_viewer_that_panics", part, Pty::start)
+    start_self("viewer::embedded::a_viewer_that_panics", part, Pty::start)
 }
 
 /// This test program itself in a terminal, as one of its tests.
@@ -102,7 +102,7 @@ fn after_the_viewer_signals_have_their_default_action() {
 }
 
 fn start_that_goes_on(start: impl Fn(&[&str], Size) -> Pty) -> Pty {
-    let mut pty = start_self("embedded::a_program_that_goes_on", "none", start);
+    let mut pty = start_self("viewer::embedded::a_program_that_goes_on", "none", start);
     pty.wait_for("the first picture", |pty| pty.row(0).contains(" BROKEN.SCENE ") && pty.eye() != "");
     pty.send("q");
     pty.wait_for("the end of the viewer", |pty| pty.text().contains("it goes on"));

@@ -5,8 +5,8 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::process::Command;
 
+use super::pty::{Pty, Size};
 use crate::VIEWER;
-use crate::pty::{Pty, Size};
 
 const SCREEN: Size = Size { columns: 80, rows: 24 };
 

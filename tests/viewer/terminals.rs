@@ -1,7 +1,7 @@
 //! What is sent to which terminal, byte by byte: the rows of docs/terminals.md.
 
+use super::pty::{Pty, Size};
 use crate::VIEWER;
-use crate::pty::{Pty, Size};
 
 const SCREEN: Size = Size { columns: 80, rows: 24 };
 

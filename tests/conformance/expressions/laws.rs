@@ -4,12 +4,12 @@ use ray13::math::{DAffine3, DMat3, DVec3, Ray};
 use ray13::scene::{Shape, Solid};
 
 use super::random::{any_solid, any_turn};
-use crate::chance::Chance;
-use crate::engine::{Cut, Found, Subject};
-use crate::faults::assert_none;
-use crate::long::{cases, report};
-use crate::solids::{CYLINDER, moved, placed, scene, solid};
-use crate::tally::ulp;
+use crate::conformance::chance::Chance;
+use crate::conformance::engine::{Cut, Found, Subject};
+use crate::conformance::faults::assert_none;
+use crate::conformance::long::{cases, report};
+use crate::conformance::solids::{CYLINDER, moved, placed, scene, solid};
+use crate::conformance::tally::ulp;
 
 /// The same set with the operands in another order: all of a union or an intersection, the cuts of a difference.
 fn shuffled(solid: &Solid, chance: &mut Chance) -> Solid {
@@ -110,7 +110,7 @@ pub fn a_sponge_is_one_in_any_order<S: Subject>() {
                 }
             }
         };
-        for cut in [Cut::Lattice, Cut::Tree, Cut::Boxes] {
+        for &cut in S::CUTS.iter().filter(|&&cut| cut != Cut::None) {
             compare(S::new(&scene([turned.clone()]), cut).first(&rays), true, &format!("{cut:?}"));
         }
         for turn in 0..3 {

@@ -1,15 +1,18 @@
 //! Random expressions against the oracle.
 
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, OnceLock};
+
 use ray13::math::{DAffine3, DMat3, DVec3, Ray};
 use ray13::scene::{Corner, Scene, Shape, Solid};
 
-use crate::chance::Chance;
-use crate::engine::{Cut, Found, Subject};
-use crate::faults::assert_none;
-use crate::long::{cases, report};
-use crate::oracle::{Big, Hit, Oracle};
-use crate::solids::{CONE, CYLINDER, FRUSTUM, mesh, moved, prism, scene, solid};
-use crate::tally::ulp;
+use crate::conformance::chance::Chance;
+use crate::conformance::engine::{Cut, Found, Subject};
+use crate::conformance::faults::assert_none;
+use crate::conformance::long::{cases, report};
+use crate::conformance::solids::{CONE, CYLINDER, FRUSTUM, mesh, moved, prism, scene, solid};
+use crate::conformance::tally::ulp;
+use crate::support::oracle::{Big, Hit, Oracle};
 
 /// Axes permuted and reversed, or any turn.
 pub fn any_turn(chance: &mut Chance) -> DMat3 {
@@ -71,12 +74,34 @@ struct Comparison {
     faults: Vec<String>,
 }
 
+/// What the oracle says of the rays of one case.
+type Answers = Arc<OnceLock<Vec<Option<Hit>>>>;
+
+/// A random scene and its rays, which follow from these two.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Case {
+    name: &'static str,
+    number: usize,
+}
+
+/// The oracle's answers by case: they take most of the time, and are the same for every engine.
+static ANSWERS: Mutex<BTreeMap<Case, Answers>> = Mutex::new(BTreeMap::new());
+
+/// The oracle's answers to the rays of a case, worked out by whoever asks first.
+fn answers(case: Case, oracle: &Oracle<Big>, rays: &[Ray]) -> Answers {
+    let answers = Arc::clone(ANSWERS.lock().unwrap().entry(case).or_default());
+    answers.get_or_init(|| rays.iter().map(|ray| oracle.hit(ray.o, ray.d)).collect());
+    answers
+}
+
 impl Comparison {
     /// Asks an engine and the oracle.
-    fn compare<S: Subject>(&mut self, case: usize, world: &Scene, rays: &[Ray], cut: Cut) {
+    fn compare<S: Subject>(&mut self, case: Case, world: &Scene, rays: &[Ray], cut: Cut) {
         let oracle = Oracle::<Big>::new(world);
-        for (ray, found) in rays.iter().zip(S::new(world, cut).first(rays)) {
-            let expected = oracle.hit(ray.o, ray.d);
+        let answers = answers(case, &oracle, rays);
+        let answers = answers.get().expect("worked out");
+        assert_eq!(answers.len(), rays.len());
+        for ((ray, found), &expected) in rays.iter().zip(S::new(world, cut).first(rays)).zip(answers) {
             self.rays += 1;
             self.hits += usize::from(expected.is_some());
             if agrees(found, expected, ray, 1.0) {
@@ -91,7 +116,7 @@ impl Comparison {
             if clusters.into_iter().chain(beside).any(|other| agrees(found, other, ray, ENGINE)) {
                 self.in_doubt += 1;
             } else {
-                self.faults.push(format!("case {case}: {found:?}, expected {expected:?}, {ray:?}"));
+                self.faults.push(format!("{case:?}: {found:?}, expected {expected:?}, {ray:?}"));
             }
         }
     }
@@ -116,7 +141,7 @@ pub fn random_expressions_agree_with_the_oracle<S: Subject>() {
         let solids = (0..=chance.below(2)).map(|_| moved(&any_solid(chance, 4), &by));
         let world: Scene = scene(solids.collect::<Vec<_>>());
         let rays: Vec<Ray> = (0..20).map(|_| any_ray(&by, chance)).collect();
-        all.compare::<S>(case, &world, &rays, chance.one_of(&Cut::ALL));
+        all.compare::<S>(Case { name: "trees", number: case }, &world, &rays, chance.one_of(&Cut::ALL));
     }
     all.assert_right("trees");
 }
@@ -131,7 +156,7 @@ pub fn random_surfaces_agree_with_the_oracle<S: Subject>() {
         let parts = (0..=1 + chance.below(4)).map(|_| moved(&any_surface(chance), &by));
         let world: Scene = scene(parts.collect::<Vec<_>>());
         let rays: Vec<Ray> = (0..20).map(|_| any_ray(&by, chance)).collect();
-        all.compare::<S>(case, &world, &rays, chance.one_of(&Cut::ALL));
+        all.compare::<S>(Case { name: "surfaces", number: case }, &world, &rays, chance.one_of(&Cut::ALL));
     }
     all.assert_right("surfaces");
 }

@@ -1,0 +1,24 @@
+//! Files as programs and people write them: what they hold, what is wrong with them, and what they cost.
+
+mod support {
+    pub mod beside;
+    pub mod cases;
+    pub mod oracle;
+    pub mod rays;
+    pub mod request;
+    pub mod scribble;
+    pub mod sound;
+}
+
+mod formats {
+    mod any_text;
+    mod leaves;
+    mod memory;
+    mod nff;
+    mod spd;
+}
+
+#[test]
+fn zz_what_was_skipped_is_said() {
+    support::beside::say_what_was_skipped("formats");
+}

@@ -1,0 +1,348 @@
+//! The viewer in a real terminal: it draws, moves, follows the size, and gives the terminal back.
+#![cfg(all(unix, feature = "app"))]
+
+mod viewer {
+    mod embedded;
+    mod link;
+    mod loading;
+    pub mod pty;
+    mod terminals;
+}
+
+use std::path::Path;
+use std::process::Command;
+use std::time::{Duration, Instant};
+use std::{fs, thread};
+
+use viewer::pty::{Pty, Size};
+
+/// The smallest screen with every panel.
+const SMALLEST: Size = Size { columns: 80, rows: 24 };
+
+/// What is taken for the size of a terminal that reports none.
+const USUAL: Size = Size { columns: 80, rows: 25 };
+
+const VIEWER: &str = env!("CARGO_BIN_EXE_ray13");
+
+/// What stands before an update, and behind it.
+const BEGIN_UPDATE: &str = "\x1b[?2026h";
+const STATUS_REQUEST: &[u8] = b"\x1b[5n";
+
+/// An embedded scene that looks different from every side.
+const SCENE: &str = "die";
+
+/// The viewer on the scene, its first picture drawn.
+fn viewer(size: Size) -> Pty {
+    let mut pty = Pty::start(&[VIEWER, SCENE], size);
+    pty.wait_for("the first picture", Reading::drawn);
+    pty
+}
+
+/// What the tests read from the screen.
+trait Reading {
+    fn drawn(&self) -> bool;
+    fn eye(&self) -> String;
+    fn picture(&self) -> String;
+}
+
+impl Reading for Pty {
+    /// The frame stands in the four corners and the picture is there.
+    fn drawn(&self) -> bool {
+        let Size { columns, rows } = self.size();
+        let corner = |column, row| self.symbol(column, row);
+        let corners =
+            [corner(0, 0), corner(columns - 1, 0), corner(0, rows - 2), corner(columns - 1, rows - 2)];
+        corners == ["╔", "╗", "╚", "╝"]
+            && self.row(0).contains(" RAY13 ")
+            && self.row(rows - 1).contains("1Help")
+            && self.row(rows - 3).contains(" fps ")
+            && self.picture().chars().filter(|c| !c.is_whitespace()).count() > 20
+    }
+
+    fn eye(&self) -> String {
+        let status = self.row(self.size().rows - 3);
+        status.split("EYE").nth(1).and_then(|rest| rest.split("DIR").next()).unwrap_or_default().to_owned()
+    }
+
+    /// What stands inside the panel of the picture, right of its left border.
+    fn picture(&self) -> String {
+        let left = self.row(1).chars().position(|c| c == '┐').unwrap_or_default() + 2;
+        let inside =
+            |row| self.row(row).chars().skip(left).take_while(|&c| c != '│').collect::<String>() + "\n";
+        (2..self.size().rows - 4).map(inside).collect()
+    }
+}
+
+#[test]
+fn an_arrow_moves_the_eye_and_changes_the_picture() {
+    let mut pty = viewer(SMALLEST);
+    let (eye, picture) = (pty.eye(), pty.picture());
+    pty.send("\x1b[C");
+    pty.wait_for("another picture", |pty| pty.drawn() && pty.eye() != eye && pty.picture() != picture);
+    pty.send("\x1b[H");
+    pty.wait_for("the first picture", |pty| pty.eye() == eye && pty.picture() == picture);
+}
+
+#[test]
+fn the_screen_follows_the_size_of_the_terminal() {
+    let mut pty = viewer(SMALLEST);
+    pty.resize(Size { columns: 120, rows: 40 });
+    pty.wait_for("the larger screen", Reading::drawn);
+    pty.resize(Size { columns: 40, rows: 10 });
+    pty.wait_for("title, picture and keys", |pty| {
+        let text = pty.text();
+        pty.row(0).starts_with("═ RAY13 ═") && pty.row(9).contains("1Help") && !text.contains(['║', '│'])
+    });
+    pty.resize(Size { columns: 15, rows: 4 });
+    pty.wait_for("the picture alone", |pty| {
+        let text = pty.text();
+        !text.contains(['║', '═', '│']) && text.chars().any(|c| !c.is_whitespace())
+    });
+    pty.resize(SMALLEST);
+    pty.wait_for("the panels again", Reading::drawn);
+}
+
+#[test]
+fn a_terminal_without_a_size_is_taken_as_80_by_25() {
+    let mut pty = Pty::start(&[VIEWER, SCENE], Size { columns: 0, rows: 0 });
+    pty.wait_for("the first picture", |pty| pty.size() == USUAL && pty.drawn());
+}
+
+#[test]
+fn the_help_lists_the_keys_and_any_key_closes_it() {
+    let mut pty = viewer(SMALLEST);
+    for open in ["?", "\x1bOP"] {
+        pty.send(open);
+        pty.wait_for("the help", |pty| pty.text().contains(" KEYS ") && pty.text().contains("Ctrl-Z"));
+        pty.send("q");
+        pty.wait_for("no help", |pty| !pty.text().contains(" KEYS ") && pty.drawn());
+    }
+}
+
+#[test]
+fn a_key_without_a_meaning_sends_nothing() {
+    let mut pty = viewer(SMALLEST);
+    pty.wait_for("the end of the picture", |pty| pty.log().ends_with(STATUS_REQUEST));
+    let before = pty.log().len();
+    pty.send("xq");
+    pty.wait_for("the end", |pty| pty.text().contains("code=0"));
+    // The first bytes after the picture already give the terminal back.
+    let after = String::from_utf8_lossy(&pty.log()[before..]).into_owned();
+    assert!(after.starts_with("\x1b[?2026l\x1b[0m\x1b[?25h\x1b[?1049l"), "{after:?}");
+}
+
+#[test]
+fn every_key_that_quits_leaves_the_terminal_as_it_was() {
+    for key in ["q", "\x1b[21~", "\x03"] {
+        let mut pty = viewer(SMALLEST);
+        pty.send(key);
+        pty.wait_for_end(0);
+    }
+}
+
+/// `ESC`, and `[C` up to half a second later, ended the program and left `[C` to the shell.
+#[test]
+fn an_arrow_in_two_pieces_is_an_arrow() {
+    let mut pty = viewer(SMALLEST);
+    for later in [0, 10, 60, 500] {
+        let eye = pty.eye();
+        pty.send("\x1b");
+        thread::sleep(Duration::from_millis(later));
+        pty.send("[C");
+        pty.wait_for("another picture", |pty| pty.drawn() && pty.eye() != eye);
+    }
+    pty.send("q");
+    pty.wait_for_end(0);
+}
+
+/// What is told beside a picture was sent before it, on its own.
+#[test]
+fn a_key_costs_one_write() {
+    let mut pty = viewer(SMALLEST);
+    pty.wait_for("the end of the picture", |pty| pty.log().ends_with(STATUS_REQUEST));
+    for presses in 1..=5 {
+        let (eye, before) = (pty.eye(), pty.log().len());
+        pty.send("\x1b[C");
+        pty.wait_for("another picture", |pty| pty.eye() != eye && pty.log().ends_with(STATUS_REQUEST));
+        let sent = String::from_utf8_lossy(&pty.log()[before..]).into_owned();
+        assert_eq!(sent.matches(BEGIN_UPDATE).count(), 1, "press {presses}: {sent:?}");
+    }
+}
+
+/// Every write is an update of its own, so that the count above is that of writes.
+#[test]
+fn an_update_is_one_write() {
+    if Command::new("strace").arg("-V").output().is_err() {
+        eprintln!("skipped: strace is not installed");
+        return;
+    }
+    let log = Path::new(env!("CARGO_TARGET_TMPDIR")).join("writes");
+    let trace = ["strace", "-f", "-qq", "-e", "trace=write", "-e", "write=none", "-s", "0", "-o"];
+    let command: Vec<&str> = trace.into_iter().chain([log.to_str().unwrap(), VIEWER, SCENE]).collect();
+    let mut pty = Pty::start(&command, SMALLEST);
+    pty.wait_for("the first picture", |pty| pty.drawn() && pty.log().ends_with(STATUS_REQUEST));
+    for _ in 0..5 {
+        let eye = pty.eye();
+        pty.send("\x1b[C");
+        pty.wait_for("another picture", |pty| pty.eye() != eye && pty.log().ends_with(STATUS_REQUEST));
+    }
+    let updates = String::from_utf8_lossy(pty.log()).matches(BEGIN_UPDATE).count();
+    pty.send("q");
+    pty.wait_for_end(0);
+    let writes = fs::read_to_string(log).unwrap();
+    let to_terminal = writes.lines().filter(|line| line.contains("write(1,")).count();
+    // The alternate screen, the question, and giving the terminal back are one each.
+    assert_eq!(to_terminal, updates + 3, "{writes}");
+}
+
+/// At rest nothing is sent, though a question may have no answer.
+#[test]
+fn at_rest_nothing_is_sent() {
+    for answers in [Some(Duration::ZERO), None] {
+        let mut pty = Pty::start(&[VIEWER, SCENE], SMALLEST);
+        pty.answer_after(answers);
+        pty.wait_for("the first picture", |pty| pty.drawn() && pty.log().ends_with(STATUS_REQUEST));
+        let before = pty.log().len();
+        let end = Instant::now() + Duration::from_millis(1_500);
+        while Instant::now() < end && pty.take_output(end) {}
+        assert_eq!(pty.log().len(), before);
+    }
+}
+
+#[test]
+fn escape_closes_what_is_open_and_never_quits() {
+    let mut pty = viewer(SMALLEST);
+    let eye = pty.eye();
+    pty.send("\x1b");
+    thread::sleep(Duration::from_millis(100));
+    pty.send("?");
+    pty.wait_for("the help", |pty| pty.text().contains(" KEYS "));
+    pty.send("\x1b");
+    pty.wait_for("no help", |pty| !pty.text().contains(" KEYS ") && pty.drawn());
+    assert_eq!(pty.eye(), eye);
+    pty.send("\x1bl");
+    pty.wait_for("another picture", |pty| pty.drawn() && pty.eye() != eye);
+    pty.send("q");
+    pty.wait_for_end(0);
+}
+
+/// What another program asked, or a terminal tells by itself, has letters that are keys.
+#[test]
+fn a_foreign_answer_is_no_key_in_any_pieces() {
+    let mut pty = viewer(SMALLEST);
+    let eye = pty.eye();
+    pty.send("\x1b[C");
+    pty.wait_for("another picture", |pty| pty.drawn() && pty.eye() != eye);
+    let moved = pty.eye();
+    pty.send("\x1b[H");
+    pty.wait_for("the first picture", |pty| pty.eye() == eye);
+    for answer in [
+        "\x1b]11;rgb:ffff/dddd/aaaa\x07",
+        "\x1b]4;9;rgb:ffff/dddd/aaaa\x1b\\",
+        "\x1b[?62;1;6q",
+        "\x1b_qqq\x1b\\",
+    ] {
+        let (begin, rest) = answer.split_at(answer.len() / 3);
+        let (middle, end) = rest.split_at(rest.len() / 2);
+        for piece in [begin, middle, end] {
+            pty.send(piece);
+            thread::sleep(Duration::from_millis(70));
+        }
+    }
+    pty.send("\x1b[C");
+    pty.wait_for("the picture of one arrow", |pty| pty.drawn() && pty.eye() == moved);
+    pty.send("q");
+    pty.wait_for_end(0);
+}
+
+#[test]
+fn a_terminal_that_answers_nothing_shows_the_picture_all_the_same() {
+    let mut pty = Pty::start(&[VIEWER, SCENE], SMALLEST);
+    pty.answer_after(None);
+    pty.wait_for("the first picture", Reading::drawn);
+    pty.send("q");
+    pty.wait_for_end(0);
+}
+
+/// An answer that is still on its way when the viewer ends is no input of the shell. One that took two seconds, as
+/// behind a large picture on a thin link, was: they were waited for a second.
+#[test]
+fn late_answers_are_not_left_to_the_shell() {
+    for delay in [150, 600, 2_000] {
+        let mut pty = viewer(SMALLEST);
+        pty.answer_after(Some(Duration::from_millis(delay)));
+        let eye = pty.eye();
+        pty.send("\x1b[C");
+        pty.wait_for("another picture", |pty| pty.drawn() && pty.eye() != eye && pty.is_answering());
+        pty.send("q");
+        pty.wait_for_end(0);
+        assert!(!pty.is_answering(), "after {delay} ms the shell gets an answer");
+    }
+}
+
+/// What is typed while the viewer asks who draws its screen counts.
+#[test]
+fn keys_typed_before_the_first_picture_count() {
+    let mut pty = Pty::start(&[VIEWER, SCENE], SMALLEST);
+    pty.answer_after(None);
+    pty.wait_for("the question", |pty| pty.log().ends_with(b"\x1b[5n"));
+    pty.send("q");
+    pty.wait_for_end(0);
+}
+
+#[test]
+fn a_signal_leaves_the_terminal_as_it_was_and_ends_the_process_by_that_signal() {
+    for (name, number) in [("TERM", 15), ("INT", 2), ("HUP", 1)] {
+        let mut pty = viewer(SMALLEST);
+        pty.signal(name);
+        pty.wait_for_end(128 + number);
+    }
+}
+
+#[test]
+fn suspended_it_gives_the_terminal_back_and_continued_it_takes_it_again() {
+    let mut pty = Pty::start_job(&[VIEWER, SCENE], SMALLEST);
+    pty.wait_for("the first picture", Reading::drawn);
+    let picture = pty.picture();
+    pty.send("\x1a");
+    pty.wait_for("the shell", |pty| pty.text().contains("stopped modes=same") && pty.given_back());
+    pty.resize(Size { columns: 100, rows: 30 });
+    pty.send("\n");
+    pty.wait_for("the viewer again", |pty| pty.drawn() && pty.picture() != picture);
+    pty.signal("TSTP");
+    pty.wait_for("the shell again", |pty| pty.text().matches("stopped modes=same").count() == 2);
+    pty.send("\n");
+    pty.wait_for("the viewer once more", Reading::drawn);
+    pty.send("q");
+    pty.wait_for_end(0);
+}
+
+#[test]
+fn what_stops_only_the_process_does_not_spoil_the_screen() {
+    let mut pty = Pty::start_job(&[VIEWER, SCENE], SMALLEST);
+    pty.wait_for("the first picture", Reading::drawn);
+    // Nothing can give the terminal back before a SIGSTOP; the shell writes over the picture.
+    pty.signal("STOP");
+    pty.wait_for("the shell", |pty| pty.text().contains("modes=changed"));
+    pty.send("\n");
+    pty.wait_for("the viewer again", |pty| pty.drawn() && !pty.text().contains("modes="));
+    pty.send("q");
+    pty.wait_for_end(0);
+}
+
+#[test]
+fn without_a_shell_to_continue_it_the_viewer_does_not_stop() {
+    let mut pty = viewer(SMALLEST);
+    let eye = pty.eye();
+    pty.send("\x1a\x1b[C");
+    pty.wait_for("another picture", |pty| pty.drawn() && pty.eye() != eye);
+}
+
+#[test]
+fn a_lost_connection_leaves_no_process() {
+    viewer(SMALLEST).hang_up();
+    // In a session of its own the process gets no SIGHUP and has to notice by itself.
+    let mut pty = Pty::start(&["setsid", "-w", VIEWER, SCENE], SMALLEST);
+    pty.wait_for("the first picture", Reading::drawn);
+    pty.hang_up();
+}

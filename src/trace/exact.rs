@@ -10,7 +10,7 @@ use crate::solid::{
 };
 use crate::stage::{Meter, Probe, Stage};
 
-use super::{Engine, Hit};
+use super::{Hit, RayEngine};
 
 /// A start farther than this before the plane across the ray that touches the ball around the world, in the assembly's
 /// unit, is moved to that plane, so that the way to the world adds no rounding.
@@ -196,7 +196,7 @@ impl<'a> Exact<'a> {
     }
 }
 
-impl Engine for Exact<'_> {
+impl RayEngine for Exact<'_> {
     type Memory = Memory;
 
     fn memory(&self) -> Memory {

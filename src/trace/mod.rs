@@ -1,11 +1,15 @@
-//! Stages 4 to 8, driven: rays in, hits out. An engine answers what a ray meets first ([`Engine::first`],
-//! [`Engine::next`]) and whether light comes through ([`Engine::blocked`]); [`Exact`] is the reference.
+//! Stages 4 to 8, driven: rays in, hits out. A [`RayEngine`] answers what a ray meets first
+//! ([`RayEngine::first`], [`RayEngine::next`]) and whether light comes through ([`RayEngine::blocked`]);
+//! [`Exact`] is the reference. [`Fast`] answers the same for packets of rays, and hands out the exact engine
+//! for those that it leaves a doubt of.
 
 mod exact;
 mod fast;
 
 pub use exact::{Exact, Memory};
-pub use fast::{Fast, OpacityClass, PacketHits, ShadowPacket, ShadowQuery, TileMemory, Transmittance};
+pub use fast::{
+    Fast, OpacityClass, PacketHits, PrimaryPackets, ShadowPacket, ShadowQuery, TileMemory, Transmittance,
+};
 
 use crate::math::{DVec3, Ray};
 use crate::solid::{Crossing, Departure};
@@ -18,8 +22,8 @@ pub struct Hit {
     pub t: f64,
     /// The exact distance lies within `t ± error`.
     pub error: f64,
-    /// Where it is, in the assembly's coordinates: as near to the surface as numbers can say, from however far away the
-    /// ray comes.
+    /// Where it is, in the assembly's coordinates: as near to the surface as numbers can say, from however
+    /// far away the ray comes.
     pub p: DVec3,
     /// The object's index in the assembly.
     pub object: u32,
@@ -39,8 +43,8 @@ impl Hit {
     }
 }
 
-/// Finds hits. Every engine gives the same ones, whatever structure it uses.
-pub trait Engine {
+/// Finds the hits of one ray after the other. Every engine gives the same ones, whatever structure it uses.
+pub trait RayEngine {
     /// Memory of one worker, used again for every ray.
     type Memory;
 
@@ -59,12 +63,13 @@ pub trait Engine {
         meter: &mut Meter<impl Probe>,
     ) -> Option<Hit>;
 
-    /// All surfaces that lie where the last hit does, within their errors and one per object, in no order; the hit
-    /// is one of them. To be asked before the memory is used for another ray: empty if the last one met nothing.
+    /// All surfaces that lie where the last hit does, within their errors and one per object, in no order;
+    /// the hit is one of them. To be asked before the memory is used for another ray: empty if the last one
+    /// met nothing.
     fn together<'m>(&self, memory: &'m Self::Memory) -> &'m [(u32, Crossing)];
 
-    /// Calls `visit` with what a ray that leaves a surface first meets of each object in its way, as far as that may lie before
-    /// `distance`, in no order, until it says yes. Answers whether it did.
+    /// Calls `visit` with what a ray that leaves a surface first meets of each object in its way, as far as
+    /// that may lie before `distance`, in no order, until it says yes. Answers whether it did.
     fn meets(
         &self,
         ray: &Ray,

@@ -39,7 +39,7 @@ impl Fast<'_> {
     ) -> (u16, usize) {
         let slack = self.slack_of::<T>();
         let whole = sources.whole(simd);
-        let seen = matches!(sources, PacketSources::PrimaryHit { .. });
+        let seen = matches!(sources, PacketSources::Primary { .. });
         memory.forget_sheared();
         let TileMemory { far, stack, .. } = memory;
         far.clear();

@@ -10,6 +10,7 @@ mod first;
 mod memory;
 mod packet_culler;
 mod packet_hits;
+mod primary_packets;
 mod reordering;
 mod shadow_packet;
 mod slices;
@@ -21,19 +22,18 @@ mod walk;
 use fearless_simd::{Level, Simd, dispatch};
 
 use crate::lattice::{Bvh8, FRUSTA, Structure, SubLattices, slack};
-use crate::math::{LaneVector, Lanes, PACKET, ROWS, Ray, RayPacket, Real};
-use crate::solid::{Assembly, Crossing, Departure, Departures};
-use crate::stage::{Meter, Probe};
-use crate::view::TileCamera;
+use crate::math::{Lanes, PACKET, RayPacket, Real};
+use crate::solid::{Assembly, Departures};
+use crate::stage::Probe;
 
-use super::exact::all_moved_nearer;
-use super::{Engine, Exact, Hit, Memory};
+use super::Exact;
 
 use memory::Asks;
 use source::PacketSources;
 
 pub use memory::TileMemory;
 pub use packet_hits::PacketHits;
+pub use primary_packets::PrimaryPackets;
 pub use shadow_packet::{ShadowPacket, ShadowQuery};
 pub use transmittance::{OpacityClass, Transmittance};
 
@@ -80,6 +80,11 @@ impl<'a> Fast<'a> {
         self.slack * T::COARSER
     }
 
+    /// The engine that is asked for single rays, over the same boxes.
+    pub fn exact(&self) -> &Exact<'a> {
+        &self.exact
+    }
+
     /// The SIMD width.
     pub fn level(&self) -> Level {
         self.level
@@ -88,12 +93,12 @@ impl<'a> Fast<'a> {
     /// Moves the starts of rays from the eye near to the world. Sets the way there, in two parts that are to be added to a
     /// distance, the second first.
     pub fn approach(&self, packet: &mut RayPacket, ways: &mut [Lanes; 2]) {
-        dispatch!(self.level, simd => approached(simd, packet, ways));
+        primary_packets::approach(packet, ways, self.level);
     }
 
     /// The first hits of a tile of rays, by packets that are [closed](RayPacket::close), up to [`FRUSTA`]
     /// of them; `departures` are the surfaces that the rays of each leave, none for rays from the eye. Those that are unsure,
-    /// and those that meet two objects in one place, are to be asked of [`Engine::first`] or [`Engine::next`] one by one.
+    /// and those that meet two objects in one place, are to be asked of [`super::RayEngine::first`] or [`super::RayEngine::next`] one by one.
     /// Answers how many packets had so many objects between their rays that they were given up.
     pub fn first_of(
         &self,
@@ -110,18 +115,17 @@ impl<'a> Fast<'a> {
         .1
     }
 
-    /// The first hits of the rays from the eye through a tile, as [`Fast::first_of`] finds them. `packets` and `nearest` have
-    /// as many as the tile has blocks. The rays of a block are made, by `make`, where anything may lie in their way; the
-    /// answer has a bit for each block whose are. Of the others nothing is to be read.
+    /// The first hits of the rays from the eye through a tile, as [`Fast::first_of`] finds them. `nearest` has as many as
+    /// the tile has blocks. The rays of a block are made where anything may lie in their way; the answer has a bit for
+    /// each block whose are. Of the others nothing is to be read. `probe` is told when rays are made.
     pub fn first_seen(
         &self,
-        sight: &TileCamera,
-        packets: &mut [RayPacket],
-        make: &mut dyn FnMut(usize, &mut RayPacket),
+        packets: &mut PrimaryPackets,
         nearest: &mut [PacketHits],
         memory: &mut TileMemory,
+        probe: &mut dyn Probe,
     ) -> u16 {
-        let sources = &mut PacketSources::PrimaryHit { sight, packets, make };
+        let sources = &mut PacketSources::Primary { packets, level: self.level, probe };
         if !self.singles {
             return self.first_of_sources::<f64>(sources, (&mut [], nearest), memory).0;
         }
@@ -160,7 +164,7 @@ impl<'a> Fast<'a> {
     }
 
     /// Which rays towards one light are blocked, and what glass leaves of the light of the others. Those that are unsure are
-    /// to be asked of [`Engine::blocked`] one by one. Answers whether most shadow packets had so many objects between their rays that
+    /// to be asked of [`super::RayEngine::blocked`] one by one. Answers whether most shadow packets had so many objects between their rays that
     /// they were given up.
     pub fn blocked_of(
         &self,
@@ -208,65 +212,5 @@ impl<'a> Fast<'a> {
         }
         self.blocked_apart(shadow_packets, departures, lamp, memory);
         apart
-    }
-}
-
-#[inline(always)]
-fn approached<S: Simd>(simd: S, packet: &mut RayPacket, ways: &mut [Lanes; 2]) {
-    for row in 0..ROWS {
-        let (near, [far, left]) = all_moved_nearer(&packet.load(simd, row));
-        packet.o.store(row, near.o);
-        ways[0].store(row, far);
-        ways[1].store(row, left);
-    }
-}
-
-impl Engine for Fast<'_> {
-    type Memory = Memory;
-
-    fn memory(&self) -> Memory {
-        self.exact.memory()
-    }
-
-    fn first(&self, ray: &Ray, memory: &mut Memory, meter: &mut Meter<impl Probe>) -> Option<Hit> {
-        self.exact.first(ray, memory, meter)
-    }
-
-    fn next(
-        &self,
-        ray: &Ray,
-        departure: Departure,
-        memory: &mut Memory,
-        meter: &mut Meter<impl Probe>,
-    ) -> Option<Hit> {
-        self.exact.next(ray, departure, memory, meter)
-    }
-
-    fn together<'m>(&self, memory: &'m Memory) -> &'m [(u32, Crossing)] {
-        self.exact.together(memory)
-    }
-
-    fn meets(
-        &self,
-        ray: &Ray,
-        departure: Departure,
-        distance: f64,
-        memory: &mut Memory,
-        meter: &mut Meter<impl Probe>,
-        visit: &mut dyn FnMut(u32, &Crossing) -> bool,
-    ) -> bool {
-        self.exact.meets(ray, departure, distance, memory, meter, visit)
-    }
-
-    fn of_object(
-        &self,
-        object: u32,
-        ray: &Ray,
-        departure: Departure,
-        distance: f64,
-        memory: &mut Memory,
-        meter: &mut Meter<impl Probe>,
-    ) -> Option<Crossing> {
-        self.exact.of_object(object, ray, departure, distance, memory, meter)
     }
 }

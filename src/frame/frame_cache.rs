@@ -7,7 +7,7 @@ use crate::plan::Precision;
 
 use super::{Frame, Request};
 
-/// What the rays from the eye met, by the precision in which they were asked.
+/// What the rays from the eye met, by the precision in which they were traced.
 #[derive(Debug, Default)]
 pub(super) struct Hits {
     single: OnceLock<Tiles>,
@@ -18,7 +18,7 @@ pub(super) struct Hits {
 type Tiles = Box<[OnceLock<TileHits>]>;
 
 impl Hits {
-    /// Those that were asked in this precision, or room for them in as many tiles.
+    /// Those that were traced in this precision, or room for them in as many tiles.
     pub fn of(&self, precision: Precision, tiles: usize) -> &[OnceLock<TileHits>] {
         let kept = match precision {
             Precision::Single => &self.single,

@@ -98,7 +98,7 @@ pub struct Frame {
     pub space: Space,
     /// What traced; never [`EngineChoice::Auto`].
     pub engine: EngineChoice,
-    /// In which precision rays from the eye were asked.
+    /// In which precision rays from the eye were traced.
     pub precision: Precision,
     /// Why that is a tree, where a lattice was asked for.
     pub over_budget: Option<OverBudget>,

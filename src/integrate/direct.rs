@@ -1,5 +1,5 @@
-//! The light that the surfaces of one generation send back of themselves: their lit points ask for one lamp
-//! after the other, so that the rays towards it run side by side.
+//! Direct light on the surfaces of one generation: one lamp after the other, so that the shadow rays towards
+//! it run side by side.
 
 use crate::math::{Lanes, places};
 use crate::shade::{Channel, Illumination, Lamp, Lit, LitQuery, ResolvedMaterial, Surfaces, before_lamps};

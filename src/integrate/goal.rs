@@ -1,6 +1,6 @@
 //! What a pass over a tile is for.
 
-/// What is asked of the rays from the eye.
+/// What the rays from the eye are traced for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Goal {
     /// What they see and its light.

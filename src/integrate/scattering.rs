@@ -15,11 +15,11 @@ use super::wavefront::{Arrival, QueuedRay, RayQueue, Wavefront};
 use super::wavefront_integrator::WavefrontIntegrator;
 use super::wavefront_scratch::{WavefrontMemory, WavefrontScratch};
 
-/// So few rays that are sent on take less time one by one than a packet of them does.
+/// Up to so many scattered rays are traced one by one, which takes less time than a packet of them.
 const FEW_QUEUED: usize = 6;
 
 /// The most rays that a generation is let grow to, 16 times as many as a tile has dots: at each glass surface
-/// there may be two for one. Those past it go alone.
+/// there may be two for one. Those past it are followed singly.
 const MOST_QUEUED: usize = 16 * 1024;
 
 impl<C: Channel> WavefrontIntegrator<'_, C> {
@@ -39,7 +39,7 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
         let (wave, next) = (&mut before[generation], &mut behind[0]);
         next.clear_queues();
         let followed = wave.generation < self.single.generations;
-        // Where a mirror ray is not followed, nobody asks for its direction.
+        // The direction of a mirror ray that is not followed is not needed.
         let unfollowed =
             |material: &ResolvedMaterial<C>| !followed && material.kr > 0.0 && material.kt == 0.0;
         for k in 0..wave.rays.len() {
@@ -90,11 +90,11 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
         meter: &mut Meter<impl Probe>,
     ) {
         let met = wave.met(at);
-        let (weight, inside) = wave.standing(at);
+        let (weight, inside) = wave.weight_and_media(at);
         let inside = inside.clone();
         let together = [(met.hit.object, met.hit.crossing())];
         let transition = self.single.transition_at(&inside, &together, &mut memory.media);
-        // The whole way is counted as that of this ray.
+        // The distance of the hit is that from the eye already.
         let ray = wave.rays[at.packet].ray(at.lane);
         let sent = PathState { ray, travelled: 0.0, weight, generation: wave.generation, inside };
         let light = self.single.scattered_light(&sent, &met, &transition, wave.light(at), memory, meter);
@@ -113,7 +113,7 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
         let met = wave.met(at);
         let SurfaceInteraction { hit, p, normal } = met;
         let material = self.illumination().material_at(&met);
-        let (weight, inside) = wave.standing(at);
+        let (weight, inside) = wave.weight_and_media(at);
         let transition = (material.kt > 0.0)
             .then(|| self.single.transition_at(inside, &[(hit.object, hit.crossing())], media));
         let (before, behind) = transition.as_ref().map_or((OUTSIDE, OUTSIDE), |t| (t.before, t.behind));

@@ -48,8 +48,8 @@ impl TileHits {
 }
 
 impl BlockHits {
-    /// What a packet met. `met_singly` is what rays met that were traced singly, `together` has a bit for those
-    /// among them that met several surfaces in one place.
+    /// What a packet met. `met_singly` is what rays met that were traced singly, `together` has a bit for
+    /// those among them that met several surfaces in one place.
     pub fn new(nearest: &PacketHits, together: u64, met_singly: &[(RayIndex, SurfaceInteraction)]) -> Self {
         let single = met_singly.iter().filter(|(at, _)| together >> at.lane & 1 == 0);
         Self {

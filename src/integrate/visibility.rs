@@ -34,7 +34,7 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
     /// The product of `kt` over the glass objects before `distance`, in the order of their numbers; 0 where
     /// anything opaque is met before it; `None` where there is nothing at all.
     ///
-    /// Each object is asked for itself what the ray first meets of it: so it makes no difference which of two
+    /// What the ray first meets is found for each object by itself: so it makes no difference which of two
     /// surfaces in one place comes first.
     fn transmittance(
         &self,

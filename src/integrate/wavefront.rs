@@ -47,10 +47,10 @@ pub(super) struct Wavefront<C> {
     /// The glass that rays from the eye start in.
     pub inside: MediumStack,
     pub rays: Vec<RayPacket>,
-    /// The way from the eye to where each ray starts, in two parts that are to be added to a distance, the
-    /// second first.
+    /// The path length from the eye to where each ray starts, in two parts that are to be added to a
+    /// distance, the second first.
     pub before: Vec<[Lanes; 2]>,
-    /// The surfaces that they leave; nothing says so of rays from the eye.
+    /// The surfaces that the rays leave; of no meaning for rays from the eye.
     pub from: Vec<Departures>,
     pub nearest: Vec<PacketHits>,
     pub surfaces: Vec<Surfaces>,
@@ -59,8 +59,8 @@ pub(super) struct Wavefront<C> {
     /// The light that arrives along each ray, whole as soon as that is known: a column for each part, packet
     /// by packet.
     pub light: Vec<Lanes>,
-    /// The rays that met several surfaces in one place, a bit for each: their surface is known already, and its
-    /// light, where light is asked for.
+    /// The rays that met several surfaces in one place, a bit for each: their surface is known already, and
+    /// its light, where light is asked for.
     pub known: Vec<u64>,
     /// The mirror rays of this generation, and its Snell rays; none in the first.
     pub queues: [RayQueue; 2],
@@ -84,7 +84,7 @@ impl RayQueue {
 }
 
 impl<C> Wavefront<C> {
-    /// No rays yet.
+    /// Returns a generation of no rays yet.
     pub fn new(generation: u32) -> Self {
         Self {
             generation,
@@ -105,7 +105,7 @@ impl<C> Wavefront<C> {
 }
 
 impl<C: Channel> Wavefront<C> {
-    /// Room for what its packets meet; there may be more.
+    /// Makes room for what its packets meet, at least as much.
     pub fn make_room(&mut self) {
         let count = self.rays.len();
         if self.nearest.len() < count {
@@ -128,7 +128,7 @@ impl<C: Channel> Wavefront<C> {
         }
     }
 
-    /// How many rays were sent on to it.
+    /// Counts the rays that were sent on to it.
     #[inline]
     pub fn queued(&self) -> usize {
         self.queues.iter().map(|queue| queue.rays.len()).sum()
@@ -160,7 +160,7 @@ impl<C: Channel> Wavefront<C> {
         }
     }
 
-    /// The light of a packet, a column for each part.
+    /// Returns the light of a packet, a column for each part.
     #[inline]
     pub fn light_mut(&mut self, packet: usize) -> &mut [Lanes] {
         &mut self.light[packet * C::PARTS..][..C::PARTS]
@@ -182,7 +182,7 @@ impl<C: Channel> Wavefront<C> {
         C::row(&self.light[packet * C::PARTS..][..C::PARTS], row)
     }
 
-    /// Sets it.
+    /// Sets the light that arrives along one ray.
     #[inline]
     pub fn set_light(&mut self, at: RayIndex, light: C) {
         for (part, column) in self.light_mut(at.packet).iter_mut().enumerate() {
@@ -199,7 +199,7 @@ impl<C: Channel> Wavefront<C> {
 
     /// The share of one ray's light that reaches the eye, and the glass that it starts in.
     #[inline]
-    pub fn standing(&self, at: RayIndex) -> (f64, &MediumStack) {
+    pub fn weight_and_media(&self, at: RayIndex) -> (f64, &MediumStack) {
         self.queued_ray(at).map_or((1.0, &self.inside), |QueuedRay { sent, .. }| (sent.weight, &sent.inside))
     }
 

@@ -11,7 +11,7 @@ use super::lamp::Towards;
 use super::material::{Reflected, ResolvedMaterial};
 use super::surfaces::Surfaces;
 
-/// Which surfaces of a packet a lamp is asked about, and what.
+/// Which surfaces of a packet may get light from a lamp, and what has to be known of them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LitQuery {
     /// Where the lamp is, in the assembly's coordinates.
@@ -20,7 +20,7 @@ pub(crate) struct LitQuery {
     pub lanes: u64,
     /// Whether anything may stand in the way.
     pub shadows: bool,
-    /// Whether the angle between the mirrored light and the way to the eye is asked for.
+    /// Whether highlights are computed, which need the angle between the mirrored light and the ray.
     pub highlights: bool,
 }
 

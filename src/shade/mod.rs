@@ -1,7 +1,7 @@
 //! Stage 9, SHADE: the illumination equations (1) to (4) at a surface: kernels, one formula for one ray and
 //! for a packet.
 //!
-//! Who traces the rays that they ask for is [`crate::integrate`].
+//! The rays that they need are traced by [`crate::integrate`].
 
 mod channel;
 mod direction;

@@ -39,8 +39,8 @@ impl Surfaces {
         self.materials.clear();
     }
 
-    /// Sets the points at which rays met something, and their path lengths. `before` is the path length from the
-    /// eye to where each ray starts, in two parts, the second to be added first.
+    /// Sets the points at which rays met something, and their path lengths. `before` is the path length from
+    /// the eye to where each ray starts, in two parts, the second to be added first.
     pub fn set_points(
         &mut self,
         packet: &RayPacket,
@@ -70,8 +70,8 @@ impl Surfaces {
         }
     }
 
-    /// Finds materials and normals of the surfaces that were hit. Sets `departures` for rays that leave them to
-    /// the sides that these came from.
+    /// Finds materials and normals of the surfaces that were hit. Sets `departures` for rays that leave them
+    /// to the sides that these came from.
     pub fn resolve(
         &mut self,
         packet: &RayPacket,

@@ -24,7 +24,7 @@ mod wavefront_integrator;
 mod wavefront_scratch;
 
 pub use path::View;
-pub use ray_integrator::{RayIntegrator, RayMemory};
+pub use ray_integrator::{PathMemory, RayIntegrator};
 pub use ray_tiles::RayTileMemory;
 pub use segments::{PathSegment, RayKind};
 pub use tile_hits::TileHits;

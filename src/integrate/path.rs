@@ -10,7 +10,7 @@ use crate::stage::{Meter, Probe, Stage};
 use crate::trace::{Hit, RayEngine};
 
 use super::path_state::PathState;
-use super::ray_integrator::{RayIntegrator, RayMemory};
+use super::ray_integrator::{PathMemory, RayIntegrator};
 
 /// What a ray from the eye saw.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,7 +26,7 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
     pub fn view(
         &self,
         ray: &Ray,
-        memory: &mut RayMemory<R::Memory>,
+        memory: &mut PathMemory<R::Memory>,
         meter: &mut Meter<impl Probe>,
     ) -> View<C> {
         let Some(met) = self.interaction(ray, memory, meter) else {
@@ -41,7 +41,7 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
     pub(super) fn interaction(
         &self,
         ray: &Ray,
-        memory: &mut RayMemory<R::Memory>,
+        memory: &mut PathMemory<R::Memory>,
         meter: &mut Meter<impl Probe>,
     ) -> Option<SurfaceInteraction> {
         meter.counts.primary_rays += 1;
@@ -52,7 +52,7 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
     }
 
     /// The surface of the last hit.
-    pub(super) fn met(&self, ray: &Ray, hit: Hit, memory: &RayMemory<R::Memory>) -> SurfaceInteraction {
+    pub(super) fn met(&self, ray: &Ray, hit: Hit, memory: &PathMemory<R::Memory>) -> SurfaceInteraction {
         SurfaceInteraction::new(self.illumination.assembly, ray, self.shown(hit, memory))
     }
 
@@ -61,7 +61,7 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
         &self,
         sent: &PathState,
         met: &SurfaceInteraction,
-        memory: &mut RayMemory<R::Memory>,
+        memory: &mut PathMemory<R::Memory>,
         meter: &mut Meter<impl Probe>,
     ) -> C {
         if self.illumination.material_at(met).scatters() {
@@ -78,7 +78,7 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
         &self,
         sent: &PathState,
         met: &SurfaceInteraction,
-        memory: &mut RayMemory<R::Memory>,
+        memory: &mut PathMemory<R::Memory>,
         meter: &mut Meter<impl Probe>,
     ) -> C {
         let illumination = &self.illumination;
@@ -119,7 +119,7 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
 
     /// Of a glass surface and opaque solids that begin in the same place, the opaque shows: behind the glass
     /// there is nothing that a ray could go on through. To be asked before the memory is used again.
-    fn shown(&self, hit: Hit, memory: &RayMemory<R::Memory>) -> Hit {
+    fn shown(&self, hit: Hit, memory: &PathMemory<R::Memory>) -> Hit {
         let illumination = &self.illumination;
         let together = self.engine.together(&memory.engine);
         if together.len() < 2 || illumination.material_of(hit.primitive).kt == 0.0 {
@@ -144,9 +144,9 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
     pub(super) fn transition(
         &self,
         inside: &MediumStack,
-        memory: &mut RayMemory<R::Memory>,
+        memory: &mut PathMemory<R::Memory>,
     ) -> MediumTransition {
-        let RayMemory { engine, media, .. } = memory;
+        let PathMemory { engine, media, .. } = memory;
         self.transition_at(inside, self.engine.together(engine), media)
     }
 
@@ -175,7 +175,7 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
         met: &SurfaceInteraction,
         transition: &MediumTransition,
         own: C,
-        memory: &mut RayMemory<R::Memory>,
+        memory: &mut PathMemory<R::Memory>,
         meter: &mut Meter<impl Probe>,
     ) -> C {
         let material = self.illumination.material_at(met);
@@ -202,7 +202,7 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
         &self,
         sent: &PathState,
         departure: Departure,
-        memory: &mut RayMemory<R::Memory>,
+        memory: &mut PathMemory<R::Memory>,
         meter: &mut Meter<impl Probe>,
     ) -> C {
         if !self.is_followed(sent.generation, sent.weight) {

@@ -8,7 +8,7 @@ use crate::view::TileCamera;
 
 use super::goal::Goal;
 use super::path_state::PathState;
-use super::ray_integrator::RayMemory;
+use super::ray_integrator::PathMemory;
 use super::surfaces_met::SingleRay;
 use super::tile_hits::{BlockHits, TileHits};
 use super::tile_integrator::TilePass;
@@ -111,7 +111,7 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
         goal: Goal,
         some: impl Iterator<Item = RayIndex>,
         wave: &mut Wavefront<C>,
-        memory: &mut RayMemory<Memory>,
+        memory: &mut PathMemory<Memory>,
         meter: &mut Meter<impl Probe>,
     ) -> Vec<(RayIndex, SurfaceInteraction)> {
         let mut met_singly = Vec::new();

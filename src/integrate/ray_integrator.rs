@@ -17,9 +17,9 @@ pub struct RayIntegrator<'a, R, C> {
     pub(super) least_weight: f64,
 }
 
-/// Memory of one worker, with an engine's own.
+/// Memory of one worker that follows paths, with its engine's own.
 #[derive(Debug)]
-pub struct RayMemory<M> {
+pub struct PathMemory<M> {
     pub(super) engine: M,
     pub(super) media: Media,
     /// The glass objects that the present shadow ray has gone through.
@@ -39,7 +39,7 @@ impl<'a, R: RayEngine, C: Channel> RayIntegrator<'a, R, C> {
     }
 
     /// New memory for a worker.
-    pub fn memory(&self) -> RayMemory<R::Memory> {
-        RayMemory { engine: self.engine.memory(), media: Media::default(), crossed: Vec::new() }
+    pub fn memory(&self) -> PathMemory<R::Memory> {
+        PathMemory { engine: self.engine.memory(), media: Media::default(), crossed: Vec::new() }
     }
 }

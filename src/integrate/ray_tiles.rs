@@ -6,7 +6,7 @@ use crate::stage::{Meter, Probe, Stage};
 use crate::trace::RayEngine;
 use crate::view::{TileCamera, settled};
 
-use super::ray_integrator::{RayIntegrator, RayMemory};
+use super::ray_integrator::{PathMemory, RayIntegrator};
 use super::tile_integrator::{TileIntegrator, TilePass};
 
 /// By dot of a tile in scan order: what it saw.
@@ -15,7 +15,7 @@ type SeenByDots = Vec<Option<PrimaryHit>>;
 /// Memory of one worker.
 #[derive(Debug)]
 pub struct RayTileMemory<M> {
-    rays: RayMemory<M>,
+    rays: PathMemory<M>,
     /// Of the last pass.
     seen: SeenByDots,
 }

@@ -10,7 +10,7 @@ use crate::stage::{Meter, Probe};
 use crate::trace::Memory;
 
 use super::path_state::PathState;
-use super::ray_integrator::RayMemory;
+use super::ray_integrator::PathMemory;
 use super::wavefront::{Arrival, QueuedRay, RayQueue, Wavefront};
 use super::wavefront_integrator::WavefrontIntegrator;
 use super::wavefront_scratch::{WavefrontMemory, WavefrontScratch};
@@ -86,7 +86,7 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
         &self,
         wave: &mut Wavefront<C>,
         at: RayIndex,
-        memory: &mut RayMemory<Memory>,
+        memory: &mut PathMemory<Memory>,
         meter: &mut Meter<impl Probe>,
     ) {
         let met = wave.met(at);

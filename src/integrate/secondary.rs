@@ -8,7 +8,7 @@ use crate::stage::{Meter, Probe, Stage};
 use crate::trace::{Memory, RayEngine, TileMemory};
 
 use super::goal::Goal;
-use super::ray_integrator::RayMemory;
+use super::ray_integrator::PathMemory;
 use super::surfaces_met::SingleRay;
 use super::wavefront::{QueuedRay, Wavefront};
 use super::wavefront_integrator::WavefrontIntegrator;
@@ -70,7 +70,7 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
     fn trace_unsure(
         &self,
         wave: &mut Wavefront<C>,
-        memory: &mut RayMemory<Memory>,
+        memory: &mut PathMemory<Memory>,
         meter: &mut Meter<impl Probe>,
     ) {
         let queues = std::mem::take(&mut wave.queues);

@@ -5,7 +5,7 @@ use crate::shade::{Channel, ScatteredRays};
 use crate::stage::{Meter, Probe};
 use crate::trace::{Hit, RayEngine};
 
-use super::ray_integrator::{RayIntegrator, RayMemory};
+use super::ray_integrator::{PathMemory, RayIntegrator};
 
 /// Why a ray goes where it goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,7 +41,7 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
         &self,
         ray: &Ray,
         preferred: RayKind,
-        memory: &mut RayMemory<R::Memory>,
+        memory: &mut PathMemory<R::Memory>,
         meter: &mut Meter<impl Probe>,
     ) -> Vec<PathSegment> {
         let illumination = &self.illumination;

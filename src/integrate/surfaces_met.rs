@@ -7,7 +7,7 @@ use crate::trace::{Hit, Memory, RayEngine};
 
 use super::goal::Goal;
 use super::path_state::PathState;
-use super::ray_integrator::RayMemory;
+use super::ray_integrator::PathMemory;
 use super::wavefront::Wavefront;
 use super::wavefront_integrator::WavefrontIntegrator;
 
@@ -27,7 +27,7 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
         wave: &mut Wavefront<C>,
         ray: &SingleRay,
         goal: Goal,
-        memory: &mut RayMemory<Memory>,
+        memory: &mut PathMemory<Memory>,
         meter: &mut Meter<impl Probe>,
     ) -> Option<SurfaceInteraction> {
         let SingleRay { at, sent, hit } = *ray;

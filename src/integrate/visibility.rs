@@ -6,7 +6,7 @@ use crate::solid::{Crossing, Departure};
 use crate::stage::{Meter, Probe, Stage};
 use crate::trace::{Hit, OpacityClass, RayEngine};
 
-use super::ray_integrator::{RayIntegrator, RayMemory};
+use super::ray_integrator::{PathMemory, RayIntegrator};
 
 impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
     /// V: the share of a light at `distance` that reaches the start of `ray`.
@@ -16,7 +16,7 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
         ray: &Ray,
         departure: Departure,
         distance: f64,
-        memory: &mut RayMemory<R::Memory>,
+        memory: &mut PathMemory<R::Memory>,
         meter: &mut Meter<impl Probe>,
     ) -> f64 {
         meter.counts.shadow_rays += 1;
@@ -41,10 +41,10 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
         ray: &Ray,
         departure: Departure,
         distance: f64,
-        memory: &mut RayMemory<R::Memory>,
+        memory: &mut PathMemory<R::Memory>,
         meter: &mut Meter<impl Probe>,
     ) -> Option<f64> {
-        let RayMemory { engine, crossed, .. } = memory;
+        let PathMemory { engine, crossed, .. } = memory;
         crossed.clear();
         let kt = |crossing: &Crossing| self.illumination.lets_through[crossing.primitive as usize];
         let visit = &mut |object, crossing: &Crossing| {

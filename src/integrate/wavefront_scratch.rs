@@ -4,7 +4,7 @@ use crate::math::{Lanes, RayPacket};
 use crate::shade::{Channel, Lit};
 use crate::trace::{Memory, ShadowPacket, TileMemory};
 
-use super::ray_integrator::RayMemory;
+use super::ray_integrator::PathMemory;
 use super::wavefront::Wavefront;
 
 /// What lighting a tile takes, used again for every tile and every picture.
@@ -20,7 +20,7 @@ pub struct WavefrontScratch<C> {
 /// Memory of one worker.
 #[derive(Debug)]
 pub struct WavefrontMemory<C> {
-    pub(super) single: RayMemory<Memory>,
+    pub(super) single: PathMemory<Memory>,
     pub(super) tile: WavefrontScratch<C>,
 }
 

@@ -65,6 +65,8 @@ pub mod trace;
 
 pub mod shade;
 
+pub mod integrate;
+
 pub mod tone;
 
 pub mod glyph;

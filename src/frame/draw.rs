@@ -1,31 +1,32 @@
-//! One picture, through all stages.
+//! One picture, through all stages: prepared, rendered tile by tile, and assembled.
 
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 
 use crate::glyph::{self, Cell, Palette};
-use crate::lattice::Structure;
-use crate::math::{Bounds, DVec3, Grid};
-use crate::plan::{Channels, EngineChoice, Plan, Precision};
-use crate::shade::{Channel, Shader, TileHits};
-use crate::stage::{Counts, Meter, Progress, Stage, StageTimes, Task, Watch};
-use crate::trace::{Exact, Fast};
-use crate::view::{Picture, PinholeCamera, TILE, Tile, tiles};
+use crate::integrate::TileIntegrator;
+use crate::math::{DVec3, Grid};
+use crate::plan::Channels;
+use crate::shade::Channel;
+use crate::stage::{Counts, Progress, Stage, StageTimes, Task, Watch};
+use crate::view::{TILE, Tile, tiles};
 
-use super::blocks::Blocks;
-use super::frame_cache::{Hits, Reused};
-use super::gather::{PictureDots, TileDots};
-use super::points::{Points, Tracer};
+use super::assemble::PictureDots;
+use super::finished_tile::FinishedTile;
+use super::frame_cache::Hits;
+use super::prepare::{Prepared, Work};
+use super::render::TileRenderer;
+use super::reuse::Reused;
 use super::{Frame, NothingInView, Request, Space, Studio, Wants};
 
-/// One tile in this many is timed stage by stage: reading the clock at every change of stage costs about as much
-/// as the stage.
+/// One tile in this many is timed stage by stage: reading the clock at every change of stage costs about as
+/// much as the stage.
 const TIMED: u32 = 13;
 
-/// How many columns farther left the timed tiles of the next row stand: whatever the width of a picture, they are as many in
-/// each column, and no two are near each other.
+/// How many columns farther left the timed tiles of the next row stand: whatever the width of a picture, they
+/// are as many in each column, and no two are near each other.
 const TIMED_SHIFT: u32 = 5;
 
 /// Whether a tile is timed. The first is.
@@ -37,15 +38,16 @@ fn is_timed(tile: &Tile) -> bool {
 impl Studio {
     /// Draws one picture. The same request gives the same dots and cells, on any number of threads.
     ///
-    /// The studio keeps the last picture, and shares its grids with the frame that it gave. Where a request differs
-    /// from it in nothing that dots depend on, no ray is traced: only characters are made anew, and these only where
-    /// glyphs, palette or tone have changed. Such a frame counts nothing and gives no time to the stages it left out.
+    /// The studio keeps the last picture, and shares its grids with the frame that it gave. Where a request
+    /// differs from it in nothing that dots depend on, no ray is traced: only characters are made anew, and
+    /// these only where glyphs, palette or tone have changed. Such a frame counts nothing and gives no time
+    /// to the stages it left out.
     ///
-    /// Where requests differ in light and not in view, which is camera, dots and their aspect, the second picture keeps what
-    /// its rays from the eye met, and those after it take that over; with several samples a dot, for the one in its middle. Such
-    /// a frame counts only the few rays from the eye that are traced again, where surfaces lie in one place and their
-    /// materials decide. What is kept takes 21 bytes a dot of the blocks of 8 × 8 that see anything, and is forgotten with the
-    /// view. The exact engine traces all rays.
+    /// Where requests differ in light and not in view, which is camera, dots and their aspect, the second
+    /// picture keeps what its rays through the middles of dots met, and those after it take that over. Such a
+    /// frame counts of these only the few rays from the eye that are traced again, where surfaces lie in one
+    /// place and their materials decide. What is kept takes 21 bytes a dot of the blocks of 8 × 8 that see
+    /// anything, and is forgotten with the view. The exact engine traces all rays.
     pub fn draw(&self, request: &Request) -> Frame {
         let start = Instant::now();
         self.finished(request, self.reused(request), start)
@@ -81,26 +83,22 @@ impl Studio {
         frame.only(request)
     }
 
-    /// The dots of a picture, without characters.
+    /// The dots of a picture, without characters: prepared, rendered tile by tile, and assembled.
     fn traced(&self, request: &Request, hits: Option<&Hits>) -> Frame {
-        let start = Instant::now();
-        let (pinhole, plan) = self.plan(request);
-        let hits = hits.map(|hits| hits.of(plan.precision, tiles(request.dots).len()));
-        let viewed = Instant::now();
-        let cut_before = self.built().cutting;
-        let (structure, over_budget) = self.structure(plan.structure);
+        let prepared = self.prepare(request, hits);
         let tracing = Instant::now();
         let mut dots = PictureDots::new(request, self.given_up());
-        let view = Viewed { studio: self, plan: &plan, pinhole: &pinhole, hits };
         let whole = Whole { dots: &mut dots, wants: request.wants, progress: &self.progress };
-        let (counts, sampled) = match plan.channels {
-            Channels::Gray => view.work::<f64, _>(structure, whole),
-            Channels::Three => view.work::<DVec3, _>(structure, whole),
+        let (counts, sampled) = match prepared.plan.channels {
+            Channels::Gray => prepared.work::<f64, _>(whole),
+            Channels::Three => prepared.work::<DVec3, _>(whole),
         };
         let trace = tracing.elapsed();
+        let Prepared { plan, pinhole, structure, over_budget, times: prepared, .. } = prepared;
         let mut times = shared_out(&sampled, trace);
-        times[Stage::Lattice] = self.built().cutting.saturating_sub(cut_before);
-        times[Stage::View] = viewed - start;
+        for stage in [Stage::Lattice, Stage::View] {
+            times[stage] = prepared[stage];
+        }
         Frame {
             light: Arc::new(dots.light),
             color: dots.color.map(Arc::new),
@@ -123,53 +121,6 @@ impl Studio {
             total: Duration::ZERO,
         }
     }
-
-    /// From where a picture is seen, and what it requires.
-    pub(super) fn plan(&self, request: &Request) -> (PinholeCamera, Plan) {
-        let picture = Picture { dots: request.dots, dot_aspect: request.dot_aspect };
-        let pinhole = PinholeCamera::new(&request.camera, &picture);
-        let plan = Plan::new(self.scene(), &self.assembly, &pinhole, &request.planned());
-        (pinhole, plan)
-    }
-}
-
-/// A picture that is to be traced.
-pub(super) struct Viewed<'a> {
-    pub studio: &'a Studio,
-    pub plan: &'a Plan,
-    pub pinhole: &'a PinholeCamera,
-    /// By tile, where they are kept.
-    pub hits: Option<&'a [OnceLock<TileHits>]>,
-}
-
-/// What is done by the plan's engine, whichever that is.
-pub(super) trait Work<C: Channel> {
-    /// What comes of it.
-    type Done;
-
-    /// Does it.
-    fn by<T: Tracer<C>>(self, tracer: &T) -> Self::Done;
-}
-
-impl Viewed<'_> {
-    /// Has work done by the plan's engine.
-    pub fn work<C: Channel + 'static, W: Work<C>>(&self, structure: Structure, work: W) -> W::Done {
-        let Self { studio, plan, pinhole, .. } = *self;
-        let (scene, assembly) = (studio.scene(), &studio.assembly);
-        let way = farthest(assembly.scene_frame.inward_near(pinhole.eye), &assembly.limit);
-        if let (EngineChoice::Fast, Structure::Boxes(boxes, subs)) = (plan.engine, structure) {
-            let engine = Fast::new(assembly, boxes, subs)
-                .at_level(studio.level())
-                .in_singles(plan.precision == Precision::Single);
-            let shader = &Shader::<_, C>::new(scene, assembly, plan, &engine);
-            let (samples, spare) = (plan.samples, &studio.spare);
-            work.by(&Blocks { assembly, shader, pinhole, way, samples, hits: self.hits, spare })
-        } else {
-            let engine = Exact::new(assembly, structure);
-            let shader = &Shader::<_, C>::new(scene, assembly, plan, &engine);
-            work.by(&Points { assembly, shader, pinhole, way, samples: plan.samples })
-        }
-    }
 }
 
 /// All dots of a picture.
@@ -183,27 +134,24 @@ impl<C: Channel> Work<C> for Whole<'_> {
     /// What was counted, and the times of the tiles that were timed.
     type Done = (Counts, StageTimes);
 
-    fn by<T: Tracer<C>>(self, tracer: &T) -> Self::Done {
+    fn by<I: TileIntegrator<C>>(self, renderer: &TileRenderer<I>) -> Self::Done {
         let Self { dots, wants, progress } = self;
-        let size = dots.light.size();
-        let bands = dots.bands();
-        // Of workers that have no tile in hand. Taken anew for each tile, since rayon would make more memories
-        // than it has threads.
+        let picture = dots.assembly();
+        // Of workers that have no tile in hand. Taken anew for each tile, since rayon would make more
+        // memories than it has threads.
         let workers = Mutex::new(Vec::new());
-        let tiles = tiles(size);
+        let tiles = tiles(picture.size());
         progress.begin(Task::Tracing, tiles.len() as u64);
         let idle = || workers.lock().unwrap_or_else(PoisonError::into_inner);
         let drawn = tiles.into_par_iter().map(|tile| {
             let taken = idle().pop();
             // Behind a pointer: it is large, and handed on with every tile.
-            let mut worker = taken.unwrap_or_else(|| Box::new((tracer.memory(), TileDots::new(wants))));
-            let (memory, dots) = &mut *worker;
-            dots.fit(&tile);
+            let mut worker = taken.unwrap_or_else(|| Box::new((renderer.memory(), FinishedTile::new(wants))));
+            let (memory, finished) = &mut *worker;
             let watch = if is_timed(&tile) { Watch::timed(Stage::Ray) } else { Watch::Silent };
-            let mut meter = Meter::new(watch);
-            tracer.tile(&tile, memory, dots, &mut meter);
-            let measured = (meter.counts, meter.probe.stop());
-            bands[(tile.corner[1] / TILE) as usize].take(size.width, &tile, dots);
+            renderer.render(&tile, watch, memory, finished);
+            picture.take(finished);
+            let measured = (finished.counts, finished.times);
             idle().push(worker);
             progress.advance(1);
             measured
@@ -214,7 +162,7 @@ impl<C: Channel> Work<C> for Whole<'_> {
             all
         });
         for worker in idle().drain(..) {
-            tracer.give_back(worker.0);
+            renderer.give_back(worker.0);
         }
         all
     }
@@ -228,11 +176,6 @@ pub(super) fn composed(light: &Grid<f64>, color: Option<&Grid<DVec3>>, request: 
         }
         _ => glyph::compose(light, request.glyphs, request.palette, request.tone),
     }
-}
-
-/// The distance from a point to the farthest point of a box.
-fn farthest(p: DVec3, b: &Bounds) -> f64 {
-    (p - b.lo).abs().max((p - b.hi).abs()).length()
 }
 
 /// Shares the time of tracing out among the stages as the timed tiles spent theirs.

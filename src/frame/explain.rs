@@ -5,21 +5,23 @@ use crate::plan::{Cost, StagePlan, Term};
 use crate::stage::Stage;
 use crate::tone::Tone;
 
+use super::prepare::Prepared;
 use super::{Request, Space, Studio};
 
 impl Studio {
-    /// All eleven stages of the picture that [`Studio::draw`] draws of the same request: which it needs, which it
-    /// leaves out, why, and what each is expected to cost on this machine: some tiles are traced to see that. Builds the structure, where it was not built before; what that took is what LATTICE costs.
+    /// All eleven stages of the picture that [`Studio::draw`] draws of the same request: which it needs,
+    /// which it leaves out, why, and what each is expected to cost on this machine: some tiles are traced to
+    /// see that. Builds the structure, where it was not built before; what that took is what LATTICE costs.
     pub fn explain(&self, request: &Request) -> Vec<StagePlan> {
-        let (pinhole, plan) = self.plan(request);
-        let mut stages = plan.explain(self.scene(), &self.assembly, &pinhole, request.dots);
-        let (structure, over_budget) = self.structure(plan.structure);
-        let sample = self.sample(request, (&pinhole, &plan), structure);
+        let prepared = self.prepare(request, None);
+        let Prepared { plan, pinhole, structure, over_budget, .. } = &prepared;
+        let mut stages = plan.explain(self.scene(), &self.assembly, pinhole, request.dots);
+        let sample = prepared.sample(request);
         let costs = plan.costs(&sample, request.dots);
         for stage in &mut stages {
             stage.cost = costs(stage.stage).filter(|_| stage.needed);
         }
-        let built = match Space::of(&structure) {
+        let built = match Space::of(structure) {
             Space::Whole => None,
             Space::Lattice([x, y, z]) => Some(format!("{x} × {y} × {z} cells")),
             Space::Tree(1) | Space::Boxes(1) => Some("1 node".to_owned()),
@@ -31,7 +33,7 @@ impl Studio {
                 let each = self.built().cutting.as_secs_f64() * 1e9 / objects;
                 stage.cost = Some(Cost { count: objects, of: "object", each, shared: false });
             }
-            if let Some(over) = &over_budget {
+            if let Some(over) = over_budget {
                 stage.why += &format!("; {over} → tree");
             }
             if let Some(built) = &built {

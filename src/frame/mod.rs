@@ -1,15 +1,17 @@
 //! All stages in order: a request in, a finished frame out, with what each stage counted.
 
-mod blocks;
+mod assemble;
 mod compare;
 mod draw;
 mod explain;
+mod finished_tile;
 mod frame_cache;
-mod gather;
 mod nothing;
 pub mod pcat;
-mod points;
+mod prepare;
+mod render;
 mod request;
+mod reuse;
 mod sample;
 mod scratch_pool;
 mod studio;

@@ -6,8 +6,8 @@ use crate::math::DVec3;
 use crate::solid::Assembly;
 use crate::view::PinholeCamera;
 
-/// So many times the scene's size an eye is too far away: its coordinates have 53 bits, so from there on all of the
-/// scene is in one place as seen by them.
+/// So many times the scene's size an eye is too far away: its coordinates have 53 bits, so from there on all
+/// of the scene is in one place as seen by them.
 const TOO_FAR: f64 = 1e15;
 
 /// Why no ray from the eye met anything, as far as it is known.
@@ -40,7 +40,8 @@ impl NothingInView {
         if away > TOO_FAR * size {
             return Self::TooFar;
         }
-        // Of each corner as the picture has it: how deep, and how far across and down, in parts of the half field.
+        // Of each corner as the picture has it: how deep, and how far across and down, in parts of the half
+        // field.
         let seen = limit.corners().map(|corner| {
             let from_eye = corner - eye;
             let depth = from_eye.dot(pinhole.forward);

@@ -64,8 +64,8 @@ impl Request {
     }
 }
 
-/// A finished picture. Grids of dots have the size that was asked for; those that nobody asked for are absent. They are
-/// shared with the studio that drew them, which may give them out again.
+/// A finished picture. Grids of dots have the size that was asked for; those that nobody asked for are
+/// absent. They are shared with the studio that drew them, which may give them out again.
 #[derive(Clone, Debug)]
 pub struct Frame {
     /// The light of each dot, a gray in linear light, 0 or more, not clamped.
@@ -83,12 +83,12 @@ pub struct Frame {
     pub cells: Option<Arc<Grid<Cell>>>,
     /// Why it is all background; absent where anything is seen.
     pub nothing: Option<NothingInView>,
-    /// What was counted while this frame was drawn: nothing where its light is that of the picture before, and where hits
-    /// were taken over, as rays from the eye only those that had to be traced again.
+    /// What was counted while this frame was drawn: nothing where its light is that of the picture before,
+    /// and where hits were taken over, as rays from the eye only those that had to be traced again.
     pub counts: Counts,
-    /// Where the time of this frame went: LATTICE only in the one that built it, DITHER only where characters were
-    /// made, the stages from RAY to SHADE only where light was computed. These share the time of tracing as a sample of
-    /// the tiles spent it.
+    /// Where the time of this frame went: LATTICE only in the one that built it, DITHER only where characters
+    /// were made, the stages from RAY to SHADE only where light was computed. These share the time of tracing
+    /// as a sample of the tiles spent it.
     pub times: StageTimes,
     /// Objects in the lattice.
     pub objects: usize,
@@ -98,7 +98,7 @@ pub struct Frame {
     pub space: Space,
     /// What traced; never [`EngineChoice::Auto`].
     pub engine: EngineChoice,
-    /// In which precision rays from the eye were asked.
+    /// In which precision rays from the eye were traced.
     pub precision: Precision,
     /// Why that is a tree, where a lattice was asked for.
     pub over_budget: Option<OverBudget>,

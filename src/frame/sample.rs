@@ -1,63 +1,62 @@
 //! A small part of a picture, traced to see what the whole will cost.
 //!
-//! What a ray costs differs by a factor of a thousand from scene to scene, and no count of objects foretells it. So tiles that
-//! are spread over the picture are traced and timed, by the engine that will draw it, on the machine that will draw it: a few
-//! milliseconds of the very work that is asked about. They are those of the picture itself: a smaller block would pay alone
-//! for what a tile does once for all of its dots, such as cutting a solid into slices.
+//! What a ray costs differs by a factor of a thousand from scene to scene, and no count of objects foretells
+//! it. So tiles that are spread over the picture are traced and timed, by the engine that will draw it, on
+//! the machine that will draw it: a few milliseconds of the very work that is asked about. They are those of
+//! the picture itself: a smaller block would pay alone for what a tile does once for all of its dots, such as
+//! cutting a solid into slices.
 
 use std::time::{Duration, Instant};
 
-use crate::lattice::Structure;
+use crate::integrate::TileIntegrator;
 use crate::math::{DVec3, Grid, Size};
-use crate::plan::{Channels, Plan, Sample};
+use crate::plan::{Channels, Sample};
 use crate::shade::Channel;
-use crate::stage::{Meter, Stage, Watch};
-use crate::view::{PinholeCamera, TILE, Tile, tiles};
+use crate::stage::{Stage, Watch};
+use crate::view::{TILE, Tile, tiles};
 
-use super::draw::{Viewed, Work, composed, shared_out};
-use super::gather::TileDots;
-use super::points::Tracer;
-use super::{Request, Studio, Wants};
+use super::Request;
+use super::draw::{composed, shared_out};
+use super::finished_tile::FinishedTile;
+use super::prepare::{Prepared, Work};
+use super::render::TileRenderer;
 
-/// One tile in this many is traced, as long as there are more than `FEW` of them, and at most `MOST`. A picture of 80 × 25
-/// cells of two dots by four has 20 tiles: all are traced, which takes as long as the picture does on one thread.
+/// One tile in this many is traced, as long as there are more than `FEW` of them, and at most `MOST`. A
+/// picture of 80 × 25 cells of two dots by four has 20 tiles: all are traced, which takes as long as the
+/// picture does on one thread.
 const ONE_IN: usize = 3;
 const FEW: usize = 20;
 const MOST: usize = 32;
 
-/// No further tile is begun after so many rays of all kinds: where many are sent on, each dot is much work. Counted, not
-/// timed, so that the same picture has the same sample on every machine. It is what `FEW` tiles of dots come to with three
-/// rays each: a third of it was four times off on `glass`, whose few glass dots are most of the work.
+/// No further tile is begun after so many rays of all kinds: where many are sent on, each dot is much work.
+/// Counted, not timed, so that the same picture has the same sample on every machine. It is what `FEW` tiles
+/// of dots come to with three rays each: a third of it was four times off on `glass`, whose few glass dots
+/// are most of the work.
 const RAYS: u64 = FEW as u64 * 3 * (TILE * TILE) as u64;
 
-/// Nor is one after so much time of the tiles alone: of a plate with a thousand holes a single ray takes 90 µs. Scenes that
-/// people draw by hand are far from it.
+/// Nor is one after so much time of the tiles alone: of a plate with a thousand holes a single ray takes 90
+/// µs. Scenes that people draw by hand are far from it.
 const ENOUGH: Duration = Duration::from_millis(100);
 
 /// So many tiles are traced all the same: two for each quarter of the picture.
 const LEAST: usize = 8;
 
-/// After its stages have been timed, each tile is timed so often without them, since to read the clock takes as long as a
-/// short stage. The least time is taken: whatever else a machine does only adds to it. One that takes `LONG` at least is timed
-/// once more: twice in a row the machine is seldom busy elsewhere for much longer than that.
+/// After its stages have been timed, each tile is timed so often without them, since to read the clock takes
+/// as long as a short stage. The least time is taken: whatever else a machine does only adds to it. One that
+/// takes `LONG` at least is timed once more: twice in a row the machine is seldom busy elsewhere for much
+/// longer than that.
 const TIMES: usize = 3;
 const LONG: Duration = Duration::from_micros(500);
 
 /// Cells that are composed by one thread: fewer than rayon would share out.
 const CELLS: usize = 512;
 
-impl Studio {
-    /// Traces a sample of a picture that was planned.
-    pub(super) fn sample(
-        &self,
-        request: &Request,
-        (pinhole, plan): (&PinholeCamera, &Plan),
-        structure: Structure,
-    ) -> Sample {
-        let view = Viewed { studio: self, plan, pinhole, hits: None };
-        match plan.channels {
-            Channels::Gray => view.work::<f64, _>(structure, Sampling(request)),
-            Channels::Three => view.work::<DVec3, _>(structure, Sampling(request)),
+impl Prepared<'_> {
+    /// Traces a sample of the picture that `request` asks for.
+    pub(super) fn sample(&self, request: &Request) -> Sample {
+        match self.plan.channels {
+            Channels::Gray => self.work::<f64, _>(Sampling(request)),
+            Channels::Three => self.work::<DVec3, _>(Sampling(request)),
         }
     }
 }
@@ -68,10 +67,10 @@ struct Sampling<'a>(&'a Request);
 impl<C: Channel> Work<C> for Sampling<'_> {
     type Done = Sample;
 
-    fn by<T: Tracer<C>>(self, tracer: &T) -> Sample {
+    fn by<I: TileIntegrator<C>>(self, renderer: &TileRenderer<I>) -> Sample {
         let Self(request) = self;
-        let mut memory = tracer.memory();
-        let mut dots = TileDots::new(Wants::LIGHT);
+        let mut memory = renderer.memory();
+        let mut dots = FinishedTile::new(request.wants);
         let mut light = Vec::new();
         let mut sample = Sample::default();
         for (number, tile) in some_tiles(request.dots).into_iter().enumerate() {
@@ -80,18 +79,16 @@ impl<C: Channel> Work<C> for Sampling<'_> {
             if number >= LEAST && (rays >= RAYS || sample.times.total() > ENOUGH) {
                 break;
             }
-            dots.fit(&tile);
-            let mut meter = Meter::new(Watch::timed(Stage::Ray));
-            tracer.tile(&tile, &mut memory, &mut dots, &mut meter);
-            let shares = meter.probe.stop();
-            sample.counts += meter.counts;
+            renderer.render(&tile, Watch::timed(Stage::Ray), &mut memory, &mut dots);
+            let shares = dots.times;
+            sample.counts += dots.counts;
             let mut least = shares.total();
             for again in 0..TIMES {
                 if again > 0 && least > LONG {
                     break;
                 }
                 let start = Instant::now();
-                tracer.tile(&tile, &mut memory, &mut dots, &mut Meter::new(Watch::Silent));
+                renderer.render(&tile, Watch::Silent, &mut memory, &mut dots);
                 least = least.min(start.elapsed());
             }
             sample.times += shared_out(&shares, least);
@@ -100,7 +97,7 @@ impl<C: Channel> Work<C> for Sampling<'_> {
                 light.extend_from_slice(&dots.light);
             }
         }
-        tracer.give_back(memory);
+        renderer.give_back(memory);
         sample.composing = request.wants.cells.then(|| composing(&light, request));
         sample
     }
@@ -129,8 +126,9 @@ fn composing<C: Channel>(light: &[C], request: &Request) -> f64 {
     least.as_secs_f64() * 1e9 / size.area() as f64
 }
 
-/// Tiles of a picture, spread over it so evenly that any first few of them are, too: by the fractional parts of multiples of
-/// the plastic number's powers (Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018). None comes twice.
+/// Tiles of a picture, spread over it so evenly that any first few of them are, too: by the fractional parts
+/// of multiples of the plastic number's powers (Roberts, "The unreasonable effectiveness of quasirandom
+/// sequences", 2018). None comes twice.
 fn some_tiles(dots: Size) -> Vec<Tile> {
     const STEP: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_2];
     let all = tiles(dots);
@@ -150,8 +148,8 @@ fn some_tiles(dots: Size) -> Vec<Tile> {
 mod tests {
     use super::*;
 
-    /// Each quarter of the picture has its share of the sample, and of its first half, as far as few tiles can be
-    /// shared out: half of it at least, and a little more than twice it at most.
+    /// Each quarter of the picture has its share of the sample, and of its first half, as far as few tiles
+    /// can be shared out: half of it at least, and a little more than twice it at most.
     #[test]
     fn tiles_are_spread_over_the_picture() {
         for dots in [Size::new(400, 180), Size::new(641, 399), Size::new(1920, 1080), Size::new(3000, 100)] {

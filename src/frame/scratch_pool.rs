@@ -1,4 +1,5 @@
-//! Memory of workers between two pictures: to ask the system for it anew, page by page, takes a twentieth of a small one.
+//! Memory of workers between two pictures: to ask the system for it anew, page by page, takes a twentieth of
+//! a small one.
 
 use std::any::Any;
 use std::sync::{Mutex, PoisonError};

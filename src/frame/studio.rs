@@ -16,8 +16,8 @@ use crate::view::framed;
 use super::frame_cache::FrameCache;
 use super::scratch_pool::ScratchPool;
 
-/// A scene made ready: its solids are put together once, its lattice is built when a picture first wants it, and
-/// all pictures share both.
+/// A scene made ready: its solids are put together once, its lattice is built when a picture first wants it,
+/// and all pictures share both.
 #[derive(Debug)]
 pub struct Studio {
     scene: Scene,
@@ -73,8 +73,8 @@ impl Studio {
         })
     }
 
-    /// The same studio, where the fast engine runs at another SIMD width than the widest that this processor has: to see that
-    /// the pictures are the same.
+    /// The same studio, where the fast engine runs at another SIMD width than the widest that this processor
+    /// has: to see that the pictures are the same.
     #[must_use]
     pub fn at_level(self, level: Level) -> Self {
         Self { level, ..self }
@@ -85,10 +85,10 @@ impl Studio {
         self.level
     }
 
-    /// Puts another scene in the place of this one. Where it has the same solids ([`Scene::has_solids_of`]), as after a change
-    /// of lights, materials or world, nothing is put together or cut anew, and pictures of a view that was drawn before take
-    /// over what their rays from the eye met; else all is made anew, as by [`Studio::new`], whose errors leave the studio as
-    /// it was.
+    /// Puts another scene in the place of this one. Where it has the same solids ([`Scene::has_solids_of`]),
+    /// as after a change of lights, materials or world, nothing is put together or cut anew, and pictures of
+    /// a view that was drawn before take over what their rays from the eye met; else all is made anew, as by
+    /// [`Studio::new`], whose errors leave the studio as it was.
     ///
     /// ```
     /// # use ray13::{frame::Studio, scene::{self, ReadOptions}};
@@ -134,8 +134,9 @@ impl Studio {
         Built { assembling: self.assembling, cutting: times.into_iter().flatten().sum() }
     }
 
-    /// The camera of a view of the scene, by its index; the framing from the scene's bounds where it has none or
-    /// `index` is past the last. `aspect` is the width of the picture divided by its height, on the screen.
+    /// The camera of a view of the scene, by its index; the framing from the scene's bounds where it has none
+    /// or `index` is past the last. `aspect` is the width of the picture divided by its height, on the
+    /// screen.
     pub fn camera(&self, index: usize, aspect: f64) -> Camera {
         self.scene.views.get(index).cloned().unwrap_or_else(|| self.framed(aspect))
     }
@@ -183,7 +184,8 @@ impl Studio {
         }
     }
 
-    /// Workers for a number of threads, 0 for one per processor. Where threads can not be had, the caller's alone.
+    /// Workers for a number of threads, 0 for one per processor. Where threads can not be had, the caller's
+    /// alone.
     pub(super) fn workers(&self, threads: usize) -> Option<Arc<rayon::ThreadPool>> {
         let mut kept = self.workers.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, pool)) = kept.as_ref().filter(|(number, _)| *number == threads) {

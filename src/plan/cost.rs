@@ -1,4 +1,5 @@
-//! What a picture is expected to cost, before it is drawn: what a sample of it did cost, times how much more there is.
+//! What a picture is expected to cost, before it is drawn: what a sample of it did cost, times how much more
+//! there is.
 
 use crate::math::Size;
 use crate::stage::{Counts, Stage, StageTimes};
@@ -42,16 +43,12 @@ pub struct Sample {
 const DIGITS: f64 = 2.0;
 
 impl Plan {
-    /// What each stage from RAY to DITHER is expected to cost in a picture of `dots`, of which `sample` is a part: `None` where it
-    /// is left out, or is done along with CELL.
+    /// What each stage from RAY to DITHER is expected to cost in a picture of `dots`, of which `sample` is a
+    /// part: `None` where it is left out, or is done along with CELL.
     pub fn costs(&self, sample: &Sample, dots: Size) -> impl Fn(Stage) -> Option<Cost> + use<> {
         let (counts, times, composing) = (sample.counts, sample.times, sample.composing);
         let area = dots.area() as f64;
         let more = area / sample.dots.max(1) as f64;
-        let per_dot = match f64::from(self.samples) {
-            1.0 => 1.0,
-            n => 1.0 + n * n,
-        };
         let fast = self.engine == EngineChoice::Fast;
         let is_all = sample.dots == dots.area();
         move |stage| {
@@ -66,7 +63,8 @@ impl Plan {
             let apart = with(Stage::Solid, counts.primitive_tests) + with(Stage::Csg, counts.csg_evaluations);
             match stage {
                 Stage::Ray => {
-                    let count = area * per_dot;
+                    // As many for each dot as in the sample, whatever is traced of it.
+                    let count = (more * counts.primary_rays as f64).round();
                     let each = more * (time(Stage::Ray) + time(Stage::Clip)) / count;
                     (count > 0.0).then_some(Cost { count, of: "ray", each, shared: true })
                 }

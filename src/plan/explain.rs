@@ -151,9 +151,7 @@ impl Plan {
         let size = format!("{} × {} dots", dots.width, dots.height);
         match self.samples {
             1 => format!("{size}, a ray through the middle of each"),
-            n => {
-                format!("{size}, a ray through the middle of each and {} for its light", u64::from(n).pow(2))
-            }
+            n => format!("{size}, {} rays through each", u64::from(n).pow(2)),
         }
     }
 

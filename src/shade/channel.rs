@@ -9,8 +9,8 @@ const LUMINANCE: DVec3 = DVec3::new(0.2126, 0.7152, 0.0722);
 
 /// The most light that a surface or a source sends: 2⁻¹³ of the largest number, about 2·10³⁰⁴. White is 1.
 ///
-/// Kept below it, no sum overflows: a light by both shares of a surface is at most twice as much, a third comes from
-/// the lights before it, and a dot's 64 × 64 samples are 2¹² of them.
+/// Kept below it, no sum overflows: a light by both shares of a surface is at most twice as much, a third
+/// comes from the lights before it, and a dot's 64 × 64 samples are 2¹² of them.
 const BRIGHTEST: f64 = f64::MAX / 8192.0;
 
 /// The luminance of linear light.
@@ -21,7 +21,7 @@ pub fn luminance(rgb: DVec3) -> f64 {
 
 /// The same, or as much of one part as may be where it is more.
 #[inline(always)]
-pub(super) fn limited<N: Number>(part: N) -> N {
+pub(crate) fn limited<N: Number>(part: N) -> N {
     part.smaller(part.same(BRIGHTEST))
 }
 

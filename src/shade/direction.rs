@@ -1,7 +1,7 @@
 //! The two directions in which a surface sends a ray on.
 //!
-//! `d` is the direction of the ray that arrives and `n` the normal turned to the side it comes from, both of length
-//! 1 within rounding. Both answers have length 1 within rounding.
+//! `d` is the direction of the ray that arrives and `n` the normal turned to the side it comes from, both of
+//! length 1 within rounding. Both answers have length 1 within rounding.
 
 use crate::math::DVec3;
 use crate::view::settled;
@@ -16,12 +16,12 @@ pub fn mirrored(d: DVec3, n: DVec3) -> DVec3 {
     settled((d - 2.0 * across * n).normalize_or(n), WITHIN)
 }
 
-/// Snell's direction from a medium of index `before` into one of index `behind`, both above 0; `None` on total
-/// internal reflection. A ray at the critical angle itself is reflected.
+/// Snell's direction from a medium of index `before` into one of index `behind`, both above 0; `None` on
+/// total internal reflection. A ray at the critical angle itself is reflected.
 ///
-/// The part of `d` along the surface is multiplied by `before / behind`, and the part along the normal makes the
-/// length 1 again. The part along the surface is computed as a vector, not as `√(1 − cos²)`, which would lose half
-/// of the digits near the normal.
+/// The part of `d` along the surface is multiplied by `before / behind`, and the part along the normal makes
+/// the length 1 again. The part along the surface is computed as a vector, not as `√(1 − cos²)`, which would
+/// lose half of the digits near the normal.
 #[inline]
 pub fn refracted(d: DVec3, n: DVec3, before: f64, behind: f64) -> Option<DVec3> {
     if before == behind {

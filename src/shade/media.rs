@@ -1,17 +1,17 @@
 //! What fills the space that a ray goes through.
 //!
-//! A path carries the list of the glass objects it is in. Where they overlap, the object that comes last in the file
-//! fills the place, so that water written behind its glass is water. The list follows from where the path has been,
-//! not from its directions, so the way back sees the same media as the way in.
+//! A path carries the list of the glass objects it is in. Where they overlap, the object that comes last in
+//! the file fills the place, so that water written behind its glass is water. The list follows from where the
+//! path has been, not from its directions, so the way back sees the same media as the way in.
 
 use std::ops::Range;
 
 /// The index of refraction outside of all glass.
-pub const OUTSIDE: f64 = 1.0;
+pub(crate) const OUTSIDE: f64 = 1.0;
 
 /// A glass object that a path is in.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Medium {
+pub(crate) struct Medium {
     /// The object's index in the assembly.
     pub object: u32,
     /// The index of refraction of the surface through which it was entered.
@@ -20,7 +20,7 @@ pub struct Medium {
 
 /// A glass surface that a path goes through.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Interface {
+pub(crate) struct Interface {
     /// The object, with the index of refraction of this surface.
     pub filling: Medium,
     /// Whether the path goes into the object.
@@ -31,7 +31,7 @@ pub struct Interface {
 
 /// The indices of refraction on the two sides of a place, on the way of a path.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MediumTransition {
+pub(crate) struct MediumTransition {
     /// Before it.
     pub before: f64,
     /// Behind it.
@@ -41,12 +41,12 @@ pub struct MediumTransition {
 }
 
 /// A list of glass objects, by its place in [`Media`].
-pub type MediumStack = Range<usize>;
+pub(crate) type MediumStack = Range<usize>;
 
-/// The lists of one path and its branches, one behind the other, so that none needs memory of its own. Each is
-/// sorted by object and holds each object once.
+/// The lists of one path and its branches, one behind the other, so that none needs memory of its own. Each
+/// is sorted by object and holds each object once.
 #[derive(Clone, Debug, Default)]
-pub struct Media {
+pub(crate) struct Media {
     lists: Vec<Medium>,
 }
 
@@ -67,8 +67,8 @@ impl Media {
 
     /// A path in `list` goes through surfaces that all lie in the same place, one per object.
     ///
-    /// A path that enters an object was not in it before, and one that leaves an object was, whatever the list says:
-    /// so a list that does not balance, as rounding or an open surface may leave it, mends itself.
+    /// A path that enters an object was not in it before, and one that leaves an object was, whatever the
+    /// list says: so a list that does not balance, as rounding or an open surface may leave it, mends itself.
     pub fn change(
         &mut self,
         list: &MediumStack,

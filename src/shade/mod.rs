@@ -1,22 +1,28 @@
-//! Stage 9, SHADE: the illumination equations (1) to (4) at a hit, and the rays that they ask for.
+//! Stage 9, SHADE: the illumination equations (1) to (4) at a surface: kernels, one formula for one ray and
+//! for a packet.
+//!
+//! The rays that they need are traced by [`crate::integrate`].
 
 mod channel;
 mod direction;
-mod hits;
-mod lamps;
+mod illumination;
+mod interaction;
+mod lamp;
 mod lit;
+mod material;
 mod media;
-mod path;
 mod power;
-mod sends;
-mod shadow;
-mod surface;
+mod scattered;
 mod surfaces;
-mod tile;
-mod wavefront;
 
 pub use channel::{Channel, luminance};
-pub use hits::TileHits;
-pub use path::{Kind, PathSegment};
-pub use surface::{Memory, PrimaryHit, Shader, View};
-pub use tile::TileShading;
+pub use interaction::PrimaryHit;
+
+pub(crate) use illumination::Illumination;
+pub(crate) use interaction::SurfaceInteraction;
+pub(crate) use lamp::{Lamp, Towards};
+pub(crate) use lit::{Lit, LitQuery, add_everywhere, before_lamps};
+pub(crate) use material::{Reflected, ResolvedMaterial};
+pub(crate) use media::{Interface, Media, Medium, MediumStack, MediumTransition, OUTSIDE};
+pub(crate) use scattered::{Scattered, ScatteredRays};
+pub(crate) use surfaces::Surfaces;

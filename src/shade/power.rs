@@ -29,8 +29,9 @@ const EXP: [f64; 14] = {
 
 /// Of each `x`, in 0..=1, the power `n` above 0; what it gives where `x` is none of these means nothing.
 ///
-/// Most exponents are whole and small: a product of squares, each rounded once, then takes a part of the time. All others
-/// go by the logarithm to base 2, whose error `n` magnifies: the answer is within 4·n·|log₂ x| + 8 roundings.
+/// Most exponents are whole and small: a product of squares, each rounded once, then takes a part of the
+/// time. All others go by the logarithm to base 2, whose error `n` magnifies: the answer is within 4·n·|log₂
+/// x| + 8 roundings.
 #[inline(always)]
 pub(super) fn power<N: Powers>(x: N, n: f64) -> N {
     let whole = if n <= MOST { n as u32 } else { 0 };

@@ -1,4 +1,4 @@
-//! The surfaces that a packet met: what [`super::surface`] finds for one ray, in the same order, for eight at a time.
+//! The surfaces that a packet met: what [`super::SurfaceInteraction`] is of one ray, eight at a time.
 
 use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
 
@@ -8,15 +8,15 @@ use crate::trace::PacketHits;
 
 /// The surfaces that a packet met.
 #[derive(Clone, Debug)]
-pub(super) struct Surfaces {
+pub(crate) struct Surfaces {
     /// Which rays met one that is to be shaded.
     pub hits: u64,
     /// Where.
     pub p: [Lanes; 3],
     /// The normals, turned to the sides that the rays come from, of length 1.
     pub normal: [Lanes; 3],
-    /// The ways from the eye.
-    pub way: Lanes,
+    /// The path lengths from the eye, in the assembly's unit.
+    pub path_length: Lanes,
     /// Which of the surfaces are patches: their normals and departures are still to be found.
     pub patches: u64,
     /// The materials, by their numbers, each with the rays that met it.
@@ -28,26 +28,32 @@ impl Surfaces {
         hits: 0,
         p: [Lanes::filled(0.0); 3],
         normal: [Lanes::filled(0.0); 3],
-        way: Lanes::filled(0.0),
+        path_length: Lanes::filled(0.0),
         patches: 0,
         materials: Vec::new(),
     };
 
-    /// No ray met anything.
+    /// Marks all rays as having missed.
     pub fn forget(&mut self) {
         (self.hits, self.patches) = (0, 0);
         self.materials.clear();
     }
 
-    /// The points at which rays met something; `before` are two parts of the way from the eye to where they start, the
-    /// second to be added first.
-    pub fn points(&mut self, packet: &RayPacket, before: &[Lanes; 2], nearest: &PacketHits, level: Level) {
-        dispatch!(level, simd => self.all_points(simd, packet, before, nearest));
+    /// Sets the points at which rays met something, and their path lengths. `before` is the path length from
+    /// the eye to where each ray starts, in two parts, the second to be added first.
+    pub fn set_points(
+        &mut self,
+        packet: &RayPacket,
+        before: &[Lanes; 2],
+        nearest: &PacketHits,
+        level: Level,
+    ) {
+        dispatch!(level, simd => self.set_all_points(simd, packet, before, nearest));
         self.hits &= packet.live & !nearest.unsure;
     }
 
     #[inline(always)]
-    fn all_points<S: Simd>(
+    fn set_all_points<S: Simd>(
         &mut self,
         simd: S,
         packet: &RayPacket,
@@ -60,13 +66,13 @@ impl Surfaces {
             let met = t.is_below(t.same(f64::INFINITY));
             self.hits |= met.bits() << (row * LANES);
             self.p.store(row, packet.load(simd, row).at(t));
-            self.way.store(row, before[0].load(simd, row) + (before[1].load(simd, row) + t));
+            self.path_length.store(row, before[0].load(simd, row) + (before[1].load(simd, row) + t));
         }
     }
 
-    /// What the surfaces are that were hit, and how they lie to the rays. Sets `departures` for rays that leave them to
-    /// the sides that the others came from.
-    pub fn know(
+    /// Finds materials and normals of the surfaces that were hit. Sets `departures` for rays that leave them
+    /// to the sides that these came from.
+    pub fn resolve(
         &mut self,
         packet: &RayPacket,
         nearest: &PacketHits,
@@ -77,13 +83,13 @@ impl Surfaces {
         self.materials.clear();
         self.patches = 0;
         if self.hits != 0 {
-            dispatch!(level, simd => self.all_known(simd, nearest, assembly, departures));
+            dispatch!(level, simd => self.resolve_all(simd, nearest, assembly, departures));
             departures.inward = dispatch!(level, simd => self.turned(simd, packet));
         }
     }
 
     #[inline(always)]
-    fn all_known<S: Simd>(
+    fn resolve_all<S: Simd>(
         &mut self,
         simd: S,
         nearest: &PacketHits,
@@ -137,7 +143,7 @@ impl Surfaces {
         }
     }
 
-    /// Rays of `group` met this material.
+    /// Adds the rays of `group` to those that met a material.
     #[inline(always)]
     fn made_of(&mut self, material: u32, group: u64) {
         match self.materials.iter_mut().find(|(known, _)| *known == material) {
@@ -146,7 +152,7 @@ impl Surfaces {
         }
     }
 
-    /// The normals of one face.
+    /// Sets the normals of the rays of `group`, which met one face.
     #[inline(always)]
     fn face<S: Simd>(&mut self, simd: S, group: u64, normals: impl Fn(Vector<f64x8<S>>) -> Vector<f64x8<S>>) {
         for row in 0..ROWS {

@@ -10,7 +10,7 @@ use crate::solid::{
 };
 use crate::stage::{Meter, Probe, Stage};
 
-use super::Engine;
+use super::RayEngine;
 use super::hit::Hit;
 
 /// A start farther than this before the plane across the ray that touches the ball around the world, in the
@@ -197,7 +197,7 @@ impl<'a> Exact<'a> {
     }
 }
 
-impl Engine for Exact<'_> {
+impl RayEngine for Exact<'_> {
     type Memory = RayMemory;
 
     fn memory(&self) -> RayMemory {

@@ -1,20 +1,24 @@
-//! Stages 4 to 8, driven: rays in, hits out. An engine answers what a ray meets first ([`Engine::first`],
-//! [`Engine::next`]) and whether light comes through ([`Engine::blocked`]); [`Exact`] is the reference.
+//! Stages 4 to 8, driven: rays in, hits out. A [`RayEngine`] answers what a ray meets first
+//! ([`RayEngine::first`], [`RayEngine::next`]) and whether light comes through ([`RayEngine::blocked`]);
+//! [`Exact`] is the reference. [`Fast`] answers the same for packets of rays, and hands out the exact engine
+//! for those that it leaves a doubt of.
 
 mod exact;
 mod fast;
 mod hit;
 
 pub use exact::{Exact, RayMemory};
-pub use fast::{Fast, OpacityClass, PacketHits, ShadowPacket, ShadowQuery, TileMemory, Transmittance};
+pub use fast::{
+    Fast, OpacityClass, PacketHits, PrimaryPackets, ShadowPacket, ShadowQuery, TileMemory, Transmittance,
+};
 pub use hit::Hit;
 
 use crate::math::Ray;
 use crate::solid::{Crossing, Departure};
 use crate::stage::{Meter, Probe};
 
-/// Finds hits. Every engine gives the same ones, whatever structure it uses.
-pub trait Engine {
+/// Finds the hits of one ray after the other. Every engine gives the same ones, whatever structure it uses.
+pub trait RayEngine {
     /// Memory of one worker, used again for every ray.
     type Memory;
 

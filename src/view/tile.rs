@@ -18,6 +18,9 @@ pub struct Tile {
 }
 
 impl Tile {
+    /// One of no dots.
+    pub const NONE: Self = Self { number: 0, corner: [0; 2], size: Size::new(0, 0) };
+
     /// Its dots in scan order.
     pub fn dots(&self) -> impl Iterator<Item = (u32, u32)> + use<> {
         let ([x, y], size) = (self.corner, self.size);

@@ -10,7 +10,7 @@ use ray13::scene::{Camera, Primitive, Scene};
 use ray13::solid::{Assembly, Departure, ROUNDING, SceneFrame, WORLD};
 use ray13::stage::{Meter, Silent};
 use ray13::tone::Tone;
-use ray13::trace::{Engine, Exact, Hit};
+use ray13::trace::{Exact, Hit, RayEngine};
 
 /// How space is cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

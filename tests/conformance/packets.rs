@@ -7,7 +7,7 @@ use ray13::plan::{EngineChoice, Options, PrecisionChoice};
 use ray13::scene::{Camera, Primitive, Scene};
 use ray13::solid::{Departure, Departures};
 use ray13::stage::{Meter, Silent};
-use ray13::trace::{Engine, Fast, Hit, PacketHits, ShadowPacket, ShadowQuery, TileMemory};
+use ray13::trace::{Fast, Hit, PacketHits, RayEngine, ShadowPacket, ShadowQuery, TileMemory};
 
 use crate::conformance::engine::{Cut, ExactEngine, Found, Range, Start, Subject, drawn};
 
@@ -30,7 +30,7 @@ impl FastEngine {
     /// The answers for as many rays as a tile has, all of which leave a surface, or none.
     fn first_of_tile(&self, rays: &[(Ray, Option<Departure>)], tile: &mut TileMemory) -> Vec<Option<Found>> {
         let engine = self.engine();
-        let (mut memory, mut meter) = (engine.memory(), Meter::new(Silent));
+        let (mut memory, mut meter) = (engine.exact().memory(), Meter::new(Silent));
         let (mut packets, mut from) = (Vec::new(), Vec::new());
         for part in rays.chunks(RAYS) {
             let (mut packet, mut departures) = (RayPacket::EMPTY, Departures::NONE);
@@ -59,8 +59,8 @@ impl FastEngine {
             let (k, lane) = (place / RAYS, place % RAYS);
             // What the exact engine says of its error holds for the same bits.
             let alone = match departure {
-                None => engine.first(ray, &mut memory, &mut meter),
-                Some(departure) => engine.next(ray, *departure, &mut memory, &mut meter),
+                None => engine.exact().first(ray, &mut memory, &mut meter),
+                Some(departure) => engine.exact().next(ray, *departure, &mut memory, &mut meter),
             };
             let met = &nearest[k];
             if met.unsure >> lane & 1 == 1 {
@@ -113,7 +113,7 @@ impl Subject for FastEngine {
     /// Each towards a light of its own.
     fn blocked(&self, starts: &[(Start, f64)]) -> Vec<bool> {
         let engine = self.engine();
-        let (mut memory, mut meter) = (engine.memory(), Meter::new(Silent));
+        let (mut memory, mut meter) = (engine.exact().memory(), Meter::new(Silent));
         let mut tile = TileMemory::default();
         let mut blocked = |start: &Start, distance: f64| {
             let (ray, departure) = self.0.leaving(start);
@@ -128,7 +128,7 @@ impl Subject for FastEngine {
             let lamp = ShadowQuery { at: ray.at(distance), opacity: &[], dark: &[], lets_through: &[] };
             engine.blocked_of(&mut shadow_packets, &[departures], &lamp, &mut tile);
             if shadow_packets[0].unsure & 1 == 1 {
-                return engine.blocked(&ray, departure, distance, &mut memory, &mut meter);
+                return engine.exact().blocked(&ray, departure, distance, &mut memory, &mut meter);
             }
             shadow_packets[0].blocked & 1 == 1
         };

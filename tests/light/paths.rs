@@ -1,7 +1,7 @@
 //! The paths of single rays, against those worked out by hand.
 
+use ray13::integrate::RayKind;
 use ray13::math::DVec3;
-use ray13::shade::Kind;
 
 use super::glass::World;
 use super::sending::{bends, clear, legs, scene};
@@ -29,7 +29,7 @@ fn agree(text: &str, world: &World, rays: &[(DVec3, DVec3)]) -> usize {
     for &(eye, d) in rays {
         // A path may go round in total reflections for ever.
         let expected = world.path(eye, d, MOST);
-        let mut traced = bends(&legs(&scene, eye, d, Kind::Snell));
+        let mut traced = bends(&legs(&scene, eye, d, RayKind::Snell));
         traced.truncate(MOST);
         assert_eq!(traced.len(), expected.len(), "from {eye} along {d}:\n{traced:?}\n{expected:?}");
         for (one, other) in traced.iter().zip(&expected) {
@@ -123,7 +123,7 @@ fn through_an_overlap_goes_by_the_last_in_the_file_from_both_sides() {
         // And back from where each of them came out.
         let scene = scene(&clear(&balls.concat()));
         for (eye, d) in ten_rays() {
-            let legs = legs(&scene, eye, d, Kind::Snell);
+            let legs = legs(&scene, eye, d, RayKind::Snell);
             let last = legs.last().unwrap();
             rays.push((last.ray.at(5.0), -last.ray.d));
         }
@@ -166,7 +166,7 @@ fn through_touching_blocks_has_no_air_between_them() {
     let text =
         "material(\"glass\") cube([1, 1, 1]); material(\"dense\") translate([0, 0, -1]) cube([1, 1, 1]);";
     let d = DVec3::new(0.3, 0.2, -1.0).normalize();
-    let path = bends(&legs(&scene(&clear(text)), DVec3::new(0.3, 0.4, 1.5), d, Kind::Snell));
+    let path = bends(&legs(&scene(&clear(text)), DVec3::new(0.3, 0.4, 1.5), d, RayKind::Snell));
     let indices: Vec<f64> = path.iter().map(|b| b.index).collect();
     assert_eq!(indices, [1.5, 1.8, 1.0]);
     for (bend, index) in path.iter().zip([1.5, 1.8, 1.0]) {
@@ -184,10 +184,10 @@ fn into_a_corner_of_glass_comes_back_the_way_it_came() {
     for (x, y) in [(0.02, 0.01), (-0.03, 0.05), (0.04, -0.02)] {
         let d = DVec3::new(-1.0 + x, -1.0 + y, -1.0).normalize();
         let eye = DVec3::new(0.3, 0.28, 0.27) - d;
-        let legs = legs(&scene, eye, d, Kind::Snell);
-        let kinds: Vec<Kind> = legs.iter().map(|leg| leg.kind).collect();
-        let [mirror, snell] = [Kind::Mirror, Kind::Snell];
-        assert_eq!(kinds, [Kind::Eye, snell, mirror, mirror, mirror, snell]);
+        let legs = legs(&scene, eye, d, RayKind::Snell);
+        let kinds: Vec<RayKind> = legs.iter().map(|leg| leg.kind).collect();
+        let [mirror, snell] = [RayKind::Mirror, RayKind::Snell];
+        assert_eq!(kinds, [RayKind::Eye, snell, mirror, mirror, mirror, snell]);
         let last = legs.last().unwrap();
         assert!((last.ray.d + d).length() < 1e-12 && last.hit.is_none(), "{d} came back as {last:?}");
         assert_eq!((last.weight, last.index), (1.0, 1.0));
@@ -199,7 +199,7 @@ fn between_mirrors_bounces_like_a_ball() {
     let text = "material(kd = 0, ks = 0, kr = 1) { translate([0, 0, 2]) cube([9, 9, 1], center = true);
         translate([0, 0, -2]) cube([9, 9, 1], center = true); }";
     let d = DVec3::new(0.1, 0.0, 1.0).normalize();
-    let legs = legs(&scene(text), DVec3::ZERO, d, Kind::Snell);
+    let legs = legs(&scene(text), DVec3::ZERO, d, RayKind::Snell);
     for (number, leg) in legs.iter().enumerate().skip(1) {
         let z = if number % 2 == 1 { 1.5 } else { -1.5 };
         let x = 0.15 + 0.3 * (number as f64 - 1.0);

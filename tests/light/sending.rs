@@ -1,11 +1,11 @@
 //! Scenes in the scene language, for single rays and for pictures of one dot.
 
 use ray13::frame::Studio;
+use ray13::integrate::{PathSegment, RayIntegrator, RayKind};
 use ray13::lattice::Structure;
 use ray13::math::{DVec3, Ray, Size};
 use ray13::plan::{Options, Plan};
 use ray13::scene::{Camera, FieldSpan, ReadOptions, Scene, read};
-use ray13::shade::{Kind, PathSegment, Shader};
 use ray13::solid::Assembly;
 use ray13::stage::{Counts, Meter, Silent};
 use ray13::trace::Exact;
@@ -44,15 +44,15 @@ pub fn all_rays() -> Options {
 }
 
 /// The legs of one path, in the scene's coordinates.
-pub fn legs(scene: &Scene, eye: DVec3, d: DVec3, preferred: Kind) -> Vec<PathSegment> {
+pub fn legs(scene: &Scene, eye: DVec3, d: DVec3, preferred: RayKind) -> Vec<PathSegment> {
     let assembly = Assembly::new(scene).unwrap();
     let pinhole = PinholeCamera::new(&camera(eye, d), &Picture { dots: Size::new(1, 1), dot_aspect: 1.0 });
     let plan = Plan::new(scene, &assembly, &pinhole, &all_rays());
     let engine = Exact::new(&assembly, Structure::None);
-    let shader = Shader::<_, f64>::new(scene, &assembly, &plan, &engine);
-    let (mut memory, mut meter) = (shader.memory(), Meter::new(Silent));
+    let integrator = RayIntegrator::<_, f64>::new(scene, &assembly, &plan, &engine);
+    let (mut memory, mut meter) = (integrator.memory(), Meter::new(Silent));
     let ray = assembly.ray(&Ray::new(eye, d));
-    let mut legs = shader.path(&ray, preferred, &mut memory, &mut meter);
+    let mut legs = integrator.path(&ray, preferred, &mut memory, &mut meter);
     for leg in &mut legs {
         leg.ray.o = assembly.scene_frame.outward(leg.ray.o);
     }
@@ -61,7 +61,7 @@ pub fn legs(scene: &Scene, eye: DVec3, d: DVec3, preferred: Kind) -> Vec<PathSeg
 
 /// The places where the path bends: where the medium changes, and where the ray is reflected.
 pub fn bends(legs: &[PathSegment]) -> Vec<Bend> {
-    let changed = legs.windows(2).filter(|w| w[1].index != w[0].index || w[1].kind == Kind::Mirror);
+    let changed = legs.windows(2).filter(|w| w[1].index != w[0].index || w[1].kind == RayKind::Mirror);
     changed.map(|w| Bend { at: w[1].ray.o, d: w[1].ray.d, index: w[1].index }).collect()
 }
 

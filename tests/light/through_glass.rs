@@ -1,9 +1,9 @@
 //! What single dots see by mirrors, in glass and behind it, and how many rays were sent for it.
 
 use ray13::frame::Studio;
+use ray13::integrate::RayKind;
 use ray13::math::{DVec3, Size};
 use ray13::plan::{CUTOFF, Options, Shading, StructureChoice};
-use ray13::shade::Kind;
 use ray13::tone::Level;
 
 use super::sending::{all_rays, clear, dot, legs, scene};
@@ -79,8 +79,8 @@ fn that_is_totally_reflected_is_sent_once_with_both_shares() {
     let (eye, d) = (DVec3::new(-0.9, 0.1, 0.0), DVec3::new(0.8, 0.0, 0.6));
     let (_, counts) = dot(text, eye, d, &Options { depth: 1, ..all_rays() });
     assert_eq!((counts.secondary_rays, counts.secondary_hits), (1, 1));
-    let path = legs(&scene(text), DVec3::new(0.0, 0.1, 0.5), DVec3::new(0.8, 0.0, 0.6), Kind::Snell);
-    assert_eq!((path[1].kind, path[1].weight), (Kind::Mirror, 0.75));
+    let path = legs(&scene(text), DVec3::new(0.0, 0.1, 0.5), DVec3::new(0.8, 0.0, 0.6), RayKind::Snell);
+    assert_eq!((path[1].kind, path[1].weight), (RayKind::Mirror, 0.75));
 }
 
 // Every scene of the Standard Procedural Databases, whose background is blue, was traced in three channels for a gray

@@ -30,7 +30,7 @@ impl Fast<'_> {
     ) -> TracedTile {
         let slack = self.slack_of::<T>();
         let whole = sources.whole(simd);
-        let are_made_late = matches!(sources, PacketSources::PrimaryHit { .. });
+        let are_made_late = matches!(sources, PacketSources::Primary { .. });
         memory.forget_sheared();
         memory.far.clear();
         for (k, found) in traced.nearest.iter_mut().enumerate() {
@@ -57,10 +57,10 @@ impl Fast<'_> {
 }
 
 /// Keeps the nearest hit of each ray.
-struct FirstVisitor<'v, 's, T> {
+struct FirstVisitor<'v, 's, 'b, T> {
     fast: &'v Fast<'v>,
     slack: f64,
-    sources: &'v mut PacketSources<'s>,
+    sources: &'v mut PacketSources<'s, 'b>,
     are_made_late: bool,
     own: &'v mut [RayPacket<T>],
     nearest: &'v mut [PacketHits<T>],
@@ -68,7 +68,7 @@ struct FirstVisitor<'v, 's, T> {
     tile: TracedTile,
 }
 
-impl<S: Simd, T: Precision> TileVisitor<S> for FirstVisitor<'_, '_, T> {
+impl<S: Simd, T: Precision> TileVisitor<S> for FirstVisitor<'_, '_, '_, T> {
     #[inline(always)]
     fn open(&self) -> u16 {
         u16::MAX

@@ -16,6 +16,7 @@ mod object;
 mod packet_culler;
 mod packet_hits;
 mod precision;
+mod primary_packets;
 mod reordering;
 mod shadow_packet;
 mod sink;
@@ -27,20 +28,18 @@ mod walk;
 use fearless_simd::{Level, Simd, dispatch};
 
 use crate::lattice::{Bvh8, FRUSTA, Structure, SubLattices, slack};
-use crate::math::{LaneVector, Lanes, PACKET, ROWS, Ray, RayPacket, Real};
-use crate::solid::{Assembly, Crossing, Departure, Departures};
-use crate::stage::{Meter, Probe};
-use crate::view::TileCamera;
+use crate::math::{Lanes, PACKET, RayPacket, Real};
+use crate::solid::{Assembly, Departures};
+use crate::stage::Probe;
 
-use super::Engine;
-use super::exact::{Exact, RayMemory, all_moved_nearer};
-use super::hit::Hit;
+use super::Exact;
 
 use precision::Precision;
 use source::{PacketSources, TracedPackets, TracedTile};
 
 pub use memory::TileMemory;
 pub use packet_hits::PacketHits;
+pub use primary_packets::PrimaryPackets;
 pub use shadow_packet::{ShadowPacket, ShadowQuery};
 pub use transmittance::{OpacityClass, Transmittance};
 
@@ -88,22 +87,27 @@ impl<'a> Fast<'a> {
         self.slack * T::COARSER
     }
 
+    /// The engine that is asked for single rays, over the same boxes.
+    pub fn exact(&self) -> &Exact<'a> {
+        &self.exact
+    }
+
     /// The SIMD width.
     pub fn level(&self) -> Level {
         self.level
     }
 
-    /// Moves the starts of rays from the eye near to the world. Sets the distance there, in two parts that
-    /// are to be added to that of a hit, the second first.
-    pub fn approach(&self, packet: &mut RayPacket, moved: &mut [Lanes; 2]) {
-        dispatch!(self.level, simd => approached(simd, packet, moved));
+    /// Moves the starts of rays from the eye near to the world. Sets the path lengths there, in two parts that
+    /// are to be added to a distance, the second first.
+    pub fn approach(&self, packet: &mut RayPacket, before: &mut [Lanes; 2]) {
+        primary_packets::approach(packet, before, self.level);
     }
 
     /// The first hits of a tile of rays, by packets that are [closed](RayPacket::close), up to [`FRUSTA`] of
     /// them; `departures` are the surfaces that the rays of each leave, none for rays from the eye. Those
-    /// that are unsure, and those that meet two objects in one place, are left to [`Engine::first`] or
-    /// [`Engine::next`], one by one. Answers how many packets had so many objects between their rays that
-    /// they were given up.
+    /// that are unsure, and those that meet two objects in one place, are left to
+    /// [`super::RayEngine::first`] or [`super::RayEngine::next`], one by one. Answers how many packets had so
+    /// many objects between their rays that they were given up.
     pub fn first_of(
         &self,
         packets: &[RayPacket],
@@ -115,18 +119,18 @@ impl<'a> Fast<'a> {
         self.first_of_sources::<f64>(sources, &mut TracedPackets { own: &mut [], nearest }, memory).given_up
     }
 
-    /// The first hits of the rays from the eye through a tile, as [`Fast::first_of`] finds them. `packets`
-    /// and `nearest` have as many as the tile has blocks. The rays of a block are made, by `make`, where they
-    /// may meet anything; the answer has a bit for each block whose are. Of the others nothing is to be read.
+    /// The first hits of the rays from the eye through a tile, as [`Fast::first_of`] finds them. `nearest` has
+    /// as many as the tile has blocks. The rays of a block are made where they may meet anything; the answer
+    /// has a bit for each block whose are. Of the others nothing is to be read. `probe` is told when rays are
+    /// made.
     pub fn first_seen(
         &self,
-        sight: &TileCamera,
-        packets: &mut [RayPacket],
-        make: &mut dyn FnMut(usize, &mut RayPacket),
+        packets: &mut PrimaryPackets,
         nearest: &mut [PacketHits],
         memory: &mut TileMemory,
+        probe: &mut dyn Probe,
     ) -> u16 {
-        let sources = &mut PacketSources::PrimaryHit { sight, packets, make };
+        let sources = &mut PacketSources::Primary { packets, level: self.level, probe };
         if !self.singles {
             let traced = &mut TracedPackets { own: &mut [], nearest };
             return self.first_of_sources::<f64>(sources, traced, memory).touched;
@@ -168,8 +172,8 @@ impl<'a> Fast<'a> {
     }
 
     /// Which rays towards one light are blocked, and what glass leaves of the light of the others. Those that
-    /// are unsure are left to [`Engine::blocked`], one by one. Answers whether most shadow packets had so
-    /// many objects between their rays that they were given up.
+    /// are unsure are left to [`super::RayEngine::blocked`], one by one. Answers whether most shadow packets
+    /// had so many objects between their rays that they were given up.
     pub fn blocked_of(
         &self,
         shadow_packets: &mut [ShadowPacket],
@@ -216,65 +220,5 @@ impl<'a> Fast<'a> {
         }
         self.stream_blocked(shadow_packets, departures, lamp, memory);
         incoherent
-    }
-}
-
-#[inline(always)]
-fn approached<S: Simd>(simd: S, packet: &mut RayPacket, moved: &mut [Lanes; 2]) {
-    for row in 0..ROWS {
-        let (near, [far, left]) = all_moved_nearer(&packet.load(simd, row));
-        packet.o.store(row, near.o);
-        moved[0].store(row, far);
-        moved[1].store(row, left);
-    }
-}
-
-impl Engine for Fast<'_> {
-    type Memory = RayMemory;
-
-    fn memory(&self) -> RayMemory {
-        self.exact.memory()
-    }
-
-    fn first(&self, ray: &Ray, memory: &mut RayMemory, meter: &mut Meter<impl Probe>) -> Option<Hit> {
-        self.exact.first(ray, memory, meter)
-    }
-
-    fn next(
-        &self,
-        ray: &Ray,
-        departure: Departure,
-        memory: &mut RayMemory,
-        meter: &mut Meter<impl Probe>,
-    ) -> Option<Hit> {
-        self.exact.next(ray, departure, memory, meter)
-    }
-
-    fn together<'m>(&self, memory: &'m RayMemory) -> &'m [(u32, Crossing)] {
-        self.exact.together(memory)
-    }
-
-    fn meets(
-        &self,
-        ray: &Ray,
-        departure: Departure,
-        distance: f64,
-        memory: &mut RayMemory,
-        meter: &mut Meter<impl Probe>,
-        visit: &mut dyn FnMut(u32, &Crossing) -> bool,
-    ) -> bool {
-        self.exact.meets(ray, departure, distance, memory, meter, visit)
-    }
-
-    fn of_object(
-        &self,
-        object: u32,
-        ray: &Ray,
-        departure: Departure,
-        distance: f64,
-        memory: &mut RayMemory,
-        meter: &mut Meter<impl Probe>,
-    ) -> Option<Crossing> {
-        self.exact.of_object(object, ray, departure, distance, memory, meter)
     }
 }

@@ -6,10 +6,11 @@ use fearless_simd::{Level, Simd};
 use crate::lattice::{Basis, FRUSTA, Frustum, FrustumSoa, Spread};
 use crate::math::{LaneVector, Lanes, RayPacket, Real, RealIds, SimdIds, SimdReal};
 use crate::solid::{Departures, RayStarts};
-use crate::view::TileCamera;
+use crate::stage::{Probe, Stage};
 
 use super::super::exact::most_moved;
 use super::packet_hits::PacketHits;
+use super::primary_packets::PrimaryPackets;
 
 /// A packet, and the surfaces that its rays leave: none from the eye. In the precision in which it is traced,
 /// and in double.
@@ -59,15 +60,11 @@ impl<'a, T: Real> PacketSource<'a, T> {
 }
 
 /// The packets of a tile, up to [`FRUSTA`] of them.
-pub(super) enum PacketSources<'a> {
+pub(super) enum PacketSources<'a, 'b> {
     /// Packets that are [closed](RayPacket::close), and the surfaces that the rays of each leave.
     Made { packets: &'a [RayPacket], departures: Option<&'a [Departures]> },
-    /// The blocks of a tile. `make` makes the rays of one.
-    PrimaryHit {
-        sight: &'a TileCamera<'a>,
-        packets: &'a mut [RayPacket],
-        make: &'a mut dyn FnMut(usize, &mut RayPacket),
-    },
+    /// The blocks of a tile, whose rays are still to be made. `probe` is told when they are.
+    Primary { packets: &'a mut PrimaryPackets<'b>, level: Level, probe: &'a mut dyn Probe },
 }
 
 /// The packets of a tile in the precision in which they are traced, and what they meet.
@@ -88,7 +85,7 @@ pub(super) struct TracedTile {
     pub given_up: usize,
 }
 
-impl PacketSources<'_> {
+impl PacketSources<'_, '_> {
     /// Whether a packet has no live ray. Those that are still to be made have some.
     pub fn is_blind(&self, k: usize) -> bool {
         matches!(self, Self::Made { packets, .. } if packets[k].live == 0)
@@ -96,8 +93,10 @@ impl PacketSources<'_> {
 
     /// Makes the rays of a packet, if that is to be done late.
     pub fn make(&mut self, k: usize) {
-        if let Self::PrimaryHit { packets, make, .. } = self {
-            make(k, &mut packets[k]);
+        if let Self::Primary { packets, level, probe } = self {
+            probe.at(Stage::Ray);
+            packets.make(k, *level);
+            probe.at(Stage::Cell);
         }
     }
 
@@ -108,7 +107,7 @@ impl PacketSources<'_> {
             Self::Made { packets, departures } => {
                 PacketSource::new(&packets[k], departures.map(|all| &all[k]))
             }
-            Self::PrimaryHit { packets, .. } => PacketSource::new(&packets[k], None),
+            Self::Primary { packets, .. } => PacketSource::new(&packets.rays[k], None),
         }
     }
 
@@ -117,9 +116,9 @@ impl PacketSources<'_> {
     pub fn whole<S: Simd>(&self, simd: S) -> Frustum {
         match self {
             Self::Made { packets, .. } => around(simd, packets),
-            Self::PrimaryHit { sight, .. } => {
-                let ends = sight.ends();
-                Frustum::between(sight.eye, ends, most_moved(sight.eye, &ends), &Basis::of_corners(ends))
+            Self::Primary { packets: PrimaryPackets { camera, .. }, .. } => {
+                let ends = camera.ends();
+                Frustum::between(camera.eye, ends, most_moved(camera.eye, &ends), &Basis::of_corners(ends))
             }
         }
     }
@@ -141,17 +140,17 @@ impl PacketSources<'_> {
                     frustums.push(Some(around(simd, std::slice::from_ref(packet))));
                 }
             }
-            Self::PrimaryHit { sight, .. } => {
+            Self::Primary { packets: PrimaryPackets { camera, .. }, .. } => {
                 // The sides of all blocks run along those of the tile.
-                let ends = sight.ends();
+                let ends = camera.ends();
                 let basis = Basis::of_corners(ends);
                 // Rays of one tile differ little in how far they are moved.
-                let moved = most_moved(sight.eye, &ends);
+                let moved = most_moved(camera.eye, &ends);
                 let mut corners = [Lanes::filled(0.0); 3];
-                sight.corners(level, &mut corners);
-                for k in 0..sight.blocks().min(FRUSTA) {
+                camera.corners(level, &mut corners);
+                for k in 0..camera.blocks().min(FRUSTA) {
                     let ends = [0, 1, 2, 3].map(|corner| corners.get(4 * k + corner));
-                    frustums.push(Some(Frustum::between(sight.eye, ends, moved, &basis)));
+                    frustums.push(Some(Frustum::between(camera.eye, ends, moved, &basis)));
                 }
             }
         }
@@ -174,7 +173,8 @@ mod tests {
     use super::*;
     use crate::math::{DVec3, ROWS, Size, lanes};
     use crate::scene::{Camera, FieldSpan};
-    use crate::view::{Picture, PinholeCamera, tiles};
+    use crate::stage::Silent;
+    use crate::view::{Picture, PinholeCamera, TileCamera, tiles};
 
     fn direction() -> impl Strategy<Value = DVec3> {
         let coordinate = || prop_oneof![-1.0..1.0_f64, (-1..=1_i8).prop_map(f64::from)];
@@ -214,9 +214,9 @@ mod tests {
                     packet.o.store(row, near.o);
                 });
             }
-            let mut unmade = packets.clone();
-            let mut make = |_: usize, _: &mut RayPacket| {};
-            let sources = PacketSources::PrimaryHit { sight: &sight, packets: &mut unmade, make: &mut make };
+            let (mut rays, mut before) = (packets.clone(), Vec::new());
+            let mut unmade = PrimaryPackets { camera: &sight, rays: &mut rays, before: &mut before };
+            let sources = PacketSources::Primary { packets: &mut unmade, level, probe: &mut Silent };
             let (mut frustums, mut frusta) = (Vec::new(), FrustumSoa::default());
             let whole = dispatch!(level, simd => {
                 sources.spread(simd, level, &mut frustums, &mut frusta);

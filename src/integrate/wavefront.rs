@@ -1,18 +1,16 @@
-//! One generation of a tile's rays: those from the eye, or the mirror and Snell rays that the generation before it sends on.
+//! One generation of a tile's rays: those from the eye, or the mirror and Snell rays that the generation
+//! before it sends on.
 
 use std::ops::Range;
 
 use fearless_simd::{Level, dispatch};
 
 use crate::math::{LANES, LaneVector, Lanes, PACKET, RayIndex, RayPacket};
+use crate::shade::{Channel, MediumStack, SurfaceInteraction, Surfaces};
 use crate::solid::{Departure, Departures};
 use crate::trace::{Hit, PacketHits};
 
-use super::channel::Channel;
-use super::media::MediumStack;
-use super::path::PathState;
-use super::surface::SurfaceInteraction;
-use super::surfaces::Surfaces;
+use super::path_state::PathState;
 
 /// A ray that is sent on.
 #[derive(Clone, Debug)]
@@ -28,8 +26,8 @@ pub(super) struct Arrival {
     pub at: RayIndex,
     /// The share of the light that the surface sends back.
     pub share: f64,
-    /// The leg, by its number among those of its kind; `None` for a ray that is not followed.
-    pub leg: Option<u32>,
+    /// The ray, by its number in its queue; `None` for one that is not followed.
+    pub ray: Option<u32>,
 }
 
 /// Mirror rays, or Snell rays.
@@ -49,22 +47,25 @@ pub(super) struct Wavefront<C> {
     /// The glass that rays from the eye start in.
     pub inside: MediumStack,
     pub rays: Vec<RayPacket>,
-    /// The way from the eye to where each ray starts, in two parts that are to be added to a distance, the second first.
+    /// The path length from the eye to where each ray starts, in two parts that are to be added to a
+    /// distance, the second first.
     pub before: Vec<[Lanes; 2]>,
-    /// The surfaces that they leave; nothing says so of rays from the eye.
+    /// The surfaces that the rays leave; of no meaning for rays from the eye.
     pub from: Vec<Departures>,
     pub nearest: Vec<PacketHits>,
     pub surfaces: Vec<Surfaces>,
     /// The surfaces that were met, for rays that leave them to the sides that these came from.
     pub departures: Vec<Departures>,
-    /// The light that arrives along each ray, whole as soon as that is known: a column for each part, packet by packet.
+    /// The light that arrives along each ray, whole as soon as that is known: a column for each part, packet
+    /// by packet.
     pub light: Vec<Lanes>,
-    /// The rays whose light is known already, a bit for each.
+    /// The rays that met several surfaces in one place, a bit for each: their surface is known already, and
+    /// its light, where light is asked for.
     pub known: Vec<u64>,
     /// The mirror rays of this generation, and its Snell rays; none in the first.
-    pub kinds: [RayQueue; 2],
-    /// Whether its rays run so far apart that those towards the lamps are better asked one by one.
-    pub apart: bool,
+    pub queues: [RayQueue; 2],
+    /// Whether its rays are so incoherent that those towards the lamps are better traced as a stream.
+    pub incoherent: bool,
     parts: std::marker::PhantomData<C>,
 }
 
@@ -75,15 +76,15 @@ impl RayQueue {
         self.first..self.first + self.rays.len().div_ceil(PACKET)
     }
 
-    /// The place of a leg.
+    /// The place of a queued ray.
     #[inline]
-    pub fn place(&self, leg: usize) -> RayIndex {
-        RayIndex { packet: self.first + leg / PACKET, lane: leg % PACKET }
+    pub fn place(&self, ray: usize) -> RayIndex {
+        RayIndex { packet: self.first + ray / PACKET, lane: ray % PACKET }
     }
 }
 
 impl<C> Wavefront<C> {
-    /// No rays yet.
+    /// Returns a generation of no rays yet.
     pub fn new(generation: u32) -> Self {
         Self {
             generation,
@@ -96,15 +97,15 @@ impl<C> Wavefront<C> {
             departures: Vec::new(),
             light: Vec::new(),
             known: Vec::new(),
-            kinds: Default::default(),
-            apart: false,
+            queues: Default::default(),
+            incoherent: false,
             parts: std::marker::PhantomData,
         }
     }
 }
 
 impl<C: Channel> Wavefront<C> {
-    /// Room for what its packets meet; there may be more.
+    /// Makes room for what its packets meet, at least as much.
     pub fn make_room(&mut self) {
         let count = self.rays.len();
         if self.nearest.len() < count {
@@ -113,53 +114,53 @@ impl<C: Channel> Wavefront<C> {
             self.departures.resize(count, Departures::NONE);
             self.light.resize(count * C::PARTS, Lanes::filled(0.0));
         }
-        self.apart = false;
+        self.incoherent = false;
         self.known.clear();
         self.known.resize(count, 0);
     }
 
     /// Forgets the rays that were sent on to it.
     #[inline]
-    pub fn clear_legs(&mut self) {
-        for kind in &mut self.kinds {
-            kind.rays.clear();
-            kind.arrivals.clear();
+    pub fn clear_queues(&mut self) {
+        for queue in &mut self.queues {
+            queue.rays.clear();
+            queue.arrivals.clear();
         }
     }
 
-    /// How many rays were sent on to it.
+    /// Counts the rays that were sent on to it.
     #[inline]
-    pub fn legs(&self) -> usize {
-        self.kinds.iter().map(|kind| kind.rays.len()).sum()
+    pub fn queued(&self) -> usize {
+        self.queues.iter().map(|queue| queue.rays.len()).sum()
     }
 
     /// Puts the rays that were sent on into packets, each kind into its own.
-    pub fn packet_legs(&mut self, level: Level) {
+    pub fn pack_queues(&mut self, level: Level) {
         let mut k = 0;
-        for kind in &mut self.kinds {
-            kind.first = k;
-            k = kind.packets().end;
+        for queue in &mut self.queues {
+            queue.first = k;
+            k = queue.packets().end;
         }
         self.rays.resize(k, RayPacket::EMPTY);
         if self.from.len() < k {
             self.before.resize(k, [Lanes::filled(0.0); 2]);
             self.from.resize(k, Departures::NONE);
         }
-        for kind in &self.kinds {
-            for (k, legs) in kind.packets().zip(kind.rays.chunks(PACKET)) {
+        for queue in &self.queues {
+            for (k, queued) in queue.packets().zip(queue.rays.chunks(PACKET)) {
                 let (packet, [before, _], from) = (&mut self.rays[k], &mut self.before[k], &mut self.from[k]);
                 packet.live = 0;
-                for (lane, leg) in legs.iter().enumerate() {
-                    packet.set(lane, &leg.sent.ray);
-                    before.0[lane] = leg.sent.travelled;
-                    from.set(lane, &leg.departure);
+                for (lane, ray) in queued.iter().enumerate() {
+                    packet.set(lane, &ray.sent.ray);
+                    before.0[lane] = ray.sent.travelled;
+                    from.set(lane, &ray.departure);
                 }
                 dispatch!(level, simd => packet.close(simd));
             }
         }
     }
 
-    /// The light of a packet, a column for each part.
+    /// Returns the light of a packet, a column for each part.
     #[inline]
     pub fn light_mut(&mut self, packet: usize) -> &mut [Lanes] {
         &mut self.light[packet * C::PARTS..][..C::PARTS]
@@ -181,7 +182,7 @@ impl<C: Channel> Wavefront<C> {
         C::row(&self.light[packet * C::PARTS..][..C::PARTS], row)
     }
 
-    /// Sets it.
+    /// Sets the light that arrives along one ray.
     #[inline]
     pub fn set_light(&mut self, at: RayIndex, light: C) {
         for (part, column) in self.light_mut(at.packet).iter_mut().enumerate() {
@@ -198,16 +199,16 @@ impl<C: Channel> Wavefront<C> {
 
     /// The share of one ray's light that reaches the eye, and the glass that it starts in.
     #[inline]
-    pub fn standing(&self, at: RayIndex) -> (f64, &MediumStack) {
-        self.leg(at).map_or((1.0, &self.inside), |QueuedRay { sent, .. }| (sent.weight, &sent.inside))
+    pub fn weight_and_media(&self, at: RayIndex) -> (f64, &MediumStack) {
+        self.queued_ray(at).map_or((1.0, &self.inside), |QueuedRay { sent, .. }| (sent.weight, &sent.inside))
     }
 
     /// The ray as it was sent on; none from the eye.
     #[inline]
-    fn leg(&self, at: RayIndex) -> Option<&QueuedRay> {
-        let [mirror, snell] = &self.kinds;
-        let kind = if at.packet < snell.first { mirror } else { snell };
-        kind.rays.get((at.packet - kind.first) * PACKET + at.lane)
+    fn queued_ray(&self, at: RayIndex) -> Option<&QueuedRay> {
+        let [mirror, snell] = &self.queues;
+        let queue = if at.packet < snell.first { mirror } else { snell };
+        queue.rays.get((at.packet - queue.first) * PACKET + at.lane)
     }
 
     /// The surface that one ray met, for a ray that leaves it to the side that the other came from.
@@ -230,7 +231,7 @@ impl<C: Channel> Wavefront<C> {
         let (nearest, surfaces) = (&self.nearest[packet], &self.surfaces[packet]);
         let p = surfaces.p.get(lane);
         let hit = Hit {
-            t: surfaces.way.0[lane],
+            t: surfaces.path_length.0[lane],
             error: 0.0,
             p,
             object: nearest.object.0[lane],

@@ -1,14 +1,14 @@
-//! Rays towards the lights.
+//! Shadow rays: whether a light reaches a surface, and what glass leaves of it.
 
 use crate::math::Ray;
+use crate::shade::Channel;
 use crate::solid::{Crossing, Departure};
 use crate::stage::{Meter, Probe, Stage};
-use crate::trace::{Engine, Hit, OpacityClass};
+use crate::trace::{Hit, OpacityClass, RayEngine};
 
-use super::channel::Channel;
-use super::surface::{Memory, Shader};
+use super::ray_integrator::{PathMemory, RayIntegrator};
 
-impl<E: Engine, C: Channel> Shader<'_, E, C> {
+impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
     /// V: the share of a light at `distance` that reaches the start of `ray`.
     #[inline]
     pub(super) fn visibility(
@@ -16,11 +16,11 @@ impl<E: Engine, C: Channel> Shader<'_, E, C> {
         ray: &Ray,
         departure: Departure,
         distance: f64,
-        memory: &mut Memory<E>,
+        memory: &mut PathMemory<R::Memory>,
         meter: &mut Meter<impl Probe>,
     ) -> f64 {
         meter.counts.shadow_rays += 1;
-        let share = if self.glass {
+        let share = if self.illumination.glass {
             self.transmittance(ray, departure, distance, memory, meter)
         } else {
             let blocked = self.engine.blocked(ray, departure, distance, &mut memory.engine, meter);
@@ -31,22 +31,22 @@ impl<E: Engine, C: Channel> Shader<'_, E, C> {
         share.unwrap_or(1.0)
     }
 
-    /// The product of `kt` over the glass objects before `distance`, in the order of their numbers; 0 where anything opaque is
-    /// met before it; `None` where there is nothing at all.
+    /// The product of `kt` over the glass objects before `distance`, in the order of their numbers; 0 where
+    /// anything opaque is met before it; `None` where there is nothing at all.
     ///
-    /// Each object is asked for itself what the ray first meets of it: so it makes no difference which of two surfaces in one
-    /// place comes first.
+    /// What the ray first meets is found for each object by itself: so it makes no difference which of two
+    /// surfaces in one place comes first.
     fn transmittance(
         &self,
         ray: &Ray,
         departure: Departure,
         distance: f64,
-        memory: &mut Memory<E>,
+        memory: &mut PathMemory<R::Memory>,
         meter: &mut Meter<impl Probe>,
     ) -> Option<f64> {
-        let Memory { engine, crossed, .. } = memory;
+        let PathMemory { engine, crossed, .. } = memory;
         crossed.clear();
-        let kt = |crossing: &Crossing| self.lets_through[crossing.primitive as usize];
+        let kt = |crossing: &Crossing| self.illumination.lets_through[crossing.primitive as usize];
         let visit = &mut |object, crossing: &Crossing| {
             let is_before = crossing.is_before(distance);
             if is_before && kt(crossing) > 0.0 {
@@ -60,8 +60,8 @@ impl<E: Engine, C: Channel> Shader<'_, E, C> {
         crossed.sort_unstable_by_key(|&(object, _)| object);
         let mut share = None;
         for (object, first) in crossed {
-            let is_mixed = self.opacity[*object as usize] == OpacityClass::Mixed;
-            if is_mixed && self.goes_dark(ray, (*object, first), distance, engine, meter) {
+            let is_mixed = self.illumination.opacity[*object as usize] == OpacityClass::Mixed;
+            if is_mixed && self.goes_dark(ray, *object, first, distance, engine, meter) {
                 return Some(0.0);
             }
             share = Some(share.unwrap_or(1.0) * kt(first));
@@ -69,31 +69,33 @@ impl<E: Engine, C: Channel> Shader<'_, E, C> {
         share
     }
 
-    /// Whether a ray meets an opaque surface of an object before `distance`, behind a first one that is glass.
+    /// Whether a ray meets an opaque surface of an object before `distance`, behind a first one that is
+    /// glass.
     fn goes_dark(
         &self,
         ray: &Ray,
-        (object, first): (u32, &Crossing),
+        object: u32,
+        first: &Crossing,
         distance: f64,
-        memory: &mut E::Memory,
+        memory: &mut R::Memory,
         meter: &mut Meter<impl Probe>,
     ) -> bool {
-        let (mut way, mut crossing) = (first.t, *first);
+        let (mut t, mut crossing) = (first.t, *first);
         loop {
-            let p = ray.at(way);
+            let p = ray.at(t);
             let Crossing { primitive, surface, entering, .. } = crossing;
-            let hit = Hit { t: way, error: 0.0, p, object, primitive, surface, entering };
-            let (leg, departure) = (Ray::new(p, ray.d), self.departure(&hit, p, ray.d));
-            let left = distance - way;
-            let next = self.engine.of_object(object, &leg, departure, left, memory, meter);
+            let hit = Hit { t, error: 0.0, p, object, primitive, surface, entering };
+            let (onward, departure) = (Ray::new(p, ray.d), self.illumination.departure(&hit, p, ray.d));
+            let left = distance - t;
+            let next = self.engine.of_object(object, &onward, departure, left, memory, meter);
             // A step so short that rounding takes it away would be made for ever.
-            let Some(next) = next.filter(|next| next.is_before(left) && way + next.t > way) else {
+            let Some(next) = next.filter(|next| next.is_before(left) && t + next.t > t) else {
                 return false;
             };
-            if self.lets_through[next.primitive as usize] == 0.0 {
+            if self.illumination.lets_through[next.primitive as usize] == 0.0 {
                 return true;
             }
-            (way, crossing) = (way + next.t, next);
+            (t, crossing) = (t + next.t, next);
         }
     }
 }

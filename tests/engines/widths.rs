@@ -1,6 +1,8 @@
 //! The same bits at every SIMD width.
 
-use fearless_simd::{Level, Simd};
+use fearless_simd::Level;
+#[cfg(not(feature = "fallback"))]
+use fearless_simd::Simd;
 use ray13::frame::{Request, Studio};
 use ray13::math::Size;
 use ray13::plan::{Options, PrecisionChoice};
@@ -10,22 +12,28 @@ use crate::support::request::request;
 use crate::support::same::{difference, fast};
 use crate::support::scenery::embedded_scenes;
 
-/// All widths that this processor has; and none, where that is compiled (`--features fallback`).
+/// No width at all, and the best that this processor has, to which the others are held where this is not compiled.
+#[cfg(feature = "fallback")]
 fn levels() -> Vec<(&'static str, Level)> {
-    let mut all = Vec::new();
-    #[cfg(feature = "fallback")]
-    all.push(("fallback", Level::fallback()));
+    vec![("fallback", Level::fallback()), ("the best", Level::new())]
+}
+
+/// All widths that this processor has; no width at all is compiled with `--features fallback`.
+#[cfg(not(feature = "fallback"))]
+fn levels() -> Vec<(&'static str, Level)> {
+    let best = Level::new();
     #[cfg(target_arch = "x86_64")]
     {
-        let best = Level::new();
-        all.extend(best.as_sse2().map(|simd| ("SSE2", simd.level())));
-        all.extend(best.as_sse4_2().map(|simd| ("SSE4.2", simd.level())));
-        all.extend(best.as_avx2().map(|simd| ("AVX2", simd.level())));
-        all.extend(best.as_avx512().map(|simd| ("AVX-512", simd.level())));
+        let all = [
+            best.as_sse2().map(|simd| ("SSE2", simd.level())),
+            best.as_sse4_2().map(|simd| ("SSE4.2", simd.level())),
+            best.as_avx2().map(|simd| ("AVX2", simd.level())),
+            best.as_avx512().map(|simd| ("AVX-512", simd.level())),
+        ];
+        all.into_iter().flatten().collect()
     }
     #[cfg(not(target_arch = "x86_64"))]
-    all.push(("the best", Level::new()));
-    all
+    vec![("the best", best)]
 }
 
 /// One scene with everything that has a formula of its own: balls, boxes straight and skew, round solids, prisms, meshes,

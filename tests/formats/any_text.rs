@@ -145,7 +145,7 @@ proptest! {
 #[test]
 fn right_texts() {
     for (name, bytes) in &*TEXTS {
-        if let Err(fault) = answer(*name, bytes.clone()) {
+        if let Err(fault) = answer(name, bytes.clone()) {
             panic!("{fault}");
         }
     }

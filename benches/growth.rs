@@ -1,5 +1,6 @@
 //! Measures how the cost of a picture grows, and prints the tables of `docs/performance.md`:
-//! `cargo run --release --example growth`, or with the most objects there shall be: `… --example growth -- 100000`.
+//! `cargo run --release --example growth`, or with the most objects there shall be:
+//! `… --example growth -- 100000`.
 
 mod scenery;
 mod spread;
@@ -69,7 +70,8 @@ fn primitives() -> Result<String, Box<dyn Error>> {
     for primitives in (0..=8).map(|power| 1_u32 << power) {
         let mut text = "difference() { cube(2, center = true);".to_owned();
         for ball in 1..primitives {
-            // Steps without a common factor with the number of places: the balls stand apart, on the block's surface too.
+            // Steps without a common factor with the number of places: the balls stand apart, on the block's
+            // surface too.
             let place = |step: u32| f64::from(ball * step % 257) / 128.0 - 1.0;
             let [x, y, z] = [place(31), place(89), place(200)];
             write!(text, "translate([{x}, {y}, {z}]) sphere(0.2);")?;

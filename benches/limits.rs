@@ -1,9 +1,10 @@
 //! How far the kernels that eight rays go through at once are from what this processor's arithmetic allows.
 //! `cargo bench --bench limits` prints the table of docs/performance.md.
 //!
-//! What a kernel computes is counted by running it on numbers that count. What the processor allows is measured too: chains
-//! of one operation that do not wait for each other. A kernel takes at least as long as its simple operations do, and as its
-//! quotients and roots do, which go through another unit beside them; loads, stores and the order of things come on top.
+//! What a kernel computes is counted by running it on numbers that count. What the processor allows is
+//! measured too: chains of one operation that do not wait for each other. A kernel takes at least as long as
+//! its simple operations do, and as its quotients and roots do, which go through another unit beside them;
+//! loads, stores and the order of things come on top.
 
 #[expect(dead_code, reason = "no scene of many objects is measured")]
 mod scenery;

@@ -1,8 +1,8 @@
 //! Writes a scene of very many objects as NFF, the same for the same arguments:
 //! `cargo run --release --example million -- --objects 1000000 --shape spheres --spread even > million.nff`.
 //!
-//! `--shape` is `spheres`, `cylinders` or `mixed` (spheres, cylinders and cones), `--spread` is `even` or `clustered`,
-//! `--seed` any whole number; those above and a seed of 1 where nothing is said.
+//! `--shape` is `spheres`, `cylinders` or `mixed` (spheres, cylinders and cones), `--spread` is `even` or
+//! `clustered`, `--seed` any whole number; those above and a seed of 1 where nothing is said.
 
 mod scenery;
 

@@ -123,8 +123,8 @@ fn balls() -> Option<Scene> {
     Some(setting::scene("balls.nff", &text, Format::Nff))
 }
 
-/// Another light from the same view, with all rays traced anew and with what those from the eye met taken over; and another
-/// light in the same solids.
+/// Another light from the same view, with all rays traced anew and with what those from the eye met taken
+/// over; and another light in the same solids.
 fn lighting(criterion: &mut Criterion) {
     let one_thread = Options { threads: 1, ..Options::default() };
     let lights = [

@@ -1,7 +1,7 @@
 //! A solid in a ratatui program of your own: `cargo run --example embed`.
 //!
-//! It draws once, on a terminal in memory, and prints that. On a real one `ratatui::init()` takes its place, and the
-//! picture is drawn again whenever the camera has moved.
+//! It draws once, on a terminal in memory, and prints that. On a real one `ratatui::init()` takes its place,
+//! and the picture is drawn again whenever the camera has moved.
 
 use std::error::Error;
 

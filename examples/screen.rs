@@ -1,6 +1,10 @@
-//! Writes a PNG of what a terminal of 16 colours shows of a scene, pixel by pixel as a VGA card drew text, 8 × 16 pixels
-//! to a cell; and, if a second file is named, one of the levels that it is made of:
-//! `cargo run --release --example screen -- hanyang docs/pictures/hanyang.png docs/pictures/hanyang-levels.png`.
+//! Writes a PNG of what a terminal of 16 colours shows of a scene, pixel by pixel as a VGA card drew text, 8
+//! × 16 pixels to a cell; and, if a second file is named, one of the levels that it is made of:
+//!
+//! ```sh
+//! cd docs/pictures
+//! cargo run --release --example screen -- hanyang hanyang.png hanyang-levels.png
+//! ```
 
 use std::error::Error;
 use std::fs::File;
@@ -19,8 +23,8 @@ use ray13::tone::{Tone, srgb_of_light};
 const SCREEN: Size = Size::new(100, 30);
 /// Pixels of a cell, as VGA drew text.
 const PIXELS: Size = Size::new(8, 16);
-/// The shades of the VGA card's font by quarters of ink: two rows of pixels each, over and over, the left pixel in the
-/// highest bit.
+/// The shades of the VGA card's font by quarters of ink: two rows of pixels each, over and over, the left
+/// pixel in the highest bit.
 const SHADES: [[u8; 2]; 5] = [[0, 0], [0x11, 0x44], [0x55, 0xAA], [0xDD, 0x77], [0xFF, 0xFF]];
 const PALETTE: Palette = Palette::DOS;
 

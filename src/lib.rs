@@ -1,13 +1,13 @@
 //! ray13 shows solid models in a text terminal.
 //!
 //! It ray traces CSG solids exactly, without meshing them, through a lattice of cells, into 13 gray levels of
-//! block characters. The modules are the stages of its flow chart, in order; each imports only those above it:
-//! see `docs/flow-chart.md` and `docs/architecture.md`.
+//! block characters. The modules are the stages of its flow chart, in order; each imports only those above
+//! it: see `docs/flow-chart.md` and `docs/architecture.md`.
 //!
-//! A program reads a scene, makes it ready once ([`frame::Studio`]) and asks for pictures ([`frame::Request`]); a
-//! finished [`frame::Frame`] holds the light of every dot and, where they are wanted ([`frame::Wants`]), depth, normal,
-//! object and the character cells. As levels
-//! a picture is text that a test can hold:
+//! A program reads a scene, makes it ready once ([`frame::Studio`]) and asks for pictures
+//! ([`frame::Request`]); a finished [`frame::Frame`] holds the light of every dot and, where they are wanted
+//! ([`frame::Wants`]), depth, normal, object and the character cells. As levels a picture is text that a test
+//! can hold:
 //!
 //! ```
 //! use ray13::frame::{Request, Studio, Wants};
@@ -20,7 +20,8 @@
 //! let scene = scene::read("ball.csg", b"sphere(1);", &ReadOptions::default())?;
 //! let studio = Studio::new(scene)?;
 //! let frame = studio.draw(&Request {
-//!     camera: studio.camera(0, 1.5), // no view in the scene: all of it, in a picture 1.5 times as wide as high
+//!     // No view in the scene: all of it, in a picture 1.5 times as wide as high.
+//!     camera: studio.camera(0, 1.5),
 //!     dots: Size::new(12, 8),
 //!     dot_aspect: 1.0, // square dots
 //!     options: Options::default(),

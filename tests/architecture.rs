@@ -1,5 +1,6 @@
-//! The house rules that the compiler does not check: which room may import which, that no files import each other, that a
-//! name of a type is one type's, and that the code and the flow chart name the same eleven stages.
+//! The house rules that the compiler does not check: which room may import which, that no files import each
+//! other, that a name of a type is one type's, and that the code and the flow chart name the same eleven
+//! stages.
 
 mod imports;
 
@@ -67,49 +68,36 @@ fn sources() -> Vec<(String, String)> {
     files.filter(|(name, _)| name != "main.rs").collect()
 }
 
-/// Files that still import each other. To be parted, one after the other; none is to be added.
-const OPEN_CIRCLES: &[&[&str]] = &[
-    &["frame/frame_cache.rs", "frame/studio.rs"],
-    &["lattice/bvh/bounding_sphere.rs", "lattice/bvh/mod.rs"],
-    &["lattice/bvh/build_primitive.rs", "lattice/bvh/mod.rs"],
-    &["math/f32x16.rs", "math/real.rs"],
-    &["math/packet.rs", "math/real.rs"],
-    &["shade/hits.rs", "shade/tile.rs"],
-    &["shade/path.rs", "shade/surface.rs"],
-    &["trace/exact.rs", "trace/mod.rs"],
-    &["trace/fast/memory.rs", "trace/fast/reordering.rs", "trace/fast/shadow_packet.rs"],
-    &["trace/fast/memory.rs", "trace/fast/stream.rs"],
-    &["trace/fast/mod.rs", "trace/fast/shadow_packet.rs"],
-    &["trace/fast/packet_culler.rs", "trace/fast/walk.rs"],
-    &["trace/fast/shadow_packet.rs", "trace/fast/transmittance.rs"],
-];
-
 #[test]
 fn no_files_import_each_other() {
     let graph = graph(&sources());
     // Files do use each other: a checker that finds no import at all is broken.
     assert!(graph.values().flatten().count() > 100, "hardly any import was found in src/");
     let found = circles(&graph);
-    let open: BTreeSet<Vec<String>> =
-        OPEN_CIRCLES.iter().map(|files| files.iter().map(|&file| file.to_owned()).collect()).collect();
-    let new: Vec<_> = found.difference(&open).map(|files| files.join(" ↔ ")).collect();
-    assert!(new.is_empty(), "files that import each other:\n{}", new.join("\n"));
-    let gone: Vec<_> = open.difference(&found).map(|files| files.join(" ↔ ")).collect();
-    assert!(gone.is_empty(), "parted by now, so delete from OPEN_CIRCLES:\n{}", gone.join("\n"));
+    let circles: Vec<_> = found.iter().map(|files| files.join(" ↔ ")).collect();
+    assert!(circles.is_empty(), "files that import each other:\n{}", circles.join("\n"));
 }
-
-/// Names that several public types still have. To be renamed, one after the other; none is to be added.
-const OPEN_NAMES: &[&str] = &["Memory"];
 
 #[test]
 fn no_two_public_types_share_a_name() {
     let sources = sources();
     let found = shared_names(&sources);
-    let new = found.iter().filter(|(name, _)| !OPEN_NAMES.contains(&name.as_str()));
-    let new: Vec<_> = new.map(|(name, files)| format!("{name}: {}", files.join(", "))).collect();
-    assert!(new.is_empty(), "public types that share a name:\n{}", new.join("\n"));
-    let gone: Vec<_> = OPEN_NAMES.iter().filter(|&&name| !found.contains_key(name)).collect();
-    assert!(gone.is_empty(), "only one type has these by now, so delete them from OPEN_NAMES: {gone:?}");
+    let shared: Vec<_> = found.iter().map(|(name, files)| format!("{name}: {}", files.join(", "))).collect();
+    assert!(shared.is_empty(), "public types that share a name:\n{}", shared.join("\n"));
+}
+
+#[test]
+fn comments_have_at_most_110_columns() {
+    let folders = ["src", "tests", "benches", "examples"].map(|folder| root().join(folder));
+    let mut long = Vec::new();
+    for path in folders.iter().flat_map(|folder| rust_files(folder)) {
+        for (number, line) in fs::read_to_string(&path).unwrap().lines().enumerate() {
+            if line.trim_start().starts_with("//") && line.chars().count() > 110 {
+                long.push(format!("{}:{}", path.display(), number + 1));
+            }
+        }
+    }
+    assert!(long.is_empty(), "comments wider than 110 columns:\n{}", long.join("\n"));
 }
 
 #[test]
@@ -126,7 +114,8 @@ fn lib_rs_lists_the_folders_of_src_and_nothing_else() {
     assert_eq!(rooms[0], "math", "math depends on nothing");
 }
 
-/// The number, name and room of each stage that docs/flow-chart.md describes, in headings such as "7 SOLID: solid".
+/// The number, name and room of each stage that docs/flow-chart.md describes, in headings such as "7 SOLID:
+/// solid".
 fn stages_described(chart: &str) -> Vec<(usize, String, String)> {
     chart
         .lines()

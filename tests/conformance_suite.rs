@@ -1,7 +1,8 @@
-//! What every engine must do, written once: each row below is a test of each engine that is named at the bottom.
+//! What every engine must do, written once: each row below is a test of each engine that is named at the
+//! bottom.
 //!
-//! `RAY13_LONG=1 cargo test --release --test conformance -- --nocapture` runs a hundred times as many cases and
-//! prints figures.
+//! `RAY13_LONG=1 cargo test --release --test conformance -- --nocapture` runs a hundred times as many cases
+//! and prints figures.
 
 mod support {
     pub mod oracle;

@@ -1,5 +1,6 @@
-//! One answer, whatever computes it: the fast engine and the exact one find the same bits in every dot, on every
-//! processor, through every structure, on any number of threads; in single precision what is met is the same.
+//! One answer, whatever computes it: the fast engine and the exact one find the same bits in every dot, on
+//! every processor, through every structure, on any number of threads; in single precision what is met is the
+//! same.
 
 mod support {
     pub mod anything;

@@ -1,5 +1,6 @@
 //! Measures the exact engine where numbers end, against arithmetic of 600 bits: prints the table of
-//! `docs/numerics.md` and draws its picture: `cargo run --release --example extremes [docs/pictures/extremes.png]`.
+//! `docs/numerics.md` and draws its picture:
+//! `cargo run --release --example extremes [docs/pictures/extremes.png]`.
 
 #[allow(dead_code, unused_imports, reason = "the tests ask more of it than this example does")]
 mod support {
@@ -91,8 +92,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Wrong beyond the bound, in rays; wrong within it, of all rays; the largest error of `t` in ulps; and of what the
-/// engine says itself.
+/// Wrong beyond the bound, in rays; wrong within it, of all rays; the largest error of `t` in ulps; and of
+/// what the engine says itself.
 fn said(tally: &Tally) -> String {
     for ray in tally.wrong.iter().chain(&tally.inexact) {
         eprintln!("{ray}");

@@ -1,5 +1,5 @@
-//! The light of a picture: the paper's formulas, and equation (4)'s mirror and Snell rays, the media they go through,
-//! and what comes through glass.
+//! The light of a picture: the paper's formulas, and equation (4)'s mirror and Snell rays, the media they go
+//! through, and what comes through glass.
 
 mod support {
     pub mod picture;

@@ -1,5 +1,5 @@
-//! What rays meet, against a calculation that shares no code with the tracer: no dot may be hit by one and missed by
-//! the other, and depths agree to nine digits.
+//! What rays meet, against a calculation that shares no code with the tracer: no dot may be hit by one and
+//! missed by the other, and depths agree to nine digits.
 
 mod support {
     pub mod agreement;

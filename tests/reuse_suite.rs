@@ -1,4 +1,5 @@
-//! What a request shares with the picture before it is not computed again, and the pictures are the same as without.
+//! What a request shares with the picture before it is not computed again, and the pictures are the same as
+//! without.
 
 mod support {
     pub mod request;

@@ -264,8 +264,8 @@ fn a_terminal_that_answers_nothing_shows_the_picture_all_the_same() {
     pty.wait_for_end(0);
 }
 
-/// An answer that is still on its way when the viewer ends is no input of the shell. One that took two seconds, as
-/// behind a large picture on a thin link, was: they were waited for a second.
+/// An answer that is still on its way when the viewer ends is no input of the shell. One that took two
+/// seconds, as behind a large picture on a thin link, was: they were waited for a second.
 #[test]
 fn late_answers_are_not_left_to_the_shell() {
     for delay in [150, 600, 2_000] {

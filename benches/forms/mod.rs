@@ -17,8 +17,8 @@ pub const CONVEX: [(&str, &str); 7] = [
     ("facets", "rotate([20, 30, 40]) cylinder(h = 1.6, r = 1, center = true, $fn = 6);"),
 ];
 
-/// Rays from a point in front, in the assembly's coordinates, across a square a little larger than its limit: about
-/// half of them meet a round solid.
+/// Rays from a point in front, in the assembly's coordinates, across a square a little larger than its limit:
+/// about half of them meet a round solid.
 pub fn rays(assembly: &Assembly) -> Vec<Ray> {
     let (center, reach) = (assembly.limit.center(), assembly.limit.half().max_element());
     let eye = center + DVec3::new(1.0, -4.0, 2.0) * reach;

@@ -37,7 +37,8 @@ pub enum Spread {
     Clustered,
 }
 
-/// From here, 456 away, a field of 45° holds the ball around the cube of [`HALF`]: 100 · √3 / sin 22.5° = 453.
+/// From here, 456 away, a field of 45° holds the ball around the cube of [`HALF`]: 100 · √3 / sin 22.5° =
+/// 453.
 const VIEW: &str = "\
 v
 from -150 -400 160
@@ -60,8 +61,8 @@ const CLUSTER: u64 = 1000;
 /// How far a cluster reaches to each side, from the smallest to the largest.
 const CLUSTER_HALF: [f64; 2] = [2.0, 15.0];
 
-/// Radii as shares of the distance between neighbours in a cubic grid of as many objects: so a picture is about as full
-/// whatever their number.
+/// Radii as shares of the distance between neighbours in a cubic grid of as many objects: so a picture is
+/// about as full whatever their number.
 const RADIUS: [f64; 2] = [0.1, 0.4];
 /// Half the lengths of cylinders and cones, in the same measure.
 const HALF_LENGTH: [f64; 2] = [0.2, 0.6];

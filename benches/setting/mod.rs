@@ -8,8 +8,8 @@ use ray13::solid::Assembly;
 
 use super::scenery::{Scenery, Shape, Spread};
 
-/// Few samples for a short time each: together the benches take about a minute, and what is asked is a factor, not a
-/// percent.
+/// Few samples for a short time each: together the benches take about a minute, and what is asked is a
+/// factor, not a percent.
 pub fn criterion() -> Criterion {
     Criterion::default()
         .sample_size(10)

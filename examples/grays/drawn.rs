@@ -14,7 +14,8 @@ fn picture(light: impl Fn(f64, f64) -> f64 + 'static) -> Picture {
     })
 }
 
-/// Eq. (3) for a surface of normal `n` seen along z, lit from the upper left: ambient, diffuse and highlight light.
+/// Eq. (3) for a surface of normal `n` seen along z, lit from the upper left: ambient, diffuse and highlight
+/// light.
 fn lit(n: [f64; 3], ambient: f64, kd: f64, ks: f64) -> f64 {
     const TO_LIGHT: [f64; 3] = [-0.5, 0.6, 0.62];
     const SHINE: f64 = 24.0;

@@ -1,5 +1,6 @@
-//! Measures how near each glyph mode comes to the picture it shows, and prints the table of `docs/13-grays.md`:
-//! `cargo run --release --example grays`; with `terminals` behind `--` only that of the levels on known terminals.
+//! Measures how near each glyph mode comes to the picture it shows, and prints the table of
+//! `docs/13-grays.md`: `cargo run --release --example grays`; with `terminals` behind `--` only that of the
+//! levels on known terminals.
 
 mod drawn;
 mod measure;

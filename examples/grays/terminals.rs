@@ -1,4 +1,5 @@
-//! The 13 levels in the colors of known terminals: with the attributes as a PC has them, and fitted to what is there.
+//! The 13 levels in the colors of known terminals: with the attributes as a PC has them, and fitted to what
+//! is there.
 
 use std::io::{self, Write};
 

@@ -1,4 +1,5 @@
-//! What stands around the picture: frame, titles, function keys. It is the same before the scene is there and after.
+//! What stands around the picture: frame, titles, function keys. It is the same before the scene is there and
+//! after.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -110,7 +111,8 @@ fn draw_bar(area: Rect, theme: &Theme, buffer: &mut Buffer) -> u16 {
     columns
 }
 
-/// The first key, which is Help, and the last, which is Quit; of those between as many as fit, counted from the last.
+/// The first key, which is Help, and the last, which is Quit; of those between as many as fit, counted from
+/// the last.
 fn keys_that_fit(columns: u16) -> Vec<(u8, &'static str)> {
     let mut keys = keys::function_keys();
     let width = |keys: &[(u8, &str)]| {

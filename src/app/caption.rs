@@ -6,8 +6,8 @@ use ratatui::style::Style;
 use ratatui::text::Line;
 use ratatui::widgets::Widget;
 
-/// Draws a text in the middle of an area, in as many lines as its width asks for, each with a blank on either side;
-/// gives their place. What does not fit is cut off at the bottom.
+/// Draws a text in the middle of an area, in as many lines as its width asks for, each with a blank on either
+/// side; gives their place. What does not fit is cut off at the bottom.
 pub fn draw(text: &str, style: Style, area: Rect, buffer: &mut Buffer) -> Rect {
     let lines = wrapped(text, area.width.saturating_sub(2).into());
     let height = area.height.min(lines.len() as u16);

@@ -6,9 +6,9 @@ use ratatui::layout::Rect;
 use crate::glyph::GlyphMode;
 use crate::output::Capabilities;
 
-/// Puts the nearest character that the terminal has in the place of each that it lacks: in ASCII only, where its
-/// locale is not UTF-8, and in the DOS set, where it has little more. What is asked for by name, the picture, stays
-/// out of `area`.
+/// Puts the nearest character that the terminal has in the place of each that it lacks: in ASCII only, where
+/// its locale is not UTF-8, and in the DOS set, where it has little more. What is asked for by name, the
+/// picture, stays out of `area`.
 pub fn fit(buffer: &mut Buffer, area: Rect, terminal: Capabilities) {
     let replace: fn(char) -> char = match terminal.glyphs {
         _ if !terminal.utf8 => ascii,

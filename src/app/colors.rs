@@ -1,7 +1,7 @@
 //! What the terminal is asked about its colors, and what its answers make of the palette.
 //!
-//! Nobody's colors are changed; they are asked for (OSC 4 and OSC 11, of xterm), in one write with a status request
-//! behind it, so that a terminal that does not know the questions is not waited for.
+//! Nobody's colors are changed; they are asked for (OSC 4 and OSC 11, of xterm), in one write with a status
+//! request behind it, so that a terminal that does not know the questions is not waited for.
 
 use super::input::{Answer, Colored};
 use super::settings::{Questions, Settings};
@@ -28,8 +28,8 @@ impl Questions {
 }
 
 impl Settings {
-    /// Takes what the terminal has answered in the place of what was taken for it. Where its attributes are no grays,
-    /// and it has no others, they are sent as they are.
+    /// Takes what the terminal has answered in the place of what was taken for it. Where its attributes are
+    /// no grays, and it has no others, they are sent as they are.
     pub fn take_in(&mut self, answers: &[Answer]) {
         if self.questions.ground
             && let Some(ground) = shown(answers, Colored::Background).map(ground)
@@ -67,8 +67,8 @@ mod tests {
     use super::*;
     use crate::app::input::in_command;
 
-    /// The answers of a terminal of these colors, in the words that it uses, to the questions for attributes 0, 8, 7
-    /// and 15 and for the background.
+    /// The answers of a terminal of these colors, in the words that it uses, to the questions for attributes
+    /// 0, 8, 7 and 15 and for the background.
     fn answers(colors: [&str; 4], background: &str) -> Vec<Answer> {
         let spec = |rgb: &str| {
             let [r, g, b] = [0, 2, 4].map(|at| rgb[at..at + 2].repeat(2));
@@ -92,7 +92,8 @@ mod tests {
     #[test]
     fn the_grays_of_the_terminal_are_taken_where_they_are_grays() {
         let terminals = [
-            // xterm 388, PuTTY 0.83, Linux 6 (which does not answer; these are its colors), macOS Terminal's Basic.
+            // xterm 388, PuTTY 0.83, Linux 6 (which does not answer; these are its colors), macOS Terminal's
+            // Basic.
             (["000000", "7f7f7f", "e5e5e5", "ffffff"], "ffffff", true),
             (["000000", "555555", "bbbbbb", "ffffff"], "000000", true),
             (["000000", "555555", "aaaaaa", "ffffff"], "000000", true),

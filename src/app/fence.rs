@@ -10,8 +10,8 @@ use super::pacing::PATIENCE;
 /// who waits for the first picture, or for the shell, hardly notices.
 pub const UNKNOWN_PATIENCE: Duration = Duration::from_millis(200);
 
-/// The numbers of the requests sent and answered, shared by the threads that write, read, and give the terminal
-/// back.
+/// The numbers of the requests sent and answered, shared by the threads that write, read, and give the
+/// terminal back.
 #[derive(Clone, Default)]
 pub struct Fence(Arc<Shared>);
 
@@ -34,8 +34,8 @@ struct Requests {
 }
 
 impl Requests {
-    /// How long what is on its way is waited for at the end. Where the terminal has answered before, answers are
-    /// certainly on their way, and the shell would take them for typed: as long as a picture may take.
+    /// How long what is on its way is waited for at the end. Where the terminal has answered before, answers
+    /// are certainly on their way, and the shell would take them for typed: as long as a picture may take.
     fn patience(&self, now: Instant) -> Duration {
         match self.last {
             Some(last) if self.answers => (last + PATIENCE).saturating_duration_since(now),

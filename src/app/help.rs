@@ -11,7 +11,8 @@ use super::theme::Theme;
 /// Columns between the keys and what they do, and on either side.
 const GAP: usize = 2;
 
-/// Draws the help in the middle of the area, and gives its place. What does not fit is cut off at the right and at the bottom.
+/// Draws the help in the middle of the area, and gives its place. What does not fit is cut off at the right
+/// and at the bottom.
 pub fn draw(theme: &Theme, area: Rect, buffer: &mut Buffer) -> Rect {
     let rows: Vec<(String, &str)> = KEYMAP
         .iter()

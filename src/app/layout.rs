@@ -5,12 +5,12 @@ use ratatui::layout::{Rect, Size};
 /// What is taken for the size of a terminal that reports none: the screen of the PC.
 const USUAL: Size = Size::new(80, 25);
 
-/// The smallest screen that has every panel: with 20 columns less the figures of the status line would not fit, with
-/// a row less the flow chart would have more of the screen than the picture.
+/// The smallest screen that has every panel: with 20 columns less the figures of the status line would not
+/// fit, with a row less the flow chart would have more of the screen than the picture.
 pub const FULL: Size = Size::new(80, 24);
 
-/// The smallest screen that has a title and the function keys besides the picture: two of these keys and the program's
-/// name fit in its columns, and most of its rows are the picture's.
+/// The smallest screen that has a title and the function keys besides the picture: two of these keys and the
+/// program's name fit in its columns, and most of its rows are the picture's.
 pub const TITLED: Size = Size::new(20, 5);
 
 /// No larger screen is drawn: the columns and rows of an 8K monitor (7680 × 4320) in cells of 4 × 6 pixels. A

@@ -24,8 +24,8 @@ use crate::output::Capabilities;
 use crate::stage::{Progress, WorkStep};
 use crate::widget::FlowChart;
 
-/// A scene that is there sooner is shown without a word: a screen that stands for less than a tenth of a second is a
-/// flash to the eye, and nobody can read it.
+/// A scene that is there sooner is shown without a word: a screen that stands for less than a tenth of a
+/// second is a flash to the eye, and nobody can read it.
 const UNSEEN: Duration = Duration::from_millis(100);
 
 /// What is known before the scene is there.

@@ -1,10 +1,10 @@
 //! The full-screen viewer: keys in, pictures out, the terminal as it was afterwards.
 //!
-//! The thread that calls [`run`] or [`open`] owns the model and the screen, and waits for things that happen. Others
-//! wait for the terminal and for signals, and say what came; one reads the scene ([`open`]), and then one traces the
-//! picture that was asked for last; and beside each of these two one says how far it is, every 250 ms while it works.
-//! Else they wake by the clock only while something is waited for, the rest of a key or the terminal's answer: at rest
-//! the program does nothing and sends nothing.
+//! The thread that calls [`run`] or [`open`] owns the model and the screen, and waits for things that happen.
+//! Others wait for the terminal and for signals, and say what came; one reads the scene ([`open`]), and then
+//! one traces the picture that was asked for last; and beside each of these two one says how far it is, every
+//! 250 ms while it works. Else they wake by the clock only while something is waited for, the rest of a key
+//! or the terminal's answer: at rest the program does nothing and sends nothing.
 
 mod around;
 mod caption;
@@ -68,9 +68,9 @@ use viewer::{SessionEnd, Viewer};
 /// before the process ends by SIGHUP, SIGINT, SIGQUIT or SIGTERM, which is how it ends when it gets one of
 /// these.
 ///
-/// A program runs one viewer in its life: a thread keeps reading the terminal afterwards, and another keeps these
-/// signals and SIGTSTP. They then end and stop the program as they do by default, even where it has handlers of its
-/// own from before; those that it sets afterwards by `sigaction` count.
+/// A program runs one viewer in its life: a thread keeps reading the terminal afterwards, and another keeps
+/// these signals and SIGTSTP. They then end and stop the program as they do by default, even where it has
+/// handlers of its own from before; those that it sets afterwards by `sigaction` count.
 ///
 /// # Errors
 /// See [`AppError`].
@@ -88,8 +88,9 @@ pub fn run_shared<P: Painter + 'static>(painter: &Arc<P>, settings: Settings) ->
     session.show(painter, settings)
 }
 
-/// The same with a scene that is still to be read, on another thread, while the screen shows how far that is; a short
-/// time passes before it shows anything. Gives the painter back; nothing where the person quits before it is there.
+/// The same with a scene that is still to be read, on another thread, while the screen shows how far that is;
+/// a short time passes before it shows anything. Gives the painter back; nothing where the person quits
+/// before it is there.
 ///
 /// # Errors
 /// What reading gives, with the terminal given back; and see [`AppError`].

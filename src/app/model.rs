@@ -14,8 +14,8 @@ use crate::plan::Shading;
 use crate::scene::Camera;
 use crate::view::{Picture, PinholeCamera};
 
-/// The widths of a cell divided by its height that are believed: fonts for text are taller than wide, up to the
-/// square cells of some consoles; terminals that report nonsense report it far outside.
+/// The widths of a cell divided by its height that are believed: fonts for text are taller than wide, up to
+/// the square cells of some consoles; terminals that report nonsense report it far outside.
 const CELL_ASPECTS: std::ops::RangeInclusive<f64> = 0.25..=1.0;
 
 /// The state of the viewer.
@@ -168,8 +168,8 @@ impl Model {
         })
     }
 
-    /// How to get back to where something is to be seen, in words behind those that say so; empty where nobody has
-    /// gone anywhere.
+    /// How to get back to where something is to be seen, in words behind those that say so; empty where
+    /// nobody has gone anywhere.
     pub const fn way_back(&self) -> &'static str {
         match (self.moved, self.settings.camera.is_some()) {
             (true, _) => ". Home goes back",
@@ -183,7 +183,8 @@ impl Model {
         Subject { settings: self.settings.clone(), camera: self.camera.clone(), moved: self.moved }
     }
 
-    /// The state as it was when a picture was begun, as far as that is told of the picture; the rest as it is now.
+    /// The state as it was when a picture was begun, as far as that is told of the picture; the rest as it is
+    /// now.
     #[must_use]
     pub fn with(&self, subject: Subject) -> Self {
         let Subject { settings, camera, moved } = subject;

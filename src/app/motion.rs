@@ -1,4 +1,5 @@
-//! How the keys move the camera: orbit about the target, fly with it, zoom. Every move keeps the camera valid.
+//! How the keys move the camera: orbit about the target, fly with it, zoom. Every move keeps the camera
+//! valid.
 
 use libm::{atan2, cos, hypot, sin, tan};
 
@@ -29,7 +30,8 @@ pub fn direction(camera: &Camera) -> [f64; 2] {
     [azimuth.to_degrees(), elevation.to_degrees()]
 }
 
-/// Moves the eye around the target, to the right and upwards, in degrees. The distance is kept, and so is `up`.
+/// Moves the eye around the target, to the right and upwards, in degrees. The distance is kept, and so is
+/// `up`.
 pub fn orbit(camera: &Camera, right: f64, up: f64) -> Camera {
     let (azimuth, elevation, distance) = polar(camera.eye - camera.target, camera.up);
     let highest = HIGHEST.to_radians();
@@ -42,8 +44,8 @@ pub fn orbit(camera: &Camera, right: f64, up: f64) -> Camera {
     valid_or(camera, Camera { eye: camera.target + offset, ..camera.clone() })
 }
 
-/// Moves the eye and the target together: along the line of sight, to the right, and along `up`. Each in units
-/// of the distance from the eye to the target.
+/// Moves the eye and the target together: along the line of sight, to the right, and along `up`. Each in
+/// units of the distance from the eye to the target.
 pub fn fly(camera: &Camera, forward: f64, right: f64, up: f64) -> Camera {
     let sight = camera.target - camera.eye;
     let distance = length(sight);
@@ -94,8 +96,8 @@ fn unit(v: DVec3) -> DVec3 {
     if largest > 0.0 && largest.is_finite() { (v / largest).normalize() } else { DVec3::Z }
 }
 
-/// The camera after a move, or the one before where the numbers end: so far from the origin that eye and target
-/// become one, or beyond the largest number.
+/// The camera after a move, or the one before where the numbers end: so far from the origin that eye and
+/// target become one, or beyond the largest number.
 fn valid_or(before: &Camera, after: Camera) -> Camera {
     let sight = after.target - after.eye;
     let holds =

@@ -70,8 +70,8 @@ impl Pacing {
         self.begun = Some(now);
     }
 
-    /// Notes how long the answer to a question of a few bytes took, absent where it has not come yet; and how many
-    /// answers to what was sent so far are still to come.
+    /// Notes how long the answer to a question of a few bytes took, absent where it has not come yet; and how
+    /// many answers to what was sent so far are still to come.
     pub fn asked(&mut self, took: Option<Duration>, late: usize) {
         self.late += late;
         if let Some(took) = took {

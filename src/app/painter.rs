@@ -9,8 +9,8 @@ pub trait Painter: Send + Sync {
     /// The scene that is shown.
     fn scene(&self) -> &Scene;
 
-    /// The camera of a view; the framing from the bounds where `index` is past the last. `aspect` is the width
-    /// of the whole picture divided by its height, on the screen.
+    /// The camera of a view; the framing from the bounds where `index` is past the last. `aspect` is the
+    /// width of the whole picture divided by its height, on the screen.
     fn camera(&self, index: usize, aspect: f64) -> Camera;
 
     /// Draws one picture.

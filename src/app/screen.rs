@@ -285,8 +285,8 @@ mod tests {
         assert_eq!((cell.symbol(), [cell.fg, cell.bg]), ("o", colors));
     }
 
-    /// Seen in xterm, black on white, after `g`: the picture was composed for the light paper that the terminal has,
-    /// and drawn on the dark one of the panels.
+    /// Seen in xterm, black on white, after `g`: the picture was composed for the light paper that the
+    /// terminal has, and drawn on the dark one of the panels.
     #[test]
     fn dark_is_blank_on_the_panels_paper_and_ink_on_a_light_terminals_own() {
         let studio = Studio::new(Scene::default()).unwrap();

@@ -38,8 +38,9 @@ pub fn listen(events: Sender<Event>, hold: Hold) -> io::Result<()> {
                     hold.release_now();
                     end_by(signal);
                 }
-                // The viewer has ended and the program goes on. A handler that is taken away leaves the signal
-                // without any effect, not with that of before, so this thread stays and brings it about.
+                // The viewer has ended and the program goes on. A handler that is taken away leaves the
+                // signal without any effect, not with that of before, so this thread stays and brings it
+                // about.
                 (Err(_), true) => end_by(signal),
                 (Err(_), false) => {
                     if signal == SIGTSTP && can_stop() {
@@ -53,8 +54,8 @@ pub fn listen(events: Sender<Event>, hold: Hold) -> io::Result<()> {
     thread::Builder::new().name("signals".to_owned()).spawn(wait).map(drop)
 }
 
-/// Whether someone could continue us if we stopped. A shell with job control gives each job a process group of
-/// its own; in the group of the session's leader there is no such shell, and stopping would be for ever.
+/// Whether someone could continue us if we stopped. A shell with job control gives each job a process group
+/// of its own; in the group of the session's leader there is no such shell, and stopping would be for ever.
 pub fn can_stop() -> bool {
     getsid(None).is_ok_and(|session| session != getpgrp())
 }

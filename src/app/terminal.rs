@@ -27,13 +27,15 @@ use super::input::Answer;
 use super::model::Window;
 use crate::output::Capabilities;
 
-/// Asks a terminal to say that it has come this far (DSR 5, ECMA-48): every terminal since the VT100 answers. Where
-/// there is no Unix terminal to read, nothing is asked: what we read there has keys only, and takes an answer for some.
+/// Asks a terminal to say that it has come this far (DSR 5, ECMA-48): every terminal since the VT100 answers.
+/// Where there is no Unix terminal to read, nothing is asked: what we read there has keys only, and takes an
+/// answer for some.
 const STATUS_REQUEST: &[u8] = if cfg!(unix) { b"\x1b[5n" } else { b"" };
 
 type Hook = dyn Fn(&PanicHookInfo<'_>) + Send + Sync;
 
-/// A terminal in raw mode on its alternate screen, where it has one, and what stands on it. Dropping it gives it back.
+/// A terminal in raw mode on its alternate screen, where it has one, and what stands on it. Dropping it gives
+/// it back.
 pub struct Terminal {
     hold: Hold,
     hook: Arc<Hook>,
@@ -55,7 +57,8 @@ pub struct Hold {
 struct Ours {
     screen: bool,
     modes: bool,
-    /// Whether there is no other screen than the shell's: it is cleared at the end, and the shell goes on at its top.
+    /// Whether there is no other screen than the shell's: it is cleared at the end, and the shell goes on at
+    /// its top.
     only_screen: bool,
 }
 
@@ -72,8 +75,8 @@ pub struct Replies {
 }
 
 impl Replies {
-    /// Takes what arrives until the terminal comes to the status request of a number; those before it are other
-    /// people's. What else happens meanwhile is put aside.
+    /// Takes what arrives until the terminal comes to the status request of a number; those before it are
+    /// other people's. What else happens meanwhile is put aside.
     fn up_to(number: u64, begun: Instant, inbox: &mut Inbox, mut unanswered: usize) -> Self {
         let mut replies = Self::default();
         while let Ok(Some(event)) = inbox.next_arrival(Some(begun + fence::UNKNOWN_PATIENCE)) {
@@ -243,8 +246,8 @@ impl Hold {
         if !ours.screen {
             return Ok(None);
         }
-        // Before it is written: a terminal nearby answers sooner than this thread goes on, and the answer to what
-        // nobody has sent yet would not count.
+        // Before it is written: a terminal nearby answers sooner than this thread goes on, and the answer to
+        // what nobody has sent yet would not count.
         let number = if STATUS_REQUEST.is_empty() { 0 } else { self.fence.sent() };
         // What cannot be written is not answered.
         send(&[bytes, STATUS_REQUEST].concat()).inspect_err(|_| self.fence.forget())?;
@@ -265,8 +268,8 @@ impl Ours {
             return sent;
         }
         let cooked = disable_raw_mode();
-        // What the reading thread has not taken yet came while the terminal was ours. Where it cannot be thrown away
-        // there is nobody to read it either.
+        // What the reading thread has not taken yet came while the terminal was ours. Where it cannot be
+        // thrown away there is nobody to read it either.
         #[cfg(unix)]
         let _ = input::discard();
         cooked.and(sent)

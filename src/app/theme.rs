@@ -44,14 +44,14 @@ impl Theme {
         }
     }
 
-    /// What stands behind the picture's own ink: the paper of the panels, which is dark, or the terminal's where they
-    /// have none.
+    /// What stands behind the picture's own ink: the paper of the panels, which is dark, or the terminal's
+    /// where they have none.
     pub fn ground(&self, terminal: Ground) -> Ground {
         if self.text.bg.is_some() { Ground::Dark } else { terminal }
     }
 
-    /// Puts the panels' ink and paper in the place of the terminal's own, which ASCII and Braille are drawn in: on a
-    /// light terminal the picture would be a negative amid dark panels.
+    /// Puts the panels' ink and paper in the place of the terminal's own, which ASCII and Braille are drawn
+    /// in: on a light terminal the picture would be a negative amid dark panels.
     pub fn fill(&self, area: Rect, buffer: &mut Buffer) {
         for place in area.intersection(buffer.area).positions() {
             let cell = &mut buffer[place];

@@ -1,4 +1,5 @@
-//! Tells the screen, from time to time, how far long work is. Nothing wakes by a clock while nothing is at work.
+//! Tells the screen, from time to time, how far long work is. Nothing wakes by a clock while nothing is at
+//! work.
 
 use std::io;
 use std::sync::mpsc::Sender;
@@ -9,8 +10,8 @@ use std::time::Duration;
 use super::events::Event;
 use crate::stage::Progress;
 
-/// So often: as often as a person reads a new number, and rarely enough for the slowest line. Work that is done sooner
-/// is never spoken of.
+/// So often: as often as a person reads a new number, and rarely enough for the slowest line. Work that is
+/// done sooner is never spoken of.
 const TICK: Duration = Duration::from_millis(250);
 
 /// Watches one piece of work at a time, until it is closed.

@@ -12,7 +12,8 @@ use super::values;
 
 /// Shows solid models in a terminal: ray traced, in 13 gray levels of block characters.
 ///
-/// Without a command it opens the viewer, where F1 shows the keys; where output is no terminal it prints a still.
+/// Without a command it opens the viewer, where F1 shows the keys; where output is no terminal it prints a
+/// still.
 #[derive(Debug, Parser)]
 #[command(version, args_conflicts_with_subcommands = true, max_term_width = 100)]
 pub struct Arguments {
@@ -24,8 +25,8 @@ pub struct Arguments {
 
 #[derive(Clone, Debug, Args)]
 pub struct ViewerArguments {
-    /// The scene: a file of the scene language, OpenSCAD's .csg or NFF, - for standard input, or the name of an
-    /// embedded scene
+    /// The scene: a file of the scene language, OpenSCAD's .csg or NFF, - for standard input, or the name of
+    /// an embedded scene
     pub file: Option<String>,
     /// Leave out what OpenSCAD can show and ray13 can not (the viewer always does)
     #[arg(long)]
@@ -43,7 +44,8 @@ pub enum Command {
     Render(RenderArguments),
     /// Measure how long pictures take
     Bench(BenchArguments),
-    /// Say what a picture requires, stage by stage, what that is expected to cost, and why the rest is left out
+    /// Say what a picture requires, stage by stage, what that is expected to cost, and why the rest is left
+    /// out
     Plan(PlanArguments),
     /// Compare two pictures: exit code 0 where they are the same, 1 where they differ
     Diff(DiffArguments),
@@ -107,8 +109,8 @@ pub struct RenderArguments {
 pub struct DiffArguments {
     /// The picture before: a .levels file as render --format levels writes it, or a scene
     pub before: String,
-    /// The picture after. A scene has the dots of the .levels file that it is compared with, in characters' cells where
-    /// they fit
+    /// The picture after. A scene has the dots of the .levels file that it is compared with, in characters'
+    /// cells where they fit
     pub after: String,
     /// Dots may differ by so many of the 13 levels
     #[arg(long, value_name = "LEVELS", value_parser = clap::value_parser!(u8).range(0..=12), default_value = "0")]
@@ -176,8 +178,8 @@ pub struct PictureArguments {
     /// Options that belong together; any that is given besides has the last word
     #[arg(long, value_enum)]
     pub preset: Option<Preset>,
-    /// Size of a still in character cells; the viewer fills its terminal [default: the terminal's, else 80x25; of png, pgm, ppm
-    /// and pfm --dots 640x400]
+    /// Size of a still in character cells; the viewer fills its terminal [default: the terminal's, else
+    /// 80x25; of png, pgm, ppm and pfm --dots 640x400]
     #[arg(long, value_name = "WxH", value_parser = values::size, allow_hyphen_values = true)]
     pub cells: Option<Size>,
     /// Size of a still in traced dots, which are then square
@@ -185,14 +187,15 @@ pub struct PictureArguments {
     pub dots: Option<Size>,
     #[command(flatten)]
     pub camera: CameraArguments,
-    /// The paper's illumination model: 1 diffuse, 2 with depth (in a scene with `world(k = …)`), 3 with highlights, 4 with mirrors and glass [default: 4]
+    /// The paper's illumination model: 1 diffuse, 2 with depth (in a scene with `world(k = …)`), 3 with
+    /// highlights, 4 with mirrors and glass [default: 4]
     #[arg(long, value_name = "1..4", value_parser = clap::value_parser!(u8).range(1..=4), allow_hyphen_values = true)]
     pub shading: Option<u8>,
     /// Follow mirror and Snell rays for so many generations [default: 5]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=64), allow_hyphen_values = true)]
     pub depth: Option<u32>,
-    /// Follow a mirror or Snell ray only while it can still change the light of its dot by so much; 0 follows all
-    /// [default: 0.011]
+    /// Follow a mirror or Snell ray only while it can still change the light of its dot by so much; 0 follows
+    /// all [default: 0.011]
     #[arg(long, value_name = "F", value_parser = values::not_negative, allow_hyphen_values = true)]
     pub cutoff: Option<f64>,
     /// Lights shine through everything
@@ -216,11 +219,12 @@ pub struct PictureArguments {
     /// Characters of the picture [default: auto]
     #[arg(long, value_enum)]
     pub glyphs: Option<Glyphs>,
-    /// Colours of the picture [default: dos; mono in txt, where `NO_COLOR` is set, and where the terminal has no grays]
+    /// Colours of the picture [default: dos; mono in txt, where `NO_COLOR` is set, and where the terminal has
+    /// no grays]
     #[arg(long, value_enum)]
     pub palette: Option<PaletteName>,
-    /// For light backgrounds: puts the terminal's own ink where the picture is dark, in mono, ascii and braille. The
-    /// viewer asks the terminal, and needs this only where it does not answer
+    /// For light backgrounds: puts the terminal's own ink where the picture is dark, in mono, ascii and
+    /// braille. The viewer asks the terminal, and needs this only where it does not answer
     #[arg(long)]
     pub invert: bool,
     /// Puts ink where the picture is light, whatever the terminal answers

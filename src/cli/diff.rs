@@ -10,8 +10,8 @@ use super::levels::{self, Drawing};
 use super::write::print;
 use super::{effects, input, marked};
 
-/// Says what changed from one picture to the other: nothing and exit code 0, or the picture with its changed cells marked and
-/// exit code 1.
+/// Says what changed from one picture to the other: nothing and exit code 0, or the picture with its changed
+/// cells marked and exit code 1.
 pub fn run(arguments: &DiffArguments) -> Result<(), CliError> {
     input::say(&effects::check(&arguments.picture, effects::Presentation::Cells)?);
     let drawing = Drawing {

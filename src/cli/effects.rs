@@ -1,5 +1,5 @@
-//! Options that have no effect. What contradicts another option is refused; what is merely useless is said, and the picture is
-//! drawn all the same: one table has both.
+//! Options that have no effect. What contradicts another option is refused; what is merely useless is said,
+//! and the picture is drawn all the same: one table has both.
 
 use crate::glyph::{GlyphMode, Palette};
 use crate::plan::{EngineChoice, Shading};
@@ -57,7 +57,8 @@ const fn row(option: &'static str, verdict: Verdict, holds: fn(&Given) -> bool, 
     Row { option, verdict, holds, why }
 }
 
-/// The viewer's lines come when it has ended, too late to change anything: what it does not follow is refused.
+/// The viewer's lines come when it has ended, too late to change anything: what it does not follow is
+/// refused.
 const ROWS: [Row; 28] = [
     row("cells", Refused, |g| g.is_viewer() && g.picture.cells.is_some(), FILLS),
     row("dots", Refused, |g| g.is_viewer() && g.picture.dots.is_some(), FILLS),

@@ -56,8 +56,8 @@ fn say(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
 }
 
-/// A text whose control characters are seen and not obeyed: names of files and views are other people's, and a
-/// terminal does what an escape sequence says.
+/// A text whose control characters are seen and not obeyed: names of files and views are other people's, and
+/// a terminal does what an escape sequence says.
 pub fn visible(text: &str) -> String {
     let is_harmless = |c: char| !c.is_control() || matches!(c, '\n' | '\t');
     let mut shown = String::with_capacity(text.len());

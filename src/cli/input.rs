@@ -56,8 +56,8 @@ pub fn read_watched(
     }
 }
 
-/// What the system tells of the file that a scene is read from, be it that standard input is one; nothing of a scene inside
-/// the program.
+/// What the system tells of the file that a scene is read from, be it that standard input is one; nothing of
+/// a scene inside the program.
 pub fn metadata(file: &str) -> Option<Metadata> {
     if file == "-" { standard_input() } else { std::fs::metadata(file).ok() }
 }

@@ -33,8 +33,8 @@ impl Drawing<'_> {
         input::studio(scene)
     }
 
-    /// Draws one view of a scene. Without a size of its own it has the dots of `like`, else those of a terminal of
-    /// 80 × 25 cells: whatever the terminal here is like, since the picture is kept and compared.
+    /// Draws one view of a scene. Without a size of its own it has the dots of `like`, else those of a
+    /// terminal of 80 × 25 cells: whatever the terminal here is like, since the picture is kept and compared.
     pub fn levels(
         &self,
         studio: &Studio,
@@ -62,8 +62,8 @@ impl Drawing<'_> {
     }
 }
 
-/// The picture of levels that a file holds; `None` where it is something else, as a scene, or is not there. One whose
-/// name ends in `.levels` has to hold one.
+/// The picture of levels that a file holds; `None` where it is something else, as a scene, or is not there.
+/// One whose name ends in `.levels` has to hold one.
 pub fn read(file: &str) -> Result<Option<Grid<Level>>, CliError> {
     if file == "-" {
         return Ok(None);

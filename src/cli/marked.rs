@@ -1,4 +1,5 @@
-//! What changed between two pictures of levels, in words and as a picture in which the changed cells are marked.
+//! What changed between two pictures of levels, in words and as a picture in which the changed cells are
+//! marked.
 
 use crate::glyph::{Cell, GlyphMode, Ground, Paint, Palette, compose};
 use crate::math::{Grid, Size};
@@ -33,8 +34,8 @@ pub fn summary(difference: &LevelDifference, tolerance: u8) -> String {
     format!("{changed} of {all} dots differ ({share:.2} %), in levels: {}{within}", by.join(", "))
 }
 
-/// The picture, where a cell of which a dot differs by more than `tolerance` has in place of its character by how many
-/// levels, as a digit of 1 to C.
+/// The picture, where a cell of which a dot differs by more than `tolerance` has in place of its character by
+/// how many levels, as a digit of 1 to C.
 pub fn picture(own: &Grid<Level>, reference: &Grid<Level>, tolerance: u8) -> Result<Vec<u8>, CliError> {
     let per_cell = GlyphMode::Blocks.dots_per_cell();
     let smaller = own.size().width.div_ceil(per_cell.width * COLUMNS).max(1);

@@ -1,5 +1,6 @@
-//! How much memory a scene may take where nobody says: half of what this machine, or the group that the program runs in,
-//! has. A scene that takes more is an error, and no reason for the machine to stand still or to end programs.
+//! How much memory a scene may take where nobody says: half of what this machine, or the group that the
+//! program runs in, has. A scene that takes more is an error, and no reason for the machine to stand still or
+//! to end programs.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -19,8 +20,8 @@ fn total(text: &str) -> Option<u64> {
     kibibytes.checked_mul(1 << 10)
 }
 
-/// The files in which the control groups of /proc/self/cgroup, and all above them, have their limits. Inside a container
-/// the innermost group is often at the root.
+/// The files in which the control groups of /proc/self/cgroup, and all above them, have their limits. Inside
+/// a container the innermost group is often at the root.
 fn limit_files(groups: &str) -> Vec<PathBuf> {
     let mut files = Vec::new();
     for line in groups.lines() {
@@ -39,7 +40,8 @@ fn limit_files(groups: &str) -> Vec<PathBuf> {
     files
 }
 
-/// The bytes of a limit; none where there is no limit, which is the word `max`, or a number beyond all memory.
+/// The bytes of a limit; none where there is no limit, which is the word `max`, or a number beyond all
+/// memory.
 fn limit(text: &str) -> Option<u64> {
     text.trim().parse().ok()
 }

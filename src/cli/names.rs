@@ -1,4 +1,5 @@
-//! What the values of options are called: glyph modes, palettes, tones, structures, engines, precisions and presets.
+//! What the values of options are called: glyph modes, palettes, tones, structures, engines, precisions and
+//! presets.
 
 use clap::ValueEnum;
 
@@ -29,8 +30,8 @@ pub enum Glyphs {
 }
 
 impl Glyphs {
-    /// The mode that is named; what `terminal` draws where none is. A file or a pipe is no terminal, and its bytes
-    /// depend on nothing around it.
+    /// The mode that is named; what `terminal` draws where none is. A file or a pipe is no terminal, and its
+    /// bytes depend on nothing around it.
     pub fn mode(self, terminal: Option<Capabilities>) -> GlyphMode {
         match self {
             Self::Auto => terminal.map_or(GlyphMode::Blocks, |terminal| terminal.glyphs),
@@ -48,9 +49,11 @@ impl Glyphs {
 /// The palettes by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum PaletteName {
-    /// The four grays of a PC: by the attributes that are the terminal's own grays, else by number of its 256 colours
+    /// The four grays of a PC: by the attributes that are the terminal's own grays, else by number of its 256
+    /// colours
     Dos,
-    /// The four grays by attributes 0, 8, 7 and 15, taken for those of a PC whatever the terminal has made of them
+    /// The four grays by attributes 0, 8, 7 and 15, taken for those of a PC whatever the terminal has made of
+    /// them
     Dos16,
     /// The 13 levels themselves as ink and paper, on terminals of 256 or more colours
     Gray,
@@ -150,8 +153,8 @@ impl From<PrecisionName> for PrecisionChoice {
 /// The presets by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Preset {
-    /// The picture of 1986: 40 x 25 degrees on 164 x 188 dots, which are 1.88 times as wide as high, with --shading 3
-    /// --no-shadows --tone even --structure lattice. --dots or --cells make dots of their own shape, --field is
-    /// contained in the picture as ever
+    /// The picture of 1986: 40 x 25 degrees on 164 x 188 dots, which are 1.88 times as wide as high, with
+    /// --shading 3 --no-shadows --tone even --structure lattice. --dots or --cells make dots of their own
+    /// shape, --field is contained in the picture as ever
     Pcat,
 }

@@ -1,5 +1,5 @@
-//! From the words of the command line to arguments. Help and version are written as everything else is, so that a full disk
-//! is an error there too; clap itself would be silent.
+//! From the words of the command line to arguments. Help and version are written as everything else is, so
+//! that a full disk is an error there too; clap itself would be silent.
 
 use std::io::IsTerminal;
 
@@ -41,7 +41,8 @@ fn colours_are_wanted() -> bool {
     !forbidden && std::env::var_os("TERM").is_none_or(|term| term != "dumb")
 }
 
-/// Of a second scene clap says that it was unexpected, or the other way about: that a command can not stand behind a file.
+/// Of a second scene clap says that it was unexpected, or the other way about: that a command can not stand
+/// behind a file.
 fn one_at_a_time(error: &Error) -> Option<String> {
     if !matches!(error.kind(), ErrorKind::UnknownArgument | ErrorKind::ArgumentConflict) {
         return None;

@@ -1,4 +1,5 @@
-//! What a picture requires, as a table: what each stage is expected to cost and, where the picture is drawn, what it did.
+//! What a picture requires, as a table: what each stage is expected to cost and, where the picture is drawn,
+//! what it did.
 
 use std::time::{Duration, Instant};
 

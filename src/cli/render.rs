@@ -127,8 +127,8 @@ fn look(picture: &PictureArguments, format: StillFormat, terminal: Option<Capabi
     if format == StillFormat::Txt { Look { palette: Palette::Mono(picture.ground()), ..look } } else { look }
 }
 
-/// The format that a file's ending names. A file without one holds text; an ending that names no format is an error,
-/// since text in a `.jpg` would be found out late.
+/// The format that a file's ending names. A file without one holds text; an ending that names no format is an
+/// error, since text in a `.jpg` would be found out late.
 fn format_of(to: &Destination) -> Result<StillFormat, CliError> {
     let Destination::File(path) = to else {
         return Ok(if io::stdout().is_terminal() { StillFormat::Ans } else { StillFormat::Txt });

@@ -1,5 +1,5 @@
-//! Pictures that are kept beside their scenes, and compared with what the scenes show now: a test for whoever makes
-//! parts.
+//! Pictures that are kept beside their scenes, and compared with what the scenes show now: a test for whoever
+//! makes parts.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -27,8 +27,8 @@ enum Outcome {
     Missing,
 }
 
-/// Compares each view of each scene with its picture beside the file; with `--update` keeps what has changed. Exit code 1 where
-/// any differs or is missing.
+/// Compares each view of each scene with its picture beside the file; with `--update` keeps what has changed.
+/// Exit code 1 where any differs or is missing.
 pub fn run(arguments: &SnapshotArguments) -> Result<(), CliError> {
     if arguments.picture.camera.replaces_anything() {
         return Err(CliError::Input(
@@ -114,8 +114,8 @@ fn named_views<'a>(names: impl Iterator<Item = Option<&'a str>>) -> Vec<Option<S
     if named.is_empty() { vec![None] } else { named }
 }
 
-/// Where each view is kept: `part.levels`, or `part.front.levels` for a view `front`, beside the scene. Of a view's name
-/// letters, digits, `-` and `_` stay.
+/// Where each view is kept: `part.levels`, or `part.front.levels` for a view `front`, beside the scene. Of a
+/// view's name letters, digits, `-` and `_` stay.
 fn places(scene: &Path, views: Vec<Option<String>>) -> Result<BTreeMap<PathBuf, Option<String>>, CliError> {
     let stem = scene.file_stem().filter(|_| scene != Path::new("-")).ok_or_else(|| {
         CliError::Input("snapshots are kept beside a scene's file: give it by its name".to_owned())

@@ -1,4 +1,5 @@
-//! The terminal of this process: what the environment says of it, and what the terminfo database has of its name.
+//! The terminal of this process: what the environment says of it, and what the terminfo database has of its
+//! name.
 
 use std::env;
 use std::fs;
@@ -7,8 +8,8 @@ use std::path::PathBuf;
 
 use crate::output::{Capabilities, Description, Environment, is_known};
 
-/// Where descriptions are kept, after `TERMINFO`, the person's own and `TERMINFO_DIRS`: ncurses' places on Linux,
-/// the BSDs and macOS.
+/// Where descriptions are kept, after `TERMINFO`, the person's own and `TERMINFO_DIRS`: ncurses' places on
+/// Linux, the BSDs and macOS.
 const FOLDERS: [&str; 5] = [
     "/etc/terminfo",
     "/lib/terminfo",

@@ -7,7 +7,8 @@ use crate::math::{DVec3, Size};
 /// The most dots or cells along one side of a picture.
 const MOST_ACROSS: u32 = 32_768;
 
-/// The most dots of a picture: an 8K screen's 7680 × 4320 is just within it, at 0.4 GB in grays, 1.5 GB in colours.
+/// The most dots of a picture: an 8K screen's 7680 × 4320 is just within it, at 0.4 GB in grays, 1.5 GB in
+/// colours.
 pub const MOST_DOTS: usize = 1 << 25;
 
 /// A width and a height, as in `80x25`.

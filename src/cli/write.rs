@@ -96,9 +96,10 @@ fn standard_output() -> Option<fs::Metadata> {
     None
 }
 
-/// Writes beside the place and moves there at the end, so that the file is whole or as it was. A link is written
-/// through, and a file that was there keeps its permissions. What is no plain file, a pipe or a device, is written
-/// straight, and so is a link to what is not there yet, since a move would put the file in its place.
+/// Writes beside the place and moves there at the end, so that the file is whole or as it was. A link is
+/// written through, and a file that was there keeps its permissions. What is no plain file, a pipe or a
+/// device, is written straight, and so is a link to what is not there yet, since a move would put the file in
+/// its place.
 fn write_file(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
     let failed = |e: io::Error| CliError::Output(format!("{} could not be written: {e}", path.display()));
     let open = || fs::File::options().write(true).open(path);

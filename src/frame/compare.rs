@@ -23,11 +23,11 @@ pub struct Comparison {
     pub first: Option<[u32; 2]>,
     /// Dots that show another object, or nothing where the reference shows one, or the other way round.
     pub objects: Option<usize>,
-    /// The largest difference of two depths, as a share of the reference's, 0 or more, among the dots where both
-    /// see something and, as far as that is known, the same object.
+    /// The largest difference of two depths, as a share of the reference's, 0 or more, among the dots where
+    /// both see something and, as far as that is known, the same object.
     pub depth: Option<f64>,
-    /// The largest difference of two lights, 0 to 12: in levels, which are even steps of CIE L*. Light is clamped
-    /// to 0 to 1 before, as a screen does.
+    /// The largest difference of two lights, 0 to 12: in levels, which are even steps of CIE L*. Light is
+    /// clamped to 0 to 1 before, as a screen does.
     pub light: f64,
     /// The root of the mean of the squares of these differences.
     pub light_rms: f64,

@@ -5,9 +5,10 @@ use super::choice::Palette;
 use super::shape::{BRAILLE_DOT, Coverage, DOTS, coverage};
 use crate::math::{Grid, Size};
 
-/// The linear light of `cells`, composed for a palette, at `per_cell` dots each. Shades and ASCII are taken as an even mix of their ink
-/// and paper, a Braille dot as one over its place in the cell, and characters that this program never uses as paper. The edges of shapes are exact where `per_cell`
-/// is a multiple of 2 × 4.
+/// The linear light of `cells`, composed for a palette, at `per_cell` dots each. Shades and ASCII are taken
+/// as an even mix of their ink and paper, a Braille dot as one over its place in the cell, and characters
+/// that this program never uses as paper. The edges of shapes are exact where `per_cell` is a multiple of 2 ×
+/// 4.
 pub fn appearance(cells: &Grid<Cell>, palette: Palette, per_cell: Size) -> Grid<f64> {
     let size = cells.size();
     Grid::from_fn(Size::new(size.width * per_cell.width, size.height * per_cell.height), |x, y| {

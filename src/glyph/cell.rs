@@ -15,8 +15,8 @@ pub struct Cell {
 }
 
 impl Cell {
-    /// A cell of one colour: a blank, as the strokes of a full block leave seams in fonts that are scaled, and are
-    /// more bytes.
+    /// A cell of one colour: a blank, as the strokes of a full block leave seams in fonts that are scaled,
+    /// and are more bytes.
     pub const fn flat(paint: Paint) -> Self {
         // The ink is that of neighbouring levels, so that it changes least.
         let ink = if matches!(paint, Paint::Black) { Paint::DarkGray } else { paint };

@@ -5,8 +5,8 @@ use super::grays::FourGrays;
 use super::paint::{ColorDepth, Paint};
 use crate::math::Size;
 
-/// Width of a character cell divided by its height, where nothing better is known: most fonts of terminals are
-/// about twice as high as wide.
+/// Width of a character cell divided by its height, where nothing better is known: most fonts of terminals
+/// are about twice as high as wide.
 pub const CELL_ASPECT: f64 = 0.5;
 
 /// Which characters draw the picture.
@@ -99,8 +99,8 @@ impl Palette {
     /// The terminal's own ink on dark paper.
     pub const MONO: Self = Self::Mono(Ground::Dark);
 
-    /// The inks that edges have, of colors that every cell can be given; none for the palettes of many colors. Dim
-    /// ones first, so that they become papers: a Linux console has no bright ones.
+    /// The inks that edges have, of colors that every cell can be given; none for the palettes of many
+    /// colors. Dim ones first, so that they become papers: a Linux console has no bright ones.
     pub fn inks(self) -> Vec<Paint> {
         match self {
             Self::Dos(grays) => {
@@ -112,8 +112,8 @@ impl Palette {
         }
     }
 
-    /// The palette that these glyphs have of it: ASCII and Braille have no paper but the terminal's own, which is
-    /// dark or light, and no ink but its own where there is no color.
+    /// The palette that these glyphs have of it: ASCII and Braille have no paper but the terminal's own,
+    /// which is dark or light, and no ink but its own where there is no color.
     #[must_use]
     pub const fn for_glyphs(self, glyphs: GlyphMode, ground: Ground) -> Self {
         match (self, glyphs) {
@@ -123,8 +123,8 @@ impl Palette {
         }
     }
 
-    /// Whether each dot can have the gray of its level. Where it can not, a mode in which each dot has its own place
-    /// is a coarse chequer.
+    /// Whether each dot can have the gray of its level. Where it can not, a mode in which each dot has its
+    /// own place is a coarse chequer.
     pub const fn has_levels(self) -> bool {
         matches!(self, Self::Gray(_) | Self::Color(_))
     }

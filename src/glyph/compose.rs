@@ -12,12 +12,13 @@ use crate::math::{DVec3, Grid};
 use crate::shade::luminance;
 use crate::tone::Tone;
 
-/// The cells that show `light`, a gray in linear light per traced dot, with [`GlyphMode::dots_per_cell`] dots to a
-/// cell. Light is clamped to 0 to 1. Dots right of the last whole cell and below it are ignored.
+/// The cells that show `light`, a gray in linear light per traced dot, with [`GlyphMode::dots_per_cell`] dots
+/// to a cell. Light is clamped to 0 to 1. Dots right of the last whole cell and below it are ignored.
 ///
-/// A cell depends on its own dots, on the ring of dots around it and on its place on the screen, on nothing else, so a
-/// still part of a moving picture stays still. A cell whose dots are all of one light shows that light's level. In the
-/// modes that fit, neither ink nor paper of an edge is brighter or darker than all of these dots by more than a level.
+/// A cell depends on its own dots, on the ring of dots around it and on its place on the screen, on nothing
+/// else, so a still part of a moving picture stays still. A cell whose dots are all of one light shows that
+/// light's level. In the modes that fit, neither ink nor paper of an edge is brighter or darker than all of
+/// these dots by more than a level.
 ///
 /// ```
 /// use ray13::glyph::{GlyphMode, Palette, compose};
@@ -56,9 +57,10 @@ pub fn compose(light: &Grid<f64>, mode: GlyphMode, palette: Palette, tone: Tone)
     at(palette.depth(), cells)
 }
 
-/// The cells that show `color`, three linear primaries per traced dot, as [`compose`] does, in any colours. There
-/// are no levels: `tone` changes luminance, nothing is rounded but to the terminal's depth. Where a cell can have one
-/// colour only beside the terminal's own (`ascii`, `braille`), its ink carries lightness and its colour the hue.
+/// The cells that show `color`, three linear primaries per traced dot, as [`compose`] does, in any colours.
+/// There are no levels: `tone` changes luminance, nothing is rounded but to the terminal's depth. Where a
+/// cell can have one colour only beside the terminal's own (`ascii`, `braille`), its ink carries lightness
+/// and its colour the hue.
 pub fn compose_color(color: &Grid<DVec3>, mode: GlyphMode, depth: ColorDepth, tone: Tone) -> Grid<Cell> {
     let light = || mapped(color, luminance);
     let cells = match mode {

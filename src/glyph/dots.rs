@@ -59,9 +59,9 @@ pub fn quadrant_in_color(color: &Grid<DVec3>, tone: Tone) -> Grid<Cell> {
     PairFit::new(QUADRANTS).compose_colors(&doubled(color), tone)
 }
 
-/// 2 × 4 dots to a cell, with ink or without, and the cell's ink. Braille dots do not touch, so all of them together
-/// are far from white: as many twelfths of them are set as the level says, which keeps the order of the levels and
-/// even steps, not their light.
+/// 2 × 4 dots to a cell, with ink or without, and the cell's ink. Braille dots do not touch, so all of them
+/// together are far from white: as many twelfths of them are set as the level says, which keeps the order of
+/// the levels and even steps, not their light.
 pub fn braille(
     light: &Grid<f64>,
     ground: Ground,

@@ -2,15 +2,15 @@
 
 use super::shape::DOT_COUNT;
 
-/// The eye's filters that a fit is good for, from near and from far: standard deviations of a quarter and of half
-/// a cell's width, in dots.
+/// The eye's filters that a fit is good for, from near and from far: standard deviations of a quarter and of
+/// half a cell's width, in dots.
 const EYES: [f64; 2] = [0.5, 1.0];
 
 /// A value for each dot of a cell, in scan order.
 pub type Dots = [f64; DOT_COUNT];
 
-/// K: for each two dots, the product of their light after the eye's filter, over the whole screen; the mean of the
-/// [`EYES`]. Dots are square, as a cell of 2 × 4 is twice as high as wide.
+/// K: for each two dots, the product of their light after the eye's filter, over the whole screen; the mean
+/// of the [`EYES`]. Dots are square, as a cell of 2 × 4 is twice as high as wide.
 pub fn overlaps() -> [Dots; DOT_COUNT] {
     let apart = |a: usize, b: usize| (a % 2).abs_diff(b % 2) as f64;
     let below = |a: usize, b: usize| (a / 2).abs_diff(b / 2) as f64;
@@ -39,7 +39,8 @@ fn overlap(apart: f64, eye: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// The light of dots seen through Gaussians, without the closed form: K is compared with sums over fine squares.
+    /// The light of dots seen through Gaussians, without the closed form: K is compared with sums over fine
+    /// squares.
     #[test]
     fn the_overlap_is_the_integral_of_two_seen_dots() {
         const FINE: i32 = 200;

@@ -1,12 +1,12 @@
 //! Best fit: of all a cell can show, what the eye can tell least from the light of its dots.
 //!
-//! The eye is a Gaussian filter, so an error e over the dots of a cell, in L*, is seen with the squared strength
-//! `eᵀ K e`, where K is the overlap of the filters of each two dots. That one form weighs everything: K's largest
-//! eigenvector is the cell's mean, the next are its slopes, and fine detail, which the filter hides, counts least.
-//! No other weight is needed; `docs/13-grays.md` has what was tried.
+//! The eye is a Gaussian filter, so an error e over the dots of a cell, in L*, is seen with the squared
+//! strength `eᵀ K e`, where K is the overlap of the filters of each two dots. That one form weighs
+//! everything: K's largest eigenvector is the cell's mean, the next are its slopes, and fine detail, which
+//! the filter hides, counts least. No other weight is needed; `docs/13-grays.md` has what was tried.
 //!
-//! What a cell can show is a fixed table of candidates c, so `eᵀ K e = lᵀ K l − 2 (K c)ᵀ l + cᵀ K c` costs one
-//! product of eight dots for each: `lᵀ K l` is the same for all, and the rest is known beforehand.
+//! What a cell can show is a fixed table of candidates c, so `eᵀ K e = lᵀ K l − 2 (K c)ᵀ l + cᵀ K c` costs
+//! one product of eight dots for each: `lᵀ K l` is the same for all, and the rest is known beforehand.
 
 use super::cell::Cell;
 use super::choice::Palette;
@@ -66,8 +66,8 @@ pub struct BestFit {
 }
 
 impl BestFit {
-    /// The 13 levels, and each of `shapes` in each two of the palette's colors, as far as there are papers. Of
-    /// candidates that look the same the first stays: a level, then the first paper, ink and shape.
+    /// The 13 levels, and each of `shapes` in each two of the palette's colors, as far as there are papers.
+    /// Of candidates that look the same the first stays: a level, then the first paper, ink and shape.
     pub fn new(shapes: &[GlyphShape], papers: Papers, palette: Palette) -> Self {
         let shades = Shades::new(palette, papers);
         let mut table: Vec<Candidate> = Vec::new();
@@ -143,8 +143,8 @@ impl BestFit {
     }
 }
 
-/// For two grays side by side: each stands for the level nearest to it, and for those whose fields hold whole cells
-/// of it.
+/// For two grays side by side: each stands for the level nearest to it, and for those whose fields hold whole
+/// cells of it.
 fn needs(lights: [f64; 2], shades: &Shades) -> Needs {
     let stands_for = lights.map(|light| {
         let nearest = Level::nearest(light).get();

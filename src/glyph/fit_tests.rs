@@ -39,7 +39,8 @@ fn every_candidate_is_nearest_to_itself() {
 
 #[test]
 fn what_looks_the_same_is_there_once() {
-    // Six pairs of the four grays; seven ways to part the quadrants, and two quarters that each look two ways.
+    // Six pairs of the four grays; seven ways to part the quadrants, and two quarters that each look two
+    // ways.
     let fit = BestFit::new(BLOCKS, Papers::All, Palette::DOS);
     assert_eq!(fit.shows.len(), 13 + 6 * (2 * 7 + 4));
 }

@@ -60,8 +60,8 @@ impl Paint {
         Self::Rgb([level.srgb(); 3])
     }
 
-    /// The linear light, 0 to 1, as a gray, of an attribute as a PC shows it; `None` for the terminal's own colours,
-    /// which nothing knows.
+    /// The linear light, 0 to 1, as a gray, of an attribute as a PC shows it; `None` for the terminal's own
+    /// colours, which nothing knows.
     pub fn light(self) -> Option<f64> {
         match self {
             Self::Terminal => None,

@@ -1,11 +1,11 @@
-//! Best fit where ink and paper may have any colour, or any of the 13 grays: which parting of the dots in two, and
-//! which two colours.
+//! Best fit where ink and paper may have any colour, or any of the 13 grays: which parting of the dots in
+//! two, and which two colours.
 //!
 //! The measure is that of [`fit`](super::fit): an error e over the dots is seen with the squared strength
-//! `eᵀ K e`, in each axis of L*a*b* alike. With the dots m in ink and n in paper, e = l − a m − b n, and the best a
-//! and b of a parting are those of least squares: `mᵀKm a + mᵀKn b = mᵀKl` and `mᵀKn a + nᵀKn b = nᵀKl`. Where
-//! there are levels, each of the two is then shown by the nearest: the pair that is nearest as a whole would weave
-//! two levels over every surface that lies between them.
+//! `eᵀ K e`, in each axis of L*a*b* alike. With the dots m in ink and n in paper, e = l − a m − b n, and the
+//! best a and b of a parting are those of least squares: `mᵀKm a + mᵀKn b = mᵀKl` and `mᵀKn a + nᵀKn b = nᵀKl`.
+//! Where there are levels, each of the two is then shown by the nearest: the pair that is nearest as a whole
+//! would weave two levels over every surface that lies between them.
 
 use super::cell::Cell;
 use super::eye::{Dots, overlaps};
@@ -159,7 +159,8 @@ impl Grays {
         Self(grays.lightnesses().into_iter().zip(grays.paints()).collect())
     }
 
-    /// That of even light. Where there are all levels it is the light's level by definition, not by rounded lightness.
+    /// That of even light. Where there are all levels it is the light's level by definition, not by rounded
+    /// lightness.
     fn of_light(&self, light: f64) -> Paint {
         let level = usize::from(Level::nearest(light).get());
         let all = self.0.len() > usize::from(Level::MAX.get());

@@ -1,7 +1,8 @@
-//! Between which levels the dots in and around a cell lie: no part of the cell may go beyond them by more than a level.
+//! Between which levels the dots in and around a cell lie: no part of the cell may go beyond them by more
+//! than a level.
 //!
-//! A fit of the mean alone would show the slow passage from level 5 to level 4 as a strip of level 8 above a cell of
-//! level 4: right in the mean, and a bright line where the picture has none.
+//! A fit of the mean alone would show the slow passage from level 5 to level 4 as a strip of level 8 above a
+//! cell of level 4: right in the mean, and a bright line where the picture has none.
 
 use super::shape::{DOT_COUNT, DOTS};
 use crate::math::Grid;

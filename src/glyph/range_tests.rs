@@ -39,8 +39,8 @@ fn beyond(light: &Grid<f64>, mode: GlyphMode, palette: Palette) -> Option<String
     None
 }
 
-/// At 80 × 25 in a terminal the first picture had a bright line at its lower left, where level 5 becomes level 4: `▆` of
-/// dark gray on light gray, right in the mean.
+/// At 80 × 25 in a terminal the first picture had a bright line at its lower left, where level 5 becomes
+/// level 4: `▆` of dark gray on light gray, right in the mean.
 #[test]
 fn where_two_levels_meet_there_is_no_line() {
     let steps = Level::all().zip(Level::all().skip(1));
@@ -64,8 +64,8 @@ fn where_two_levels_meet_there_is_no_line() {
     }
 }
 
-/// The lowest row of the same picture became a row of dots in the terminal's own ink: three rows of level 3 above black
-/// have the mean of a white quarter.
+/// The lowest row of the same picture became a row of dots in the terminal's own ink: three rows of level 3
+/// above black have the mean of a white quarter.
 #[test]
 fn a_dark_edge_is_no_row_of_white_dots() {
     for ground in [Ground::Dark, Ground::Light] {

@@ -16,9 +16,9 @@ pub enum Papers {
     Dim,
 }
 
-/// What the grain of a shade costs beside its distance from the level, per L* between its two grays: so little that
-/// a shade of neighbouring grays is given up only where another is nearer by more than 2 in L*, which is about what
-/// the eye can tell of two surfaces (ΔE 2.3, Mahy 1994).
+/// What the grain of a shade costs beside its distance from the level, per L* between its two grays: so
+/// little that a shade of neighbouring grays is given up only where another is nearer by more than 2 in L*,
+/// which is about what the eye can tell of two surfaces (ΔE 2.3, Mahy 1994).
 const GRAIN: f64 = 2.0 / 60.0;
 
 /// The cells of the 13 levels in one palette.
@@ -132,13 +132,14 @@ pub fn ascii(level: Level, ground: Ground) -> Cell {
     Cell { glyph: RAMP[usize::from(place)].0, ink: Paint::Terminal, paper: Paint::Terminal }
 }
 
-/// How much of a field is white for each level where there is one ink only, in eighths: an even number is one shade,
-/// an odd one a chequer of two. The nearest in lightness, but never the chequer of black and a quarter of white,
-/// which are too far apart to look even: `docs/13-grays.md` has the figures.
+/// How much of a field is white for each level where there is one ink only, in eighths: an even number is one
+/// shade, an odd one a chequer of two. The nearest in lightness, but never the chequer of black and a quarter
+/// of white, which are too far apart to look even: `docs/13-grays.md` has the figures.
 const MONO: [u8; 13] = [0, 0, 0, 2, 2, 2, 2, 3, 3, 4, 6, 7, 8];
 const EIGHTHS: f64 = 8.0;
 
-/// The cell of a level in the terminal's own ink; of the two in a chequer the whiter one, where that is asked for.
+/// The cell of a level in the terminal's own ink; of the two in a chequer the whiter one, where that is asked
+/// for.
 fn ink_only(level: Level, ground: Ground, whiter: bool) -> Cell {
     let eighths = MONO[usize::from(level.get())];
     let white = usize::from(eighths / 2 + eighths % 2 * u8::from(whiter));

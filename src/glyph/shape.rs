@@ -17,8 +17,8 @@ pub struct GlyphShape {
 }
 
 impl GlyphShape {
-    /// From the four rows of the cell, the top one first; in each, bit 1 is the left dot and bit 0 the right one,
-    /// as they are read.
+    /// From the four rows of the cell, the top one first; in each, bit 1 is the left dot and bit 0 the right
+    /// one, as they are read.
     const fn new(glyph: char, rows: [u8; 4]) -> Self {
         let mut mask = 0;
         let mut row = 0;
@@ -91,10 +91,12 @@ pub fn block_of(mask: u8) -> Option<char> {
 
 /// The first of the 256 Braille patterns, the blank one.
 const BRAILLE: u32 = 0x2800;
-/// The bit that Unicode gives to each dot, in scan order: the columns from the top, then the row that was added.
+/// The bit that Unicode gives to each dot, in scan order: the columns from the top, then the row that was
+/// added.
 const BRAILLE_BITS: [u32; DOT_COUNT] = [0, 3, 1, 4, 2, 5, 6, 7];
 
-/// The share of its place in the cell that a Braille dot fills, measured on the outlines of `DejaVu` Sans Mono 2.37.
+/// The share of its place in the cell that a Braille dot fills, measured on the outlines of `DejaVu` Sans
+/// Mono 2.37.
 pub const BRAILLE_DOT: f64 = 0.2026;
 
 /// The Braille pattern of these dots; a blank for none, as its pattern is not blank in every font.
@@ -112,9 +114,9 @@ fn mask_of_braille(glyph: char) -> Option<u8> {
 /// Blank, the three shades and the full block, by quarters of ink.
 pub const SHADES: [char; 5] = [' ', '░', '▒', '▓', '█'];
 
-/// One ASCII character per level with the share of its cell that is ink, measured on the outlines of `DejaVu` Sans
-/// Mono 2.37 (advance × line height). The lightest strokes any font has are far above level 1's light, so the
-/// ramp keeps the order of the levels, at even steps of lightness, not their light.
+/// One ASCII character per level with the share of its cell that is ink, measured on the outlines of `DejaVu`
+/// Sans Mono 2.37 (advance × line height). The lightest strokes any font has are far above level 1's light,
+/// so the ramp keeps the order of the levels, at even steps of lightness, not their light.
 pub const RAMP: [(char, f64); 13] = [
     (' ', 0.0),
     ('.', 0.0261),

@@ -17,7 +17,7 @@ pub struct RayIntegrator<'a, R, C> {
     pub(super) least_weight: f64,
 }
 
-/// RayMemory of one worker that follows paths, with its engine's own.
+/// Memory of one worker that follows paths, with its engine's own.
 #[derive(Debug)]
 pub struct PathMemory<M> {
     pub(super) engine: M,

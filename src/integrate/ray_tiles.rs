@@ -12,7 +12,7 @@ use super::tile_integrator::{TileIntegrator, TilePass};
 /// By dot of a tile in scan order: what it saw.
 type SeenByDots = Vec<Option<PrimaryHit>>;
 
-/// RayMemory of one worker.
+/// Memory of one worker.
 #[derive(Debug)]
 pub struct RayTileMemory<M> {
     rays: PathMemory<M>,

@@ -20,12 +20,12 @@ pub struct TilePass<'a> {
 
 /// Finds the light of the dots of tiles, and what they see.
 pub trait TileIntegrator<C>: Sync {
-    /// RayMemory that a worker leaves to the next picture.
+    /// Memory that a worker leaves to the next picture.
     type Scratch: Default + Send + 'static;
-    /// RayMemory of one worker, used again for every tile.
+    /// Memory of one worker, used again for every tile.
     type Memory: Send;
 
-    /// RayMemory for a worker.
+    /// Memory for a worker.
     fn tile_memory(&self, scratch: Self::Scratch) -> Self::Memory;
 
     /// What of it serves the next picture.

@@ -1,4 +1,4 @@
-//! RayMemory of a worker that lights tiles by wavefronts.
+//! Memory of a worker that lights tiles by wavefronts.
 
 use crate::math::{Lanes, RayPacket};
 use crate::shade::{Channel, Lit};
@@ -17,7 +17,7 @@ pub struct WavefrontScratch<C> {
     pub(super) lit: Vec<Lit>,
 }
 
-/// RayMemory of one worker.
+/// Memory of one worker.
 #[derive(Debug)]
 pub struct WavefrontMemory<C> {
     pub(super) single: PathMemory<RayMemory>,

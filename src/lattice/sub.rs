@@ -192,8 +192,8 @@ struct Building<'a> {
 }
 
 impl Building<'_> {
-    /// Fills a range of cells, given what is left of the expression in a range around it, with expressions that name
-    /// about `allowance` primitives together.
+    /// Fills a range of cells, given what is left of the expression in a range around it, with expressions
+    /// that name about `allowance` primitives together.
     fn fill(&mut self, around: ExprView, range: Range, allowance: f64) {
         // A crossing may be computed `slack` outside its cell; twice that keeps its whole cluster.
         let b = self.planes.bounds(&range).padded(DVec3::splat(2.0 * self.slack));

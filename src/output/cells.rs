@@ -6,8 +6,8 @@ use super::sgr::Pen;
 use crate::glyph::Cell;
 use crate::math::Grid;
 
-/// The characters alone, one line per row of cells, each line at its full width. Colours are lost, so this is for
-/// pictures in the terminal's own ink ([`Palette::Mono`](crate::glyph::Palette::Mono)) and in ASCII.
+/// The characters alone, one line per row of cells, each line at its full width. Colours are lost, so this is
+/// for pictures in the terminal's own ink ([`Palette::Mono`](crate::glyph::Palette::Mono)) and in ASCII.
 pub fn text(cells: &Grid<Cell>, out: &mut impl Write) -> io::Result<()> {
     let mut line = String::new();
     for row in cells.rows() {
@@ -19,9 +19,10 @@ pub fn text(cells: &Grid<Cell>, out: &mut impl Write) -> io::Result<()> {
     Ok(())
 }
 
-/// The cells with SGR sequences: those of 16-colour terminals for the attributes (ECMA-48, and the bright colours of
-/// aixterm), those of xterm for colours by number, one line per row. Only the colour that changes is sent, and none
-/// for the ink of a blank. Each line ends in the terminal's own colours, so that nothing beyond the picture is painted.
+/// The cells with SGR sequences: those of 16-colour terminals for the attributes (ECMA-48, and the bright
+/// colours of aixterm), those of xterm for colours by number, one line per row. Only the colour that changes
+/// is sent, and none for the ink of a blank. Each line ends in the terminal's own colours, so that nothing
+/// beyond the picture is painted.
 pub fn ansi(cells: &Grid<Cell>, out: &mut impl Write) -> io::Result<()> {
     let mut line = String::new();
     for row in cells.rows() {

@@ -1,4 +1,5 @@
-//! The 13 levels of a picture as text, one character a dot: the form to keep in a test. Written, and read again.
+//! The 13 levels of a picture as text, one character a dot: the form to keep in a test. Written, and read
+//! again.
 
 use std::io::{self, Write};
 

@@ -1,6 +1,6 @@
-//! Stage 11, DISPLAY: cells, levels and light in, bytes out. Nothing here opens a file or prints; each function
-//! writes to what it is given, in pieces: give it a buffered writer. The only errors are the writer's own, and a
-//! PNG of no dots.
+//! Stage 11, DISPLAY: cells, levels and light in, bytes out. Nothing here opens a file or prints; each
+//! function writes to what it is given, in pieces: give it a buffered writer. The only errors are the
+//! writer's own, and a PNG of no dots.
 
 mod cells;
 mod levels;

@@ -34,7 +34,8 @@ pub fn grays_of_levels(levels: &Grid<Level>) -> Grid<u8> {
     levels.map(|level| bytes[usize::from(level.get())])
 }
 
-/// The light as the tone shows it, clamped to 0 to 1, as an sRGB byte: the light itself by [`Tone::Lightness`].
+/// The light as the tone shows it, clamped to 0 to 1, as an sRGB byte: the light itself by
+/// [`Tone::Lightness`].
 pub fn grays_of_light(light: &Grid<f64>, tone: Tone) -> Grid<u8> {
     light.map(|&light| srgb_of_light(tone.shown(light)))
 }
@@ -78,8 +79,8 @@ pub fn ppm(pixels: &Pixels, out: &mut impl Write) -> io::Result<()> {
     }
 }
 
-/// A portable float map of one channel (`Pf`): light, depth, object numbers. Values become f32; infinite ones, such
-/// as the depth where nothing is hit, are kept, and no finite one becomes infinite.
+/// A portable float map of one channel (`Pf`): light, depth, object numbers. Values become f32; infinite
+/// ones, such as the depth where nothing is hit, are kept, and no finite one becomes infinite.
 pub fn pfm_gray(values: &Grid<f64>, out: &mut impl Write) -> io::Result<()> {
     pfm("Pf", values, |&value| [value], out)
 }

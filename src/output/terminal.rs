@@ -190,8 +190,8 @@ impl Capabilities {
         self.colors >= Colors::Indexed
     }
 
-    /// Whether it can draw the characters of a mode, and on their papers: the DOS set has papers 0 and 7 only, others
-    /// have any of the four grays.
+    /// Whether it can draw the characters of a mode, and on their papers: the DOS set has papers 0 and 7
+    /// only, others have any of the four grays.
     pub fn draws(self, glyphs: GlyphMode) -> bool {
         match glyphs {
             GlyphMode::Ascii => true,
@@ -215,8 +215,8 @@ fn described(description: Description) -> Capabilities {
     Capabilities { colors, alternate_screen: description.alternate_screen, ..VT }
 }
 
-/// Whether a locale's characters are UTF-8: `C.UTF-8`, `de_DE.utf8@euro`, and macOS's plain `UTF-8`. None is C, and a
-/// locale that names no character set has an old one.
+/// Whether a locale's characters are UTF-8: `C.UTF-8`, `de_DE.utf8@euro`, and macOS's plain `UTF-8`. None is
+/// C, and a locale that names no character set has an old one.
 fn is_utf8(locale: &str) -> bool {
     let set = locale.split('@').next().unwrap_or_default().rsplit('.').next().unwrap_or_default();
     set.eq_ignore_ascii_case("utf-8") || set.eq_ignore_ascii_case("utf8")

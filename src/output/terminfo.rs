@@ -14,7 +14,8 @@ pub struct Description {
 /// The first bytes of an entry with numbers of 16 bits, and of one with numbers of 32.
 const MAGIC: [(u16, usize); 2] = [(0o432, 2), (0o1036, 4)];
 
-/// Bytes of the header: the magic number, then the sizes of names, booleans, numbers, strings and of their table.
+/// Bytes of the header: the magic number, then the sizes of names, booleans, numbers, strings and of their
+/// table.
 const HEADER: usize = 12;
 
 /// The places of capabilities in their lists, in the order of term.h.

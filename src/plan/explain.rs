@@ -19,7 +19,8 @@ pub struct StagePlan {
     pub needed: bool,
     /// Why it is needed, or why not: one line.
     pub why: String,
-    /// What it is expected to cost; absent where that is nothing, next to nothing, or part of another stage's.
+    /// What it is expected to cost; absent where that is nothing, next to nothing, or part of another
+    /// stage's.
     pub cost: Option<Cost>,
     /// The parts of the stage that are decided on singly; none where the stage itself is left out.
     pub terms: Vec<Term>,

@@ -26,8 +26,8 @@ use reasons::{Absent, Cut};
 /// Everything that the later stages need to know.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// How space is cut: what was asked for, or what suits the scene; never [`StructureChoice::Auto`]. Whether a
-    /// lattice can be had within its budget shows when it is built.
+    /// How space is cut: what was asked for, or what suits the scene; never [`StructureChoice::Auto`].
+    /// Whether a lattice can be had within its budget shows when it is built.
     pub structure: StructureChoice,
     /// What traces; never [`EngineChoice::Auto`]. Where it is [`EngineChoice::Fast`], the structure is
     /// [`StructureChoice::Boxes`].
@@ -48,7 +48,8 @@ pub struct Plan {
     /// channel, which is exact: a gray light on a coloured surface is as bright as on a gray one of the same
     /// luminance.
     pub channels: Channels,
-    /// The lights, where they stand for this view, in the scene's coordinates. Those of no intensity are left out.
+    /// The lights, where they stand for this view, in the scene's coordinates. Those of no intensity are left
+    /// out.
     pub lamps: Vec<Lamp>,
     /// Rays per dot along each axis.
     pub samples: u32,
@@ -63,8 +64,8 @@ pub struct Secondary {
     pub generations: u32,
     /// A ray whose light counts less than this is not followed.
     pub least_weight: f64,
-    /// The glass objects that the eye is in, by their index in the assembly, in file order, with their index of
-    /// refraction.
+    /// The glass objects that the eye is in, by their index in the assembly, in file order, with their index
+    /// of refraction.
     pub around_eye: Vec<(u32, f64)>,
 }
 
@@ -76,7 +77,8 @@ impl Secondary {
         options: &Options,
         lamps: &[Lamp],
     ) -> Self {
-        // A ray of weight w changes its dot by w at most, unless something in the scene is brighter than white.
+        // A ray of weight w changes its dot by w at most, unless something in the scene is brighter than
+        // white.
         let sources =
             [scene.world.ambient, scene.world.background].into_iter().chain(lamps.iter().map(|l| l.light));
         let brightest = sources.map(DVec3::max_element).fold(1.0, f64::max);
@@ -166,9 +168,9 @@ impl Plan {
 
 /// The first thing with a colour that would be lost in one channel.
 ///
-/// Light of a colour on a surface of another is what one number can not say: where every lamp and the light all around
-/// are gray, the luminance of a surface's light is theirs times that of its colour. The background is only ever weakened,
-/// by numbers. So both, surfaces and background, count where colours are wanted.
+/// Light of a colour on a surface of another is what one number can not say: where every lamp and the light
+/// all around are gray, the luminance of a surface's light is theirs times that of its colour. The background
+/// is only ever weakened, by numbers. So both, surfaces and background, count where colours are wanted.
 fn colored(scene: &Scene, lamps: &[Lamp], wanted: bool) -> Option<&'static str> {
     let shining =
         lamps.iter().map(|l| ("a light", l.light)).chain([("the ambient light", scene.world.ambient)]);
@@ -178,8 +180,8 @@ fn colored(scene: &Scene, lamps: &[Lamp], wanted: bool) -> Option<&'static str> 
     shining.chain(seen).find(|&(_, c)| !is_gray(c)).map(|(what, _)| what)
 }
 
-/// Up to so many objects, of so many primitives in all, are tested one ray at a time as fast as a structure says which of
-/// them to test: measured on solids of OpenSCAD.
+/// Up to so many objects, of so many primitives in all, are tested one ray at a time as fast as a structure
+/// says which of them to test: measured on solids of OpenSCAD.
 const FEW_OBJECTS: usize = 2;
 const FEW_PRIMITIVES: usize = 8;
 

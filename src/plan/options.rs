@@ -1,11 +1,12 @@
 //! What the person asked for, beside the scene and the view.
 
-/// Generations of mirror and Snell rays where nothing is asked for: into a glass solid and out of it, into another
-/// one and out of it, and what is seen behind.
+/// Generations of mirror and Snell rays where nothing is asked for: into a glass solid and out of it, into
+/// another one and out of it, and what is seen behind.
 pub const DEPTH: u32 = 5;
 
-/// The change of light that is too small to follow a ray for: half of the smallest step between two levels, which
-/// is a quarter of the light of the darkest gray (0.0908 / 4 / 2 = 0.01136), rounded down to three decimals.
+/// The change of light that is too small to follow a ray for: half of the smallest step between two levels,
+/// which is a quarter of the light of the darkest gray (0.0908 / 4 / 2 = 0.01136), rounded down to three
+/// decimals.
 pub const CUTOFF: f64 = 0.011;
 
 /// Choices that change what is computed.
@@ -15,8 +16,8 @@ pub struct Options {
     pub shading: Shading,
     /// Generations of mirror and Snell rays after the rays from the eye.
     pub depth: u32,
-    /// A mirror or Snell ray is followed only while it can still change the light of its dot by this much; 0 or
-    /// more.
+    /// A mirror or Snell ray is followed only while it can still change the light of its dot by this much; 0
+    /// or more.
     pub cutoff: f64,
     /// Whether lights are tested for what stands before them.
     pub shadows: bool,
@@ -63,8 +64,8 @@ pub enum OptionsError {
 impl Options {
     /// What traces a picture of these options; never [`EngineChoice::Auto`].
     ///
-    /// The fast engine finds the bits of the exact one whatever the scene, the view and their scales, since it asks that one
-    /// wherever it is unsure. So nothing but a wish decides.
+    /// The fast engine finds the bits of the exact one whatever the scene, the view and their scales, since
+    /// it asks that one wherever it is unsure. So nothing but a wish decides.
     pub fn traced_by(&self) -> EngineChoice {
         match self.engine {
             EngineChoice::Auto if self.structure.allows_boxes() => EngineChoice::Fast,
@@ -73,8 +74,8 @@ impl Options {
         }
     }
 
-    /// Whether all can be had together. Where they can not, a picture is drawn all the same: the engine that is asked for
-    /// comes before the structure.
+    /// Whether all can be had together. Where they can not, a picture is drawn all the same: the engine that
+    /// is asked for comes before the structure.
     pub fn check(&self) -> Result<(), OptionsError> {
         match (self.engine, self.structure) {
             (EngineChoice::Fast, structure) if !structure.allows_boxes() => {
@@ -142,8 +143,8 @@ impl StructureChoice {
     }
 }
 
-/// What traces the rays, as asked for. Both find the same bits, for every scene and view that can be drawn, where
-/// [`PrecisionChoice::Double`] is asked for.
+/// What traces the rays, as asked for. Both find the same bits, for every scene and view that can be drawn,
+/// where [`PrecisionChoice::Double`] is asked for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum EngineChoice {
     /// The fast one, unless a structure is asked for that it does not go through.
@@ -169,8 +170,8 @@ impl EngineChoice {
 /// In which precision rays from the eye are asked what they meet, as asked for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum PrecisionChoice {
-    /// Single precision, where that takes less time and nobody sees it: depths and normals are still off by 10⁻⁵ of the scene's
-    /// size.
+    /// Single precision, where that takes less time and nobody sees it: depths and normals are still off by
+    /// 10⁻⁵ of the scene's size.
     #[default]
     Auto,
     /// Single precision, whether it is seen or not.

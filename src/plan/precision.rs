@@ -1,13 +1,14 @@
 //! In which precision rays from the eye are asked what they meet.
 //!
-//! Of solids that are cut, and of convex ones but balls, numbers of 24 bits say it in less time than those of 53. Which surface
-//! is met stays certain: where single precision leave a doubt, at silhouettes and edges and where two surfaces are near each
-//! other, all are asked. But where it is met is off by up to [`Real::COARSER`] times as much, some 2·10⁻⁵ in the unit in which
-//! the world reaches to ±2. That is allowed where it is so small a part of a dot, of what is nearest to the eye, that light is off
-//! by less than a quarter of a level.
+//! Of solids that are cut, and of convex ones but balls, numbers of 24 bits say it in less time than those of
+//! 53. Which surface is met stays certain: where single precision leave a doubt, at silhouettes and edges and
+//! where two surfaces are near each other, all are asked. But where it is met is off by up to
+//! [`Real::COARSER`] times as much, some 2·10⁻⁵ in the unit in which the world reaches to ±2. That is allowed
+//! where it is so small a part of a dot, of what is nearest to the eye, that light is off by less than a
+//! quarter of a level.
 //!
-//! Rays that start on surfaces need double precision: between two curved mirrors what is off grows with each generation, and the edge
-//! of a shadow shows where a point is.
+//! Rays that start on surfaces need double precision: between two curved mirrors what is off grows with each
+//! generation, and the edge of a shadow shows where a point is.
 
 use crate::math::{DVec3, Real};
 use crate::solid::Assembly;
@@ -34,21 +35,24 @@ impl Precision {
     }
 }
 
-/// The part of a dot that a hit may be off. From one dot to the next light differs by as many levels as there are at most, and by
-/// so small a part of that way by a quarter of a level.
+/// The part of a dot that a hit may be off. From one dot to the next light differs by as many levels as there
+/// are at most, and by so small a part of that way by a quarter of a level.
 const UNSEEN: f64 = 0.25 / LEVELS;
 
 /// Steps from black to white.
 const LEVELS: f64 = 12.0;
 
-/// A chord is at least as long as a solid is thick, and its two ends are off by twice `off` over the sine of the angle between
-/// ray and face. So in a solid 16 `off` thick all chords are certain whose rays meet its faces at a sine of an eighth or more.
+/// A chord is at least as long as a solid is thick, and its two ends are off by twice `off` over the sine of
+/// the angle between ray and face. So in a solid 16 `off` thick all chords are certain whose rays meet its
+/// faces at a sine of an eighth or more.
 const THICK: f64 = 16.0;
 
-/// Of more objects around the eye none is asked how near it is: a few nanoseconds each are a tenth of a millisecond.
+/// Of more objects around the eye none is asked how near it is: a few nanoseconds each are a tenth of a
+/// millisecond.
 const ASKED: usize = 1 << 15;
 
-/// Inverse maps, their squares and the squares of those are far from the limits of f32 where solids are thicker than this.
+/// Inverse maps, their squares and the squares of those are far from the limits of f32 where solids are
+/// thicker than this.
 const PLAIN: f64 = 1.0 / (1_u32 << 30) as f64;
 
 /// More primitives have no number in 24 bits.

@@ -3,7 +3,8 @@
 use super::options::Shading;
 use super::precision::PrecisionReason;
 
-/// What a plan was made from, decision by decision. [`Plan::explain`](super::Plan::explain) puts it into words.
+/// What a plan was made from, decision by decision. [`Plan::explain`](super::Plan::explain) puts it into
+/// words.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reasons {
     pub(super) cut: Cut,

@@ -24,8 +24,8 @@ pub fn binary(bytes: &[u8]) -> Option<&'static str> {
     BINARY.iter().find(|format| (format.is)(bytes)).map(|format| format.name)
 }
 
-/// A binary STL mesh begins with 80 bytes of anything and the number of its triangles, each of which takes 50 bytes: no text
-/// is so short that four of its characters are that number.
+/// A binary STL mesh begins with 80 bytes of anything and the number of its triangles, each of which takes 50
+/// bytes: no text is so short that four of its characters are that number.
 fn is_binary_stl(bytes: &[u8]) -> bool {
     let Some(count) = bytes.get(80..84).and_then(|count| count.try_into().ok()).map(u32::from_le_bytes)
     else {
@@ -34,8 +34,8 @@ fn is_binary_stl(bytes: &[u8]) -> bool {
     bytes.len() as u64 == 84 + 50 * u64::from(count)
 }
 
-/// Whether the bytes begin as a file of NFF does, whatever its name: behind comments, with the word of an entity and, for all
-/// but a view, a number.
+/// Whether the bytes begin as a file of NFF does, whatever its name: behind comments, with the word of an
+/// entity and, for all but a view, a number.
 pub fn is_nff(bytes: &[u8]) -> bool {
     let lines = bytes.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii);
     let Some(first) = lines.into_iter().find(|line| !line.is_empty() && line[0] != b'#') else {

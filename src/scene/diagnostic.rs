@@ -165,8 +165,8 @@ impl Sink {
         Reported
     }
 
-    /// Takes a note. Notes with the same message are one, at the place of the first: what a program wrote wrong it wrote
-    /// thousands of times.
+    /// Takes a note. Notes with the same message are one, at the place of the first: what a program wrote
+    /// wrong it wrote thousands of times.
     pub fn note(&mut self, note: Diagnostic) {
         if let Some(&kind) = self.kinds.get(&note.message) {
             self.notes[kind].add(note.span.start);

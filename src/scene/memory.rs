@@ -1,20 +1,24 @@
-//! How much memory a scene takes, counted while it is read: a scene too large for the machine is an error in place of
-//! an abort, or of a machine that stands still.
+//! How much memory a scene takes, counted while it is read: a scene too large for the machine is an error in
+//! place of an abort, or of a machine that stands still.
 
 use super::Diagnostic;
 use super::diagnostic::{Reported, Sink};
 
-/// Bytes that showing a primitive takes beside its place in the scene: its form for rays, its object, its share of the
-/// boxes, and what is needed to build those at once. Peaks of 440 for cubes and 460 for cylinders were measured: the table
-/// "How cost grows" of `docs/performance.md`, less what is in [`super::Object`].
+/// Bytes that showing a primitive takes beside its place in the scene: its form for rays, its object, its
+/// share of the boxes, and what is needed to build those at once. Peaks of 440 for cubes and 460 for
+/// cylinders were measured: the table "How cost grows" of `docs/performance.md`, less what is in
+/// [`super::Object`].
 ///
-/// The sub-lattices of composite objects are not counted: however large the scene, they have bounds of their own.
+/// The sub-lattices of composite objects are not counted: however large the scene, they have bounds of their
+/// own.
 pub const ASSEMBLED: u64 = 480;
 
-/// Bytes more that a solid of flat faces, or a mesh, takes: 420 for six faces and 1 200 for four triangles were measured.
+/// Bytes more that a solid of flat faces, or a mesh, takes: 420 for six faces and 1 200 for four triangles
+/// were measured.
 pub const ASSEMBLED_FACES: u64 = 450;
 
-/// Bytes that showing a triangle of a mesh takes: between 190 of a mesh of four and 370 of one of many were measured.
+/// Bytes that showing a triangle of a mesh takes: between 190 of a mesh of four and 370 of one of many were
+/// measured.
 pub const ASSEMBLED_TRIANGLE: u64 = 330;
 
 /// Bytes more that an operator takes, in the scene and as expressions for rays: 800 were measured.

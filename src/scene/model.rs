@@ -6,8 +6,8 @@ use std::vec::Drain;
 
 use crate::math::{Bounds, DAffine3, DVec3};
 
-/// Scenes reach no farther than this from the origin along any axis. It is a thousandth of the largest number: so far
-/// may an eye that sees all of a scene stand off, and the lights that go with it.
+/// Scenes reach no farther than this from the origin along any axis. It is a thousandth of the largest
+/// number: so far may an eye that sees all of a scene stand off, and the lights that go with it.
 pub const REACH: f64 = 1e305;
 
 /// Whether a box lies within [`REACH`].
@@ -34,8 +34,8 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Whether another scene has the same solids in the same order, whatever they are called, made of and lit by: a ray from
-    /// anywhere meets the same in both.
+    /// Whether another scene has the same solids in the same order, whatever they are called, made of and lit
+    /// by: a ray from anywhere meets the same in both.
     pub fn has_solids_of(&self, other: &Self) -> bool {
         let mut both = self.objects.iter().zip(&other.objects);
         self.objects.len() == other.objects.len() && both.all(|(a, b)| a.solid.is_shaped_as(&b.solid))
@@ -79,8 +79,8 @@ impl Solid {
         }
     }
 
-    /// What `leaf` makes of the primitives, in file order, put together by `join` at each operator, from the innermost
-    /// outwards. Does not recurse: solids may be nested deeper than a thread's stack allows for.
+    /// What `leaf` makes of the primitives, in file order, put together by `join` at each operator, from the
+    /// innermost outwards. Does not recurse: solids may be nested deeper than a thread's stack allows for.
     pub fn fold<'a, T>(
         &'a self,
         leaf: &mut impl FnMut(&'a Primitive) -> T,
@@ -137,19 +137,20 @@ pub struct Primitive {
     pub shape: Shape,
     /// From the shape's own coordinates to the world's. Finite and invertible.
     pub map: DAffine3,
-    /// How far a point of the shape may lie from where exact arithmetic would put it, along each axis, as a share of how
-    /// far the primitive reaches from the origin along that axis: what was rounded when the map was written down and
-    /// composed. Surfaces nearer to each other than that are one place.
+    /// How far a point of the shape may lie from where exact arithmetic would put it, along each axis, as a
+    /// share of how far the primitive reaches from the origin along that axis: what was rounded when the map
+    /// was written down and composed. Surfaces nearer to each other than that are one place.
     pub map_error: [f32; 3],
     /// Its surface.
     pub material: MaterialId,
 }
 
 impl Primitive {
-    /// A primitive whose map was composed of two, as `place * size` is, and has the [`Primitive::map_error`] of that.
+    /// A primitive whose map was composed of two, as `place * size` is, and has the [`Primitive::map_error`]
+    /// of that.
     pub fn new(shape: Shape, map: DAffine3, material: MaterialId) -> Self {
-        // Both numbers of a product, the product and three sums, of three products and an entry: 6 half-ulps, rounded
-        // up to 8.
+        // Both numbers of a product, the product and three sums, of three products and an entry: 6 half-ulps,
+        // rounded up to 8.
         const COMPOSED: f32 = 4.0 * f64::EPSILON as f32;
         Self { shape, map, map_error: [COMPOSED; 3], material }
     }
@@ -158,7 +159,8 @@ impl Primitive {
     #[must_use]
     pub fn displaced(mut self, by: DVec3) -> Self {
         let reach = self.shape.bounds().mapped(&self.map).farthest();
-        // Half an ulp of an f32 is of no account to a bound, nor is what is beyond all of them: a bound stays a number.
+        // Half an ulp of an f32 is of no account to a bound, nor is what is beyond all of them: a bound stays
+        // a number.
         let share = |axis: usize| (by[axis] / reach[axis]).min(f64::from(f32::MAX)) as f32;
         self.map_error = [0, 1, 2].map(|axis| if reach[axis] > 0.0 { share(axis) } else { 0.0 });
         self
@@ -191,9 +193,9 @@ pub enum Shape {
     /// A closed solid of triangles, not necessarily convex: the points around which an odd number of
     /// surfaces lie.
     Mesh(Arc<Mesh>),
-    /// A surface: a polygon, which may be concave and, by what rounding its corners takes, not quite flat. Three
-    /// corners or more, no two neighbours the same, with an area. Points around which its outline turns an even
-    /// number of times are outside.
+    /// A surface: a polygon, which may be concave and, by what rounding its corners takes, not quite flat.
+    /// Three corners or more, no two neighbours the same, with an area. Points around which its outline turns
+    /// an even number of times are outside.
     Face(Arc<[DVec3]>),
     /// A surface: a polygon whose normal is interpolated between those of its corners.
     Patch(Arc<[Corner]>),
@@ -310,7 +312,8 @@ pub struct Light {
 pub enum Anchor {
     /// A point of the world.
     World(DVec3),
-    /// A point that moves with the eye: (right, up, back) in units of the distance from the eye to its target.
+    /// A point that moves with the eye: (right, up, back) in units of the distance from the eye to its
+    /// target.
     Eye(DVec3),
 }
 
@@ -350,8 +353,8 @@ pub enum FieldSpan {
     /// The edges of the picture.
     #[default]
     Edges,
-    /// The centres of the first and the last row, or column, of dots: a picture of more dots then sees less beyond
-    /// them.
+    /// The centres of the first and the last row, or column, of dots: a picture of more dots then sees less
+    /// beyond them.
     Centers,
 }
 
@@ -362,7 +365,8 @@ pub struct World {
     pub ambient: DVec3,
     /// What a ray sees that meets nothing, each channel 0 or more.
     pub background: DVec3,
-    /// The constant of the depth term of eq. (2): the lights' part is divided by `R + k`. Absent: no division.
+    /// The constant of the depth term of eq. (2): the lights' part is divided by `R + k`. Absent: no
+    /// division.
     pub k: Option<f64>,
 }
 

@@ -39,6 +39,7 @@ pub struct ReadOptions {
     pub format: Option<Format>,
     /// Where to write how far the reading is, for who watches.
     pub progress: Option<Progress>,
-    /// Bytes of memory that the scene, and what will show it, may take; as many as there are where it is not given.
+    /// Bytes of memory that the scene, and what will show it, may take; as many as there are where it is not
+    /// given.
     pub memory: Option<u64>,
 }

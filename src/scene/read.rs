@@ -1,5 +1,5 @@
-//! From a file, or its bytes, to a [`Scene`]: the checks that every format shares, then the reader that name or content
-//! choose. Only the readers of text ask for UTF-8.
+//! From a file, or its bytes, to a [`Scene`]: the checks that every format shares, then the reader that name
+//! or content choose. Only the readers of text ask for UTF-8.
 
 use std::fs::File;
 use std::io::{self, Read};

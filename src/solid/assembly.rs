@@ -1,7 +1,8 @@
 //! Stage 7, SOLID: all objects of a scene, in coordinates of their own.
 //!
 //! The world's numbers are brought to magnitudes near 1, by a power of two and, where the scene lies far from
-//! the origin, a shift: every later bound on rounding then holds at any scale and any distance from the origin.
+//! the origin, a shift: every later bound on rounding then holds at any scale and any distance from the
+//! origin.
 
 use rayon::prelude::*;
 
@@ -14,8 +15,9 @@ use super::expression::{CsgTree, Expression};
 use super::primitive::{WorldPrimitive, WorldShape};
 use super::span::ROUNDING;
 
-/// Eyes and lights farther away than this, in the assembly's unit, stand here: the square of such a length does not
-/// overflow, and seen from the scene, whose size is about 1, the direction is the same within rounding.
+/// Eyes and lights farther away than this, in the assembly's unit, stand here: the square of such a length
+/// does not overflow, and seen from the scene, whose size is about 1, the direction is the same within
+/// rounding.
 const FARTHEST: f64 = 1e100;
 
 /// Objects in a row that one thread looks at: few are done before another thread could begin.
@@ -29,7 +31,8 @@ fn mapped<T: Sync, U: Send>(items: &[T], f: impl Fn(usize, &T) -> U + Sync) -> V
     items.par_iter().enumerate().map(|(number, item)| f(number, item)).collect()
 }
 
-/// Tells of a stretch of items by its last one: a count that all threads share is too slow to be written for each.
+/// Tells of a stretch of items by its last one: a count that all threads share is too slow to be written for
+/// each.
 fn tell(progress: &Progress, number: usize) {
     if (number + 1).is_multiple_of(STRETCH) {
         progress.advance(STRETCH as u64);
@@ -167,15 +170,16 @@ impl SceneFrame {
         Self::new(&seen, &all)
     }
 
-    /// The scene's frame for a scene that shows only in the box `b`, with cutters that reach to the box `all`.
+    /// The scene's frame for a scene that shows only in the box `b`, with cutters that reach to the box
+    /// `all`.
     fn new(b: &Bounds, all: &Bounds) -> Self {
-        // Cutters are computed with, too: where the body is small beside them, beyond all reason, the unit grows so
-        // that no square of theirs overflows.
+        // Cutters are computed with, too: where the body is small beside them, beyond all reason, the unit
+        // grows so that no square of theirs overflows.
         let least = all.farthest().max_element() / FARTHEST;
         let half = b.half().max_element().max(least);
         let center = b.center();
-        // A shift rounds coordinates that lie nearer the origin than the box's size. Up to 8 times half of that away
-        // the origin costs 3 bits, less than the shift would.
+        // A shift rounds coordinates that lie nearer the origin than the box's size. Up to 8 times half of
+        // that away the origin costs 3 bits, less than the shift would.
         let far = center.abs().max_element() > 8.0 * half;
         let scale_of = |x: f64| libm::ldexp(1.0, libm::ilogb(x).clamp(-1000, 1000));
         let unit = |size: f64| if size > 0.0 && size.is_finite() { 2.0 * scale_of(size) } else { 1.0 };
@@ -194,7 +198,8 @@ impl SceneFrame {
         (p - self.origin) / self.unit
     }
 
-    /// A point of the scene in the assembly; one farther than `FARTHEST` is brought there along its direction.
+    /// A point of the scene in the assembly; one farther than `FARTHEST` is brought there along its
+    /// direction.
     pub fn inward_near(&self, p: DVec3) -> DVec3 {
         let from_origin = p - self.origin;
         let size = from_origin.abs().max_element();
@@ -222,7 +227,8 @@ impl SceneFrame {
         });
         match place {
             Some(place) => Some(WorldShape::new(&p.shape, place, error)),
-            // So thin beside the scene that no ray meets it, though its map has an inverse: a ball of no size.
+            // So thin beside the scene that no ray meets it, though its map has an inverse: a ball of no
+            // size.
             None => {
                 Placement::new(&p.map).map(|_| WorldShape::Ball(Ball::new(map.translation, 0.0, DVec3::ZERO)))
             }
@@ -335,8 +341,8 @@ impl Assembly {
         Ok(Self { primitives, objects, alone, limit, off, scene_frame, stats })
     }
 
-    /// The primitive of an object that is a [`Body::Single`] or a [`Body::Surface`]. A list of its own: millions of
-    /// objects are in no cache, their numbers may be.
+    /// The primitive of an object that is a [`Body::Single`] or a [`Body::Surface`]. A list of its own:
+    /// millions of objects are in no cache, their numbers may be.
     #[inline]
     pub fn alone(&self, object: u32) -> Option<u32> {
         Some(self.alone[object as usize].0).filter(|&index| index != MANY)
@@ -349,7 +355,8 @@ impl Assembly {
         (kind, index)
     }
 
-    /// How far the scene reaches along `v` at most, in its own coordinates: the greatest `p · v` of its points.
+    /// How far the scene reaches along `v` at most, in its own coordinates: the greatest `p · v` of its
+    /// points.
     pub fn support(&self, v: DVec3) -> f64 {
         let own = self.objects.iter().map(|object| match &object.body {
             Body::Single(index) | Body::Surface(index) => self.primitives[*index as usize].form.support(v),
@@ -371,12 +378,12 @@ impl Assembly {
         }
     }
 
-    /// The normal of a primitive's surface at a point of the assembly, turned to the side that a ray along `d`
-    /// comes from, of length 1.
+    /// The normal of a primitive's surface at a point of the assembly, turned to the side that a ray along
+    /// `d` comes from, of length 1.
     ///
-    /// The normal of a patch is interpolated, and turned to the side of the patch's plane that the ray comes from.
-    /// Where it still turns away from the ray, as it does at the rim of what coarse patches stand for, the nearest
-    /// normal that does not is taken: the one across the ray. So light does not jump there.
+    /// The normal of a patch is interpolated, and turned to the side of the patch's plane that the ray comes
+    /// from. Where it still turns away from the ray, as it does at the rim of what coarse patches stand for,
+    /// the nearest normal that does not is taken: the one across the ray. So light does not jump there.
     pub fn turned_normal(&self, primitive: u32, surface: u32, p: DVec3, d: DVec3) -> DVec3 {
         let form = &self.primitives[primitive as usize].form;
         let own = form.normal(p, surface).normalize_or(-d);

@@ -16,8 +16,8 @@ pub struct Ball {
     off: f64,
 }
 
-/// The [`rounding_at`] of a ball whose centre is within the world. One from farther away only cuts, or is cut: how little
-/// is known of its chords is in their errors.
+/// The [`rounding_at`] of a ball whose centre is within the world. One from farther away only cuts, or is
+/// cut: how little is known of its chords is in their errors.
 const SEEN: f64 = ROUNDING * (WORLD + LIMIT);
 
 /// A ball, or one for each of as many rays as a [`Number`] has.
@@ -43,8 +43,8 @@ impl<N: Number> Balls<N> {
 
     /// Where each ray is inside its ball.
     ///
-    /// The origin is moved to the point of the ray closest to the centre, twice: the first move leaves an error
-    /// in proportion to the way, the second removes it along the ray. The half-chord then comes from
+    /// The origin is moved to the point of the ray closest to the centre, twice: the first move leaves an
+    /// error in proportion to the way, the second removes it along the ray. The half-chord then comes from
     /// `(r − l)(r + l)`, which does not cancel as `b² − 4ac` does (Haines, Günther, Akenine-Möller: Precision
     /// improvements for ray/sphere intersection, Ray Tracing Gems, 2019).
     #[inline(always)]
@@ -124,8 +124,8 @@ impl Ball {
         self.off
     }
 
-    /// The most that the `error` of any of its ends can be: half a chord whose square is below `2·r·off` is off by no more
-    /// than the root of that, and one above it by less than half of that root.
+    /// The most that the `error` of any of its ends can be: half a chord whose square is below `2·r·off` is
+    /// off by no more than the root of that, and one above it by less than half of that root.
     pub fn most_error<T: Real>(&self) -> f64 {
         let off = self.off * T::COARSER;
         off + (2.0 * self.radius * off).sqrt()

@@ -3,11 +3,12 @@
 //! The crossings of all primitives are sorted along the ray. Those whose error intervals overlap that of the
 //! first of them form a cluster and count as one place: they toggle together, and only the expression's value
 //! before and behind the cluster matters. So a solid minus itself is nothing, and a hole flush with a face is
-//! open, whatever the order of the operands. A cluster ends where a crossing's interval no longer meets that of
-//! the cluster's **first** crossing: overlap is not transitive, and chains would weld a whole stack of sheets.
+//! open, whatever the order of the operands. A cluster ends where a crossing's interval no longer meets that
+//! of the cluster's **first** crossing: overlap is not transitive, and chains would weld a whole stack of
+//! sheets.
 //!
-//! A ray that skims a face crosses it somewhere within an interval as long as the world, and has only faces of the
-//! same slope for company: what it crosses steeply on the way keeps its own place ([`SAME_SLOPE`]).
+//! A ray that skims a face crosses it somewhere within an interval as long as the world, and has only faces
+//! of the same slope for company: what it crosses steeply on the way keeps its own place ([`SAME_SLOPE`]).
 
 use std::ops::{Div, Mul};
 
@@ -71,15 +72,17 @@ impl TRange {
     pub const ALL: Self = Self { from: 0.0, to: f64::INFINITY };
 }
 
-/// Whether a crossing of `form` lies at the start of a ray. For a ray that leaves a surface it counts how far either may
-/// be off its place: where they are one place they have one slope, so that `error` is to `off` as the start's to its own.
-/// The eye is where it is: for a ray from there only rounding counts, not how far the map of the primitive may be off.
+/// Whether a crossing of `form` lies at the start of a ray. For a ray that leaves a surface it counts how far
+/// either may be off its place: where they are one place they have one slope, so that `error` is to `off` as
+/// the start's to its own. The eye is where it is: for a ray from there only rounding counts, not how far the
+/// map of the primitive may be off.
 #[inline]
 pub fn at_start(end: &End, form: &WorldShape, departure: Option<Departure>) -> bool {
     end.t <= start_of(end.error, PlaceError::of(form), departure.map(|d| d.off))
 }
 
-/// How far a primitive may be off its place, in the world's unit, and which share of that our own rounding may have made.
+/// How far a primitive may be off its place, in the world's unit, and which share of that our own rounding
+/// may have made.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PlaceError<N> {
     pub off: N,
@@ -94,8 +97,8 @@ impl PlaceError<f64> {
     }
 }
 
-/// Up to which distance a crossing with this error lies at the start of its ray, given how far its primitive is off, and
-/// which share of that is seeming.
+/// Up to which distance a crossing with this error lies at the start of its ray, given how far its primitive
+/// is off, and which share of that is seeming.
 #[inline(always)]
 pub(super) fn start_of<N, M>(error: N, own: PlaceError<M>, departure_off: Option<N>) -> N
 where
@@ -242,9 +245,9 @@ pub fn first_of_expression(
 
 /// How much the sines of the angles at which a ray meets two surfaces in one place may differ, as a factor.
 ///
-/// Where surfaces coincide they have one slope, but for what their maps lost, which counts where a ray all but skims them.
-/// What is crossed steeply on a way that skims a face has a sine farther from the face's than this, unless the face's
-/// crossing is known within 256 times `off`, too little to be seen.
+/// Where surfaces coincide they have one slope, but for what their maps lost, which counts where a ray all
+/// but skims them. What is crossed steeply on a way that skims a face has a sine farther from the face's than
+/// this, unless the face's crossing is known within 256 times `off`, too little to be seen.
 const SAME_SLOPE: f64 = 256.0;
 
 /// Whether the sines of the angles at which rays meet two surfaces are as near as those of one place are.
@@ -253,8 +256,8 @@ pub(super) fn have_one_slope<N: Number>(a: N, b: N) -> N::Mask {
     a.larger(b).is_at_most(a.smaller(b) * SAME_SLOPE)
 }
 
-/// Brings those of the sorted events that are one place with the first of them to the front, and counts them; the
-/// others keep their order.
+/// Brings those of the sorted events that are one place with the first of them to the front, and counts them;
+/// the others keep their order.
 fn gather_cluster(events: &mut [Event], off: impl Fn(&Event) -> f64) -> usize {
     let first = events[0].end;
     let limit = first.t + first.error;
@@ -267,7 +270,8 @@ fn gather_cluster(events: &mut [Event], off: impl Fn(&Event) -> f64) -> usize {
             break;
         }
         let (a, b) = (sine(&events[0]), sine(&events[i]));
-        // A start that is 0 by construction has neither error nor slope, and is one place with all that reach it.
+        // A start that is 0 by construction has neither error nor slope, and is one place with all that reach
+        // it.
         if a.max(b) <= SAME_SLOPE * a.min(b) || first.error == 0.0 || end.error == 0.0 {
             events[length..=i].rotate_right(1);
             length += 1;

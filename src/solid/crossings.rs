@@ -1,9 +1,10 @@
 //! Stage 8, CSG, for a packet of rays: the first place along each where an expression changes.
 //!
-//! It does what [`super::crossing`] does for one ray, and finds the same bits where it has double precision: the crossings of all primitives, those
-//! that are one place with the first of them toggled together, until the expression's value changes. Instead of a
-//! sorted list there is a bit for each ray: of a crossing that is yet to come, of a primitive that the place is inside,
-//! of an operator that is true there. So an operator is one operation on a word for all rays.
+//! It does what [`super::crossing`] does for one ray, and finds the same bits where it has double precision:
+//! the crossings of all primitives, those that are one place with the first of them toggled together, until
+//! the expression's value changes. Instead of a sorted list there is a bit for each ray: of a crossing that
+//! is yet to come, of a primitive that the place is inside, of an operator that is true there. So an operator
+//! is one operation on a word for all rays.
 
 use fearless_simd::Simd;
 
@@ -166,9 +167,9 @@ fn decide<S: Simd, T: Real>(
     }
 }
 
-/// The first crossing that is yet to come on each ray of a row, and all that are one place with it. Answers which rays
-/// have none within reach, and whose place is passed over: it lies at the start of the ray, or before the reach; and of which
-/// double precision are to decide what is one place.
+/// The first crossing that is yet to come on each ray of a row, and all that are one place with it. Answers
+/// which rays have none within reach, and whose place is passed over: it lies at the start of the ray, or
+/// before the reach; and of which double precision are to decide what is one place.
 #[inline(always)]
 fn next_place<S: Simd, T: Real>(
     simd: S,
@@ -229,8 +230,8 @@ fn next_place<S: Simd, T: Real>(
     [T::bits_of(simd, ended, row), T::bits_of(simd, early, row), doubtful]
 }
 
-/// The first crossing that is yet to come on each ray of a row: where, how far that may be off, and how far its primitive may
-/// be off its place.
+/// The first crossing that is yet to come on each ray of a row: where, how far that may be off, and how far
+/// its primitive may be off its place.
 #[derive(Clone, Copy)]
 struct FirstEnds<N> {
     t: N,
@@ -238,8 +239,8 @@ struct FirstEnds<N> {
     off: N,
 }
 
-/// Which crossings of those that reach back to the first of a row, where several do, are one place with it. Answers
-/// where all of these are before the reach.
+/// Which crossings of those that reach back to the first of a row, where several do, are one place with it.
+/// Answers where all of these are before the reach.
 #[inline(always)]
 fn one_place<S: Simd, T: Real>(
     simd: S,
@@ -308,8 +309,8 @@ fn evaluate(expression: ExprView, inside: &[u64], values: &mut Vec<u64>) {
     }
 }
 
-/// The rays for which a leaf is a reason of the change: it and every operator above it have changed, each in the
-/// direction in which its child pushed.
+/// The rays for which a leaf is a reason of the change: it and every operator above it have changed, each in
+/// the direction in which its child pushed.
 #[inline(always)]
 fn decides(
     expression: ExprView,

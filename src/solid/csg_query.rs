@@ -67,7 +67,8 @@ impl<T: Real> Departures<T> {
         (here, here & self.inward)
     }
 
-    /// Which rays leave a primitive to the outside: where that is convex, or a surface, they do not meet it again.
+    /// Which rays leave a primitive to the outside: where that is convex, or a surface, they do not meet it
+    /// again.
     #[inline]
     pub fn leaving<S: Simd>(&self, simd: S, primitive: u32) -> u64 {
         let (here, inward) = self.here(simd, primitive);
@@ -80,7 +81,8 @@ impl<T: Real> Departures<T> {
 pub struct PacketCrossings<T = f64> {
     /// Which rays have one, a bit for each: of the others the numbers mean nothing.
     pub any: u64,
-    /// Which rays are to be asked one by one: theirs is a place where no primitive alone makes the change; or by double precision.
+    /// Which rays are to be asked one by one: theirs is a place where no primitive alone makes the change; or
+    /// by double precision.
     pub unsure: u64,
     /// Which rays go into the solid there.
     pub entering: u64,

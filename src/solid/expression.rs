@@ -1,6 +1,7 @@
 //! Stage 8, CSG: an expression over primitives.
 //!
-//! Union, intersection and difference become two operators, *any* and *all*, over children that may be negated.
+//! Union, intersection and difference become two operators, *any* and *all*, over children that may be
+//! negated.
 
 use std::vec::Drain;
 
@@ -67,8 +68,8 @@ impl CsgTree {
         found
     }
 
-    /// What `leaf` makes of the primitives, put together by `join` at each operator, from the innermost outwards. Does not
-    /// recurse, as [`Solid::fold`].
+    /// What `leaf` makes of the primitives, put together by `join` at each operator, from the innermost
+    /// outwards. Does not recurse, as [`Solid::fold`].
     fn fold_up<T>(&self, leaf: impl Fn(u32) -> T, join: impl Fn(&Self, Drain<'_, T>) -> T) -> T {
         let children = match self {
             Self::Leaf(index) => return leaf(*index),

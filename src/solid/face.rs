@@ -1,7 +1,7 @@
 //! Polygons, concave ones too: surfaces seen from both sides.
 //!
-//! A ray meets a polygon where its outline turns around it an odd number of times, decided exactly in the plane
-//! across the ray ([`super::ray_shear`]): of two polygons with a common edge exactly one is met there.
+//! A ray meets a polygon where its outline turns around it an odd number of times, decided exactly in the
+//! plane across the ray ([`super::ray_shear`]): of two polygons with a common edge exactly one is met there.
 
 use crate::math::{Bounds, DVec3, Mask, Number, Placement, Ray, Rays};
 
@@ -11,8 +11,8 @@ use super::span::{End, Ends, rounding_at};
 /// So many edges are looked at together: past twice as many, boxes around each group of them are asked first.
 const GROUP: usize = 32;
 
-/// Corners that are written with six digits leave their plane by this much, in the assembly's unit. A polygon that
-/// is bent further is meant so.
+/// Corners that are written with six digits leave their plane by this much, in the assembly's unit. A polygon
+/// that is bent further is meant so.
 const WRITTEN: f64 = 1e-5;
 
 /// Where lines meet the plane of a polygon.
@@ -79,8 +79,8 @@ impl Face {
         Some(End { t, error, surface: 0 })
     }
 
-    /// Where lines through the outline meet the polygon: [`Face::crossing`] of those that are steep enough for their
-    /// plane to say it.
+    /// Where lines through the outline meet the polygon: [`Face::crossing`] of those that are steep enough
+    /// for their plane to say it.
     #[inline(always)]
     pub(super) fn steep_crossings<N: Number>(&self, rays: &Rays<N>) -> SteepCrossings<N> {
         let OnPlane { towards, t, error } = on_plane(rays, self.normal, self.middle, self.off);
@@ -147,8 +147,8 @@ impl Face {
     }
 }
 
-/// The place nearest to `t` on the ray within the box. A ray through an outline passes through the hull of its corners,
-/// and so through their box, but for rounding.
+/// The place nearest to `t` on the ray within the box. A ray through an outline passes through the hull of
+/// its corners, and so through their box, but for rounding.
 #[inline(always)]
 fn nearest_within<N: Number>(b: &Bounds, rays: &Rays<N>, t: N) -> N {
     let infinite = t.same(f64::INFINITY);
@@ -164,9 +164,9 @@ fn nearest_within<N: Number>(b: &Bounds, rays: &Rays<N>, t: N) -> N {
     low.is_at_most(high).choose(within, low * 0.5 + high * 0.5)
 }
 
-/// The normal of a closed outline by Newell's method: its components are the areas of the outline's shadows along
-/// the axes, so that it fits the corners even where they are not quite in a plane. Corners are taken from the first,
-/// and scaled, so that nothing cancels or overflows.
+/// The normal of a closed outline by Newell's method: its components are the areas of the outline's shadows
+/// along the axes, so that it fits the corners even where they are not quite in a plane. Corners are taken
+/// from the first, and scaled, so that nothing cancels or overflows.
 fn newell(outline: &[DVec3]) -> DVec3 {
     let first = outline[0];
     let size = outline.iter().map(|&p| (p - first).abs().max_element()).fold(0.0, f64::max);

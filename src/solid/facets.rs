@@ -25,8 +25,8 @@ pub struct ConvexPolyhedron {
     thickness: f64,
 }
 
-/// What rounding may make of the 0 of a direction in the plane of a face: a dot product of three terms, and the normal
-/// itself, 4 half-ulps.
+/// What rounding may make of the 0 of a direction in the plane of a face: a dot product of three terms, and
+/// the normal itself, 4 half-ulps.
 const STILL: f64 = 2.0 * f64::EPSILON;
 
 impl ConvexPolyhedron {
@@ -50,7 +50,8 @@ impl ConvexPolyhedron {
         let off: Box<[f64]> = faces.iter().map(|face| seen + face.normal.abs().dot(map_error)).collect();
         let seeming = off.iter().map(|off| seen / off).fold(1.0, f64::min);
         let displacement = off.iter().fold(0.0, |most: f64, &off| most.max(off));
-        // The narrowest unit solid, a prism of three sides, is 1.5 thick, a pyramid over it more than a third of that.
+        // The narrowest unit solid, a prism of three sides, is 1.5 thick, a pyramid over it more than a third
+        // of that.
         let thickness = 0.5 / norm(&place.inverse);
         let (center, corners) = (place.center, Box::default());
         Self { faces, center, bounds, corners, off, displacement, seeming, thickness }
@@ -59,8 +60,8 @@ impl ConvexPolyhedron {
     /// The same solid, with its corners.
     #[must_use]
     pub fn with_corners(self, corners: Box<[DVec3]>) -> Self {
-        // Two planes that are as near as can be touch a face, or two edges: those are as far apart as two faces at least by a
-        // third, about.
+        // Two planes that are as near as can be touch a face, or two edges: those are as far apart as two
+        // faces at least by a third, about.
         let across = |face: &scene::HalfSpace| {
             let along = corners.iter().map(|p| p.dot(face.normal));
             let (lo, hi) =
@@ -71,8 +72,8 @@ impl ConvexPolyhedron {
         Self { bounds: Bounds::around(corners.iter().copied()), corners, thickness, ..self }
     }
 
-    /// Where each ray is inside. A ray in the plane of a face is decided half open, as for slabs: inside where
-    /// the normal's first component that is not 0 is negative.
+    /// Where each ray is inside. A ray in the plane of a face is decided half open, as for slabs: inside
+    /// where the normal's first component that is not 0 is negative.
     #[inline(always)]
     pub fn spans<N: Number>(&self, rays: &Rays<N>) -> Spans<N> {
         let like = rays.o.x;

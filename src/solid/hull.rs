@@ -1,4 +1,5 @@
-//! Meshes that are convex: the half-spaces whose intersection is the same solid, which a ray meets in one span.
+//! Meshes that are convex: the half-spaces whose intersection is the same solid, which a ray meets in one
+//! span.
 
 use crate::math::{Bounds, DVec3, Placement, Ray};
 use crate::scene;
@@ -6,12 +7,13 @@ use crate::scene;
 use super::facets::ConvexPolyhedron;
 use super::mesh::TriangleMesh;
 
-/// A mesh of more triangles than this is left to its tree of boxes, which tests fewer of them than there are half-spaces.
+/// A mesh of more triangles than this is left to its tree of boxes, which tests fewer of them than there are
+/// half-spaces.
 const MOST_TRIANGLES: usize = 128;
 
-/// How far a corner may be off the plane of its face, as a share of its largest coordinate: three roundings of its own
-/// numbers, as they were written, and those of the plane, a cross product and a dot product of differences (2 each), 8 of
-/// half an ulp.
+/// How far a corner may be off the plane of its face, as a share of its largest coordinate: three roundings
+/// of its own numbers, as they were written, and those of the plane, a cross product and a dot product of
+/// differences (2 each), 8 of half an ulp.
 const ON_PLANE: f64 = 4.0 * f64::EPSILON;
 
 /// The solid within a mesh at `place`, which may be off by `map_error`, where that is convex.
@@ -36,8 +38,8 @@ pub(super) fn convex(unit: &scene::Mesh, place: &Placement, map_error: DVec3) ->
     Some(ConvexPolyhedron::new(&unit, place, map_error + bent).with_corners(corners))
 }
 
-/// The half-spaces that have a face in their plane and all points in them, and how far a point may be off. None where a
-/// triangle is no part of such a face.
+/// The half-spaces that have a face in their plane and all points in them, and how far a point may be off.
+/// None where a triangle is no part of such a face.
 fn half_spaces(mesh: &scene::Mesh, points: &[DVec3]) -> Option<(Vec<scene::HalfSpace>, f64)> {
     let size = Bounds::around(points.iter().copied()).farthest().max_element();
     let within = ON_PLANE * size;
@@ -78,8 +80,8 @@ fn half_spaces(mesh: &scene::Mesh, points: &[DVec3]) -> Option<(Vec<scene::HalfS
     (faces.len() >= 4).then(|| (faces.into_iter().map(half_space).collect(), bent))
 }
 
-/// Whether a closed surface, all of which lies on the hull around `middle`, covers it: an even number of layers is
-/// nothing. Since it is closed, one line tells.
+/// Whether a closed surface, all of which lies on the hull around `middle`, covers it: an even number of
+/// layers is nothing. Since it is closed, one line tells.
 fn has_one_layer(mesh: &TriangleMesh, middle: DVec3) -> bool {
     let mut sides = [0, 0];
     let ray = Ray::new(middle, DVec3::new(0.36, 0.48, 0.8));

@@ -11,8 +11,9 @@ use super::expression::CsgTree;
 const PROBE: DVec3 = DVec3::new(0.48, 0.6, 0.64);
 
 impl Assembly {
-    /// Whether a point of the assembly is inside an object: a ray from there leaves it before it enters it. A point
-    /// on its surface is on the side to which the ray goes. No point is inside a surface that bounds no solid.
+    /// Whether a point of the assembly is inside an object: a ray from there leaves it before it enters it. A
+    /// point on its surface is on the side to which the ray goes. No point is inside a surface that bounds no
+    /// solid.
     pub fn contains(&self, object: u32, p: DVec3) -> bool {
         let object = &self.objects[object as usize];
         if !(p.cmpge(object.bounds.lo).all() && p.cmple(object.bounds.hi).all()) {
@@ -35,7 +36,8 @@ impl Assembly {
         first.is_some_and(|crossing| !crossing.entering)
     }
 
-    /// A box around those of the solids that an object puts together in which there is any primitive of some kind.
+    /// A box around those of the solids that an object puts together in which there is any primitive of some
+    /// kind.
     pub fn bounds_of(&self, object: u32, kind: impl Fn(u32) -> bool) -> Bounds {
         let object = &self.objects[object as usize];
         let Body::Composite { tree, .. } = &object.body else { return object.bounds };

@@ -1,7 +1,7 @@
 //! Closed surfaces of triangles.
 //!
-//! Whether a ray crosses a triangle is decided exactly, in the plane across the ray ([`super::ray_shear`]), so that a
-//! closed surface is always crossed an even number of times.
+//! Whether a ray crosses a triangle is decided exactly, in the plane across the ray ([`super::ray_shear`]),
+//! so that a closed surface is always crossed an even number of times.
 
 use crate::math::{Bounds, DVec3, Placement, Ray};
 use crate::scene;
@@ -27,7 +27,8 @@ struct Triangle {
     normal: DVec3,
 }
 
-/// A box of triangles, or of two boxes. Children are stored behind their parent, the left one right behind it.
+/// A box of triangles, or of two boxes. Children are stored behind their parent, the left one right behind
+/// it.
 #[derive(Clone, Debug, PartialEq)]
 struct Node {
     bounds: Bounds,

@@ -1,15 +1,16 @@
-//! The planes across the rays of a packet: what [`super::ray_shear`] decides for one ray, for eight at a time.
+//! The planes across the rays of a packet: what [`super::ray_shear`] decides for one ray, for eight at a
+//! time.
 //!
-//! The same places and the same areas are computed in the same order. Where rounding could have made the sign of an area
-//! there is no answer: that ray is to be asked alone, of the exact predicate.
+//! The same places and the same areas are computed in the same order. Where rounding could have made the sign
+//! of an area there is no answer: that ray is to be asked alone, of the exact predicate.
 
 use fearless_simd::{Simd, SimdMask, f64x8, mask64x8};
 
 use crate::math::{Bounds, DVec3, LANES, Lanes, Mask, Number, ROWS, RayPacket};
 
-/// An area that is a difference of two products has the sign of its rounded value where that is larger than this share
-/// of their sum: three roundings of half an ulp (Ozaki et al.: Simple floating-point filters for the two-dimensional
-/// orientation problem, BIT 2016). The bound of the `robust` crate is no larger.
+/// An area that is a difference of two products has the sign of its rounded value where that is larger than
+/// this share of their sum: three roundings of half an ulp (Ozaki et al.: Simple floating-point filters for
+/// the two-dimensional orientation problem, BIT 2016). The bound of the `robust` crate is no larger.
 const ROUNDED: f64 = 1.5 * f64::EPSILON;
 
 /// The planes across the rays of a packet: two axes of the world, sheared along each ray.
@@ -124,7 +125,8 @@ impl<S: Simd, const MAIN: usize> Row<S, MAIN> {
         }
     }
 
-    /// Whether edges between points of a box can lie to the right of any of the lines: `RayShear::may_cross` for eight.
+    /// Whether edges between points of a box can lie to the right of any of the lines: `RayShear::may_cross`
+    /// for eight.
     #[inline(always)]
     pub fn may_cross(&self, b: &Bounds) -> bool {
         let (lo, hi) = (b.lo.to_array(), b.hi.to_array());

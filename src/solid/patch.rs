@@ -28,12 +28,12 @@ impl Patch {
         Self { face, normals }
     }
 
-    /// The normal at a point of the patch, on the plane's own side or on the other, as its corners say, of length 1;
-    /// that of the plane where the corners' normals cancel.
+    /// The normal at a point of the patch, on the plane's own side or on the other, as its corners say, of
+    /// length 1; that of the plane where the corners' normals cancel.
     ///
-    /// Between three corners it is their mean by areas; between more, their mean by mean value coordinates, which is
-    /// the same for a triangle (Floater: Mean value coordinates, CAGD 2003; for concave outlines Hormann and Floater:
-    /// Mean value coordinates for arbitrary planar polygons, ACM TOG 2006).
+    /// Between three corners it is their mean by areas; between more, their mean by mean value coordinates,
+    /// which is the same for a triangle (Floater: Mean value coordinates, CAGD 2003; for concave outlines
+    /// Hormann and Floater: Mean value coordinates for arbitrary planar polygons, ACM TOG 2006).
     pub fn normal(&self, p: DVec3) -> DVec3 {
         self.interpolated(p).normalize_or(self.face.normal())
     }
@@ -62,8 +62,8 @@ impl Patch {
     }
 }
 
-/// The tangent of half the angle from `a` to `b` about `axis`; where the angle is a half turn or an end is 0, so that
-/// the origin lies on the edge between them, how far along.
+/// The tangent of half the angle from `a` to `b` about `axis`; where the angle is a half turn or an end is 0,
+/// so that the origin lies on the edge between them, how far along.
 fn half_tangent(a: DVec3, b: DVec3, axis: DVec3) -> Result<f64, f64> {
     let (area, along) = (a.cross(b).dot(axis), a.dot(b));
     let lengths = a.length() * b.length();

@@ -26,8 +26,8 @@ pub struct WorldPrimitive {
     pub material: MaterialId,
 }
 
-/// The forms, each with its own intersection. Those of more numbers than a sphere's are boxed, so that a scene of a million
-/// spheres does not pay for them.
+/// The forms, each with its own intersection. Those of more numbers than a sphere's are boxed, so that a
+/// scene of a million spheres does not pay for them.
 #[derive(Clone, Debug, PartialEq)]
 pub enum WorldShape {
     /// A sphere.
@@ -54,8 +54,8 @@ pub enum WorldShape {
 const PLAIN: RangeInclusive<f64> = 1e-90..=1e90;
 
 impl WorldShape {
-    /// A unit sphere that the map keeps round, which may be off by `error`: it needs no inverse. `None` for another shape,
-    /// or a map that wants a closer look.
+    /// A unit sphere that the map keeps round, which may be off by `error`: it needs no inverse. `None` for
+    /// another shape, or a map that wants a closer look.
     pub fn ball(shape: &Shape, map: &DAffine3, error: DVec3) -> Option<Self> {
         if !matches!(shape, Shape::Sphere) || !map.translation.is_finite() {
             return None;
@@ -124,8 +124,8 @@ impl WorldShape {
         }
     }
 
-    /// How far two parallel planes around a convex solid are apart at least, or less than that. Of what is not one nothing is
-    /// said: infinite.
+    /// How far two parallel planes around a convex solid are apart at least, or less than that. Of what is
+    /// not one nothing is said: infinite.
     pub fn thickness(&self) -> f64 {
         match self {
             Self::Ball(ball) => 2.0 * ball.radius,
@@ -137,8 +137,8 @@ impl WorldShape {
         }
     }
 
-    /// The share of its crossings' errors that our own rounding may have made; the rest its map lost when it was composed.
-    /// What is made of corners knows no such share.
+    /// The share of its crossings' errors that our own rounding may have made; the rest its map lost when it
+    /// was composed. What is made of corners knows no such share.
     #[inline]
     pub(super) fn seeming(&self) -> f64 {
         match self {
@@ -151,7 +151,8 @@ impl WorldShape {
         }
     }
 
-    /// All crossings of the line with the surface of a solid, in no order; each one toggles between outside and inside.
+    /// All crossings of the line with the surface of a solid, in no order; each one toggles between outside
+    /// and inside.
     #[inline]
     pub fn crossings(&self, ray: &Ray, mut found: impl FnMut(End)) {
         if let Self::Mesh(mesh) = self {
@@ -174,8 +175,8 @@ impl WorldShape {
         matches!(self, Self::Face(_) | Self::Patch(_) | Self::Tube(_))
     }
 
-    /// The normal that light is answered with at a point of a surface: [`WorldShape::normal`] everywhere but on a patch,
-    /// where it is interpolated and may stand on the other side of the patch's own plane.
+    /// The normal that light is answered with at a point of a surface: [`WorldShape::normal`] everywhere but
+    /// on a patch, where it is interpolated and may stand on the other side of the patch's own plane.
     pub fn shading_normal(&self, p: DVec3, surface: u32) -> DVec3 {
         match self {
             Self::Patch(patch) => patch.normal(p),
@@ -189,9 +190,9 @@ impl WorldShape {
         self.normals(Vector::from(p), surface).into()
     }
 
-    /// The normals of the surface itself at points of it, of length 1 within rounding; outward except for a mesh, whose
-    /// triangles may turn either way. A face and a patch turn to the left around theirs; a tube's points away from its
-    /// axis.
+    /// The normals of the surface itself at points of it, of length 1 within rounding; outward except for a
+    /// mesh, whose triangles may turn either way. A face and a patch turn to the left around theirs; a tube's
+    /// points away from its axis.
     #[inline(always)]
     pub fn normals<N: Number>(&self, p: Vector<N>, surface: u32) -> Vector<N> {
         let flat = match self {

@@ -1,7 +1,8 @@
 //! Stage 8, CSG: an expression pruned to a box.
 //!
-//! A box in which a primitive is certainly inside or outside replaces it by a constant, and the constants fold. What is left
-//! is laid out as the expression was, in memory that is used again: the slices of a packet's way prune again and again.
+//! A box in which a primitive is certainly inside or outside replaces it by a constant, and the constants
+//! fold. What is left is laid out as the expression was, in memory that is used again: the slices of a
+//! packet's way prune again and again.
 
 use crate::math::Bounds;
 
@@ -16,7 +17,8 @@ pub struct Pruning {
     leaves: Vec<Classification>,
     /// By operator: what is known of its children.
     children: Vec<Children>,
-    /// By operator: what its open children become the children of; none where the operator is a constant, or is below one.
+    /// By operator: what its open children become the children of; none where the operator is a constant, or
+    /// is below one.
     parents: Vec<Option<Link>>,
 }
 

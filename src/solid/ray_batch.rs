@@ -1,7 +1,7 @@
 //! Stage 7, SOLID: eight rays, each with a primitive of its own.
 //!
-//! Rays that run apart meet different primitives of a few forms. What is asked of one form is collected, and computed for
-//! eight at a time by the formulas for one.
+//! Rays that run apart meet different primitives of a few forms. What is asked of one form is collected, and
+//! computed for eight at a time by the formulas for one.
 
 use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
 
@@ -133,7 +133,8 @@ impl RayBatch {
         if tubes { self.any[0] | self.any[1] } else { self.any[0] }
     }
 
-    /// The first crossing of a lane, of a primitive by its index; `departure` is the surface that its ray leaves.
+    /// The first crossing of a lane, of a primitive by its index; `departure` is the surface that its ray
+    /// leaves.
     #[inline]
     pub fn first(
         &self,

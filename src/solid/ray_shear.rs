@@ -1,10 +1,11 @@
 //! Whether a line passes through a flat outline, decided in the plane across the line.
 //!
-//! The corners of an outline are sheared along the line into a plane of two axes of the world, the line at (0, 0).
-//! On which side of an edge the line passes is the exact sign of the area that it spans with the edge there (Woop,
-//! Benthin, Wald: Watertight ray/triangle intersection, JCGT 2013; signs by Shewchuk's adaptive predicates). A point
-//! on an edge counts as moved by an infinitesimal step, the same for all outlines, so that of the outlines around an
-//! edge or a corner exactly as many are crossed as a line beside it would cross.
+//! The corners of an outline are sheared along the line into a plane of two axes of the world, the line at
+//! (0, 0). On which side of an edge the line passes is the exact sign of the area that it spans with the edge
+//! there (Woop, Benthin, Wald: Watertight ray/triangle intersection, JCGT 2013; signs by Shewchuk's adaptive
+//! predicates). A point on an edge counts as moved by an infinitesimal step, the same for all outlines, so
+//! that of the outlines around an edge or a corner exactly as many are crossed as a line beside it would
+//! cross.
 
 use robust::{Coord, orient2d};
 
@@ -45,8 +46,8 @@ impl<'a> RayShear<'a> {
         sides[0].is_some() && sides[0] == sides[1] && sides[1] == sides[2]
     }
 
-    /// Whether the line is inside a stretch of an outline an odd number of times, counted by the edges from each
-    /// corner to the next that lie to the right of the line in the plane.
+    /// Whether the line is inside a stretch of an outline an odd number of times, counted by the edges from
+    /// each corner to the next that lie to the right of the line in the plane.
     pub fn crosses_odd(&self, corners: &[DVec3]) -> bool {
         let mut odd = false;
         let Some((first, rest)) = corners.split_first() else { return false };
@@ -59,8 +60,9 @@ impl<'a> RayShear<'a> {
         odd
     }
 
-    /// Whether edges between points of a box can lie to the right of the line: not where all are above it or all
-    /// below. Every rounding here keeps the order of what it rounds, so the answer is that of [`Self::place`].
+    /// Whether edges between points of a box can lie to the right of the line: not where all are above it or
+    /// all below. Every rounding here keeps the order of what it rounds, so the answer is that of
+    /// [`Self::place`].
     pub fn may_cross(&self, b: &Bounds) -> bool {
         let (lo, hi) = (b.lo - self.ray.o, b.hi - self.ray.o);
         let shear = self.shear[1];
@@ -71,7 +73,8 @@ impl<'a> RayShear<'a> {
     }
 }
 
-/// Whether an edge crosses the half-line to the right of the line's point, that point itself moved by (ε, ε²).
+/// Whether an edge crosses the half-line to the right of the line's point, that point itself moved by (ε,
+/// ε²).
 fn is_right(p: Coord<f64>, q: Coord<f64>) -> bool {
     if (p.y > 0.0) == (q.y > 0.0) {
         return false;
@@ -114,8 +117,8 @@ pub(super) struct OnPlane<N> {
     pub error: N,
 }
 
-/// Where lines meet the plane through `anchor` across `normal`, and how far that may be off, given how far coordinates
-/// may be.
+/// Where lines meet the plane through `anchor` across `normal`, and how far that may be off, given how far
+/// coordinates may be.
 #[inline(always)]
 pub(super) fn on_plane<N: Number>(rays: &Rays<N>, normal: DVec3, anchor: DVec3, off: f64) -> OnPlane<N> {
     let towards = rays.d.dot_one(normal);
@@ -123,9 +126,9 @@ pub(super) fn on_plane<N: Number>(rays: &Rays<N>, normal: DVec3, anchor: DVec3, 
     OnPlane { towards, t, error: t.same(off) / towards.magnitude() }
 }
 
-/// Where a line that passes through an outline meets the plane through `anchor` across `normal`, and how far that may
-/// be off, given how far coordinates may be. Where the outline lies so nearly edge on that the plane leads away from
-/// its corners: the middle of them along the line, and as far off as they reach.
+/// Where a line that passes through an outline meets the plane through `anchor` across `normal`, and how far
+/// that may be off, given how far coordinates may be. Where the outline lies so nearly edge on that the plane
+/// leads away from its corners: the middle of them along the line, and as far off as they reach.
 pub(super) fn plane_crossing(
     ray: &Ray,
     corners: &[DVec3],

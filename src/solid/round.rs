@@ -33,7 +33,8 @@ impl Round {
         Self { space: UnitSpace::new(place, map_error), linear: place.linear, profile: Profile::Sphere }
     }
 
-    /// The unit truncated cone at `place`, which may be off by `map_error`, of radius `bottom` at z = −1 and `top` at z = 1.
+    /// The unit truncated cone at `place`, which may be off by `map_error`, of radius `bottom` at z = −1 and
+    /// `top` at z = 1.
     pub fn cone(place: &Placement, bottom: f64, top: f64, map_error: DVec3) -> Self {
         let profile = Profile::Cone(Taper::new(bottom, top));
         Self { space: UnitSpace::new(place, map_error), linear: place.linear, profile }
@@ -71,7 +72,8 @@ impl Round {
         })
     }
 
-    /// How far two parallel planes around it are apart at least, or less: every profile holds a ball of diameter 1, and a map shrinks no way by more than the norm of its inverse.
+    /// How far two parallel planes around it are apart at least, or less: every profile holds a ball of
+    /// diameter 1, and a map shrinks no way by more than the norm of its inverse.
     pub fn thickness(&self) -> f64 {
         1.0 / self.space.norm()
     }
@@ -131,8 +133,8 @@ fn sphere_spans<N: Number>(rays: &Centred<N>) -> Spans<N> {
     let root = half_squared.root();
     let slowness = rays.t.same(1.0) / rays.d_squared.root();
     let half = root * slowness;
-    // The crossing q = o ± half·d, moved by `off`, moves along the ray by |q|·off over q·d, and |q·d| = speed · root.
-    // Half a chord that the map's own error could have made is off by no more than all of that.
+    // The crossing q = o ± half·d, moved by `off`, moves along the ray by |q|·off over q·d, and |q·d| = speed
+    // · root. Half a chord that the map's own error could have made is off by no more than all of that.
     let sideways = half_squared.is_below(across * 2.0).choose((across * 2.0).root(), across / root);
     let error = (sideways + rays.d.magnitude().dot_one(rays.off) * slowness) * slowness;
     let surface = rays.t.same(0.0);

@@ -1,5 +1,5 @@
-//! Stage 8, CSG, for a packet of rays and an expression of which one primitive is left: [`super::crossings`] where
-//! there is nothing to toggle but that.
+//! Stage 8, CSG, for a packet of rays and an expression of which one primitive is left: [`super::crossings`]
+//! where there is nothing to toggle but that.
 
 use fearless_simd::Simd;
 

@@ -12,19 +12,20 @@ use super::span::{Ends, ROUNDING, STILL, Spans, WORLD, rounding_at};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisBox {
     bounds: Bounds,
-    /// How far a face within the world may be off its place: by what its numbers lost, and by our own rounding.
+    /// How far a face within the world may be off its place: by what its numbers lost, and by our own
+    /// rounding.
     off: f64,
 }
 
-/// How far our own rounding may make a face of a box along the axes seem off its place: a [`rounding_at`] without the
-/// way to the box's centre, from which nothing is computed.
+/// How far our own rounding may make a face of a box along the axes seem off its place: a [`rounding_at`]
+/// without the way to the box's centre, from which nothing is computed.
 const SEEN: f64 = ROUNDING * WORLD;
 
 impl AxisBox {
     /// The box with edges of twice `half`, all above 0, around a centre that may be off by `map_error`.
     ///
-    /// A face that cuts the world is as exact as it was written, however far the box reaches: what its sum of centre
-    /// and half lost is known, and beyond that only coordinates within [`WORLD`] are computed with.
+    /// A face that cuts the world is as exact as it was written, however far the box reaches: what its sum of
+    /// centre and half lost is known, and beyond that only coordinates within [`WORLD`] are computed with.
     pub fn new(center: DVec3, half: DVec3, map_error: DVec3) -> Self {
         let (mut bounds, mut off) = (Bounds::EMPTY, 0.0_f64);
         for axis in 0..3 {
@@ -85,7 +86,8 @@ pub struct SkewBox {
     place: Placement,
     /// The rows of the inverse: normals of the three pairs of faces, in units of half their distance.
     rows: [DVec3; 3],
-    /// How far a face of each pair may be off its place, by its map and by our own rounding, in units of its row.
+    /// How far a face of each pair may be off its place, by its map and by our own rounding, in units of its
+    /// row.
     off: [f64; 3],
     /// The same in the world, for all of it.
     displacement: f64,
@@ -198,13 +200,14 @@ struct Slab {
     hi: f64,
     /// How far a ray's start and the faces may be off.
     off: f64,
-    /// A ray slower than this across the slab runs in the plane of its faces, as far as the map lets it be known.
+    /// A ray slower than this across the slab runs in the plane of its faces, as far as the map lets it be
+    /// known.
     still: f64,
 }
 
 impl Slab {
-    /// Cuts each span to the slab, and leaves none of those rays that run beside it. The axis stands for the surface until
-    /// [`with_sides`] says which of the two it is.
+    /// Cuts each span to the slab, and leaves none of those rays that run beside it. The axis stands for the
+    /// surface until [`with_sides`] says which of the two it is.
     #[inline(always)]
     fn clip<N: Number>(&self, spans: &mut Spans<N>, o: N, d: N, axis: usize) {
         let still = d.magnitude().is_below(o.same((self.still * N::COARSER).max(STILL * N::LEAST)));
@@ -229,14 +232,16 @@ impl Slab {
     }
 }
 
-/// Spans whose surfaces are axes, with the faces themselves: a ray comes in by the face that it comes against.
+/// Spans whose surfaces are axes, with the faces themselves: a ray comes in by the face that it comes
+/// against.
 #[inline(always)]
 fn with_sides<N: Number>(spans: Spans<N>, d: [N; 3]) -> Spans<N> {
     let [enter, leave] = [facing(spans.enter, d, [0.0, 1.0]), facing(spans.leave, d, [1.0, 0.0])];
     Spans { enter, leave, ..spans }
 }
 
-/// The face of an axis' pair that is crossed: one where the ray goes down the axis, the other where it goes up.
+/// The face of an axis' pair that is crossed: one where the ray goes down the axis, the other where it goes
+/// up.
 #[inline(always)]
 fn facing<N: Number>(end: Ends<N>, d: [N; 3], [upward, downward]: [f64; 2]) -> Ends<N> {
     let axis = end.surface;

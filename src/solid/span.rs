@@ -4,32 +4,33 @@ use crate::math::{Mask, Number};
 
 /// How far a coordinate of a crossing may be off, as a share of the lengths it was computed from.
 ///
-/// The longest chain of roundings between a ray and a crossing: the ray's start, which was itself computed as a point
-/// on a ray (a product and a sum, 2 roundings, of lengths up to twice [`WORLD`]: 4), inverting a map (8), moving the
-/// ray into the unit space (a difference and a dot product of three terms, 4, for the start and again for the
-/// direction), and re-centring it twice (5 each): 30, rounded up to 32 half-ulps of `f64::EPSILON / 2`. What composing
-/// the map took is [`scene::Primitive::displacement`](crate::scene::Primitive::displacement).
+/// The longest chain of roundings between a ray and a crossing: the ray's start, which was itself computed as
+/// a point on a ray (a product and a sum, 2 roundings, of lengths up to twice [`WORLD`]: 4), inverting a map
+/// (8), moving the ray into the unit space (a difference and a dot product of three terms, 4, for the start
+/// and again for the direction), and re-centring it twice (5 each): 30, rounded up to 32 half-ulps of
+/// `f64::EPSILON / 2`. What composing the map took is
+/// [`scene::Primitive::displacement`](crate::scene::Primitive::displacement).
 pub const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// How far from the assembly's origin everything lies that is computed with, in the assembly's unit: the corners of the
-/// limit are within [`LIMIT`], and a ray that comes so near starts at most `LIMIT` + 1 before its point closest to the
-/// origin, or is moved there: √(4.5² + 3.5²) < 6.
+/// How far from the assembly's origin everything lies that is computed with, in the assembly's unit: the
+/// corners of the limit are within [`LIMIT`], and a ray that comes so near starts at most `LIMIT` + 1 before
+/// its point closest to the origin, or is moved there: √(4.5² + 3.5²) < 6.
 pub const WORLD: f64 = 6.0;
 
 /// The length of the corners of a box that lies within −2..=2 on every axis is at most √12.
 pub const LIMIT: f64 = 3.5;
 
-/// How far from its place our own rounding may make a point of a solid seem to a ray, where the solid's own origin lies
-/// `from_origin` away from the assembly's. A ray that passes no deeper than that below a surface misses it: rounding
-/// alone could have made the chord. How far the solid's map is off comes on top
+/// How far from its place our own rounding may make a point of a solid seem to a ray, where the solid's own
+/// origin lies `from_origin` away from the assembly's. A ray that passes no deeper than that below a surface
+/// misses it: rounding alone could have made the chord. How far the solid's map is off comes on top
 /// ([`scene::Primitive::displacement`](crate::scene::Primitive::displacement)).
 #[inline]
 pub fn rounding_at(from_origin: f64) -> f64 {
     ROUNDING * (WORLD + from_origin)
 }
 
-/// Below so many of the least numbers in double precision the reciprocal of a direction overflows, or nearly so. On its whole way
-/// through the world such a ray comes no closer to a face that it runs along.
+/// Below so many of the least numbers in double precision the reciprocal of a direction overflows, or nearly
+/// so. On its whole way through the world such a ray comes no closer to a face that it runs along.
 pub(super) const STILL: f64 = 4.0;
 
 /// One end of a span.
@@ -72,8 +73,8 @@ pub struct Spans<N: Number> {
     pub leave: Ends<N>,
     /// Which have a span at all: of the others the numbers mean nothing.
     pub any: N::Mask,
-    /// Which may have one: these, and where numbers do not [decide](Number::DECIDES) also those of which double precision might say
-    /// otherwise.
+    /// Which may have one: these, and where numbers do not [decide](Number::DECIDES) also those of which
+    /// double precision might say otherwise.
     pub may: N::Mask,
 }
 
@@ -121,8 +122,8 @@ impl<N: Number> Spans<N> {
         Self { any: !line.any, may: !line.any, ..line }
     }
 
-    /// Cuts each span to `enter..leave`. Of two faces crossed at the same `t` the one clipped first stays; numbers that do not
-    /// decide leave a doubt which of them it is.
+    /// Cuts each span to `enter..leave`. Of two faces crossed at the same `t` the one clipped first stays;
+    /// numbers that do not decide leave a doubt which of them it is.
     #[inline(always)]
     pub(super) fn clip(&mut self, enter: Ends<N>, leave: Ends<N>) {
         if !N::DECIDES {
@@ -132,9 +133,9 @@ impl<N: Number> Spans<N> {
         self.leave = Ends::choose(leave.t.is_below(self.leave.t), leave, self.leave);
     }
 
-    /// The spans, without those of which nothing is left. Not-a-number counts as nothing, and so does a chord across an
-    /// edge that rounding could have made: `seeming` is its share of the errors. Between faces of one `pair` every chord
-    /// counts, however thin the plate.
+    /// The spans, without those of which nothing is left. Not-a-number counts as nothing, and so does a chord
+    /// across an edge that rounding could have made: `seeming` is its share of the errors. Between faces of
+    /// one `pair` every chord counts, however thin the plate.
     #[inline(always)]
     pub(super) fn if_any(mut self, seeming: f64, pair: impl Fn(N) -> N) -> Self {
         let length = self.leave.t - self.enter.t;
@@ -146,7 +147,8 @@ impl<N: Number> Spans<N> {
         self
     }
 
-    /// Leaves no span to those that are not `inside`, which some may only seem to be, or not to be: those that are `near`.
+    /// Leaves no span to those that are not `inside`, which some may only seem to be, or not to be: those
+    /// that are `near`.
     #[inline(always)]
     pub(super) fn keep(&mut self, inside: N::Mask, near: impl FnOnce() -> N::Mask) {
         if N::DECIDES {
@@ -185,6 +187,7 @@ pub struct Departure {
     pub surface: u32,
     /// Whether the ray goes to the inside of the primitive.
     pub inward: bool,
-    /// How far the primitive, and with it the start, may be off its place: [`WorldShape::off`](super::Form::off).
+    /// How far the primitive, and with it the start, may be off its place:
+    /// [`WorldShape::off`](super::Form::off).
     pub off: f64,
 }

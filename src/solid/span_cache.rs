@@ -1,5 +1,5 @@
-//! The spans of a packet in the primitives that it was asked about: each is computed once, however many slices of the
-//! way, and expressions in them, name the primitive.
+//! The spans of a packet in the primitives that it was asked about: each is computed once, however many
+//! slices of the way, and expressions in them, name the primitive.
 
 use fearless_simd::Simd;
 
@@ -10,8 +10,8 @@ use super::csg_query::CsgQuery;
 use super::primitive::WorldShape;
 use super::span::{Ends, Spans};
 
-/// Calls `$rows($simd, $args…, spans)` with the spans of a convex form, compiled for each form by itself and for the SIMD
-/// width. Other forms have none.
+/// Calls `$rows($simd, $args…, spans)` with the spans of a convex form, compiled for each form by itself and
+/// for the SIMD width. Other forms have none.
 macro_rules! with_spans {
     ($simd:expr, $form:expr, $rows:ident, $($arg:expr),* $(,)?) => {
         with_spans!(@each $simd, $form, $rows, ($($arg),*), Ball, AxisBox, SkewBox, Round, Facets)
@@ -47,7 +47,8 @@ pub(super) struct SpanEnds<T> {
 #[derive(Clone, Debug)]
 pub(super) struct CachedSpans<T> {
     primitive: u32,
-    /// How far its crossings may be off: [`WorldShape::off`]; and the share of that which is our own rounding.
+    /// How far its crossings may be off: [`WorldShape::off`]; and the share of that which is our own
+    /// rounding.
     pub off: f64,
     pub seeming: f64,
     /// Which rays have one; and which may have one, as far as double precision might say.
@@ -100,8 +101,8 @@ impl<T: Real> CachedSpans<T> {
         [&mut self.enter, &mut self.leave]
     }
 
-    /// Looks ahead at the spans of some rays that can matter within `reach`. Far outside it only the state inside it
-    /// matters: none for a span that ends before it or starts behind it.
+    /// Looks ahead at the spans of some rays that can matter within `reach`. Far outside it only the state
+    /// inside it matters: none for a span that ends before it or starts behind it.
     #[inline(always)]
     fn look<S: Simd>(&mut self, simd: S, wanted: u64, reach: TRange) -> u64 {
         let mut ahead = 0;
@@ -142,8 +143,9 @@ impl<T: Real> SpanCache<T> {
         &mut self.spans[..self.count]
     }
 
-    /// Looks ahead at the spans in a primitive, and gives their place, which rays have one that can matter, and of which
-    /// double precision is to say whether they have one. Until it is cleared no ray is wanted that was not wanted before.
+    /// Looks ahead at the spans in a primitive, and gives their place, which rays have one that can matter,
+    /// and of which double precision is to say whether they have one. Until it is cleared no ray is wanted
+    /// that was not wanted before.
     pub fn look<S: Simd>(
         &mut self,
         simd: S,

@@ -2,7 +2,8 @@
 
 use super::expression::{Expression, Link};
 
-/// Which primitives a place is inside, and which operators are true there. Memory that is used again for every ray.
+/// Which primitives a place is inside, and which operators are true there. Memory that is used again for
+/// every ray.
 #[derive(Clone, Debug, Default)]
 pub struct State {
     /// By leaf.
@@ -68,8 +69,8 @@ impl State {
         }
     }
 
-    /// Whether a leaf is a reason of the root's change since the last [`State::settle`]: it and every operator above
-    /// it must have changed, each in the direction in which its child pushed.
+    /// Whether a leaf is a reason of the root's change since the last [`State::settle`]: it and every
+    /// operator above it must have changed, each in the direction in which its child pushed.
     pub fn decides(&self, expression: &Expression, leaf: u32) -> bool {
         if !self.flipped[leaf as usize] {
             return false;

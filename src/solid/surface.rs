@@ -72,8 +72,8 @@ pub(super) fn firsts_of_sides<N: Number>(
     let enter_ahead = !starts.before(enter, form);
     let leave_ahead = !starts.before(leave, form);
     let entering = !starts.here & found.enters & enter_ahead;
-    // A ray that starts on the tube went in there: what is left is where it comes out, if that is another place. A ray to
-    // the outside of a convex solid does not meet its side again.
+    // A ray that starts on the tube went in there: what is left is where it comes out, if that is another
+    // place. A ray to the outside of a convex solid does not meet its side again.
     let other = starts.inward & !found.one_way & leave.t.is_above(leave.t.same(0.0));
     let leaving = found.leaves & ((starts.here & other) | (!starts.here & leave_ahead));
     FirstCrossings {
@@ -237,7 +237,8 @@ mod tests {
 
     #[test]
     fn sizes_stay_small_for_scenes_of_millions() {
-        // 700 bytes for a sphere in all: the scene's object, the assembly's, its primitive, and the structure.
+        // 700 bytes for a sphere in all: the scene's object, the assembly's, its primitive, and the
+        // structure.
         assert!(size_of::<Object>() <= 160);
         assert!(size_of::<WorldPrimitive>() + size_of::<crate::solid::WorldObject>() <= 160);
     }

@@ -1,7 +1,9 @@
-//! Stage 7, SOLID, for a packet of rays: the first place along each where it meets a surface that bounds no solid.
+//! Stage 7, SOLID, for a packet of rays: the first place along each where it meets a surface that bounds no
+//! solid.
 //!
-//! It does what [`super::surface`] does for one ray, and finds the same bits. The few rays of which eight at a time can
-//! not be certain, through an edge to within rounding or along a polygon's plane, are asked one by one.
+//! It does what [`super::surface`] does for one ray, and finds the same bits. The few rays of which eight at
+//! a time can not be certain, through an edge to within rounding or along a polygon's plane, are asked one by
+//! one.
 
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8, u32x8};
 
@@ -27,7 +29,8 @@ pub struct SurfaceQuery<'a> {
     pub departures: Option<&'a Departures>,
 }
 
-/// The first crossings of a surface, a primitive with its index, for the rays of `wanted`. `sheared` are the planes across the packet's rays.
+/// The first crossings of a surface, a primitive with its index, for the rays of `wanted`. `sheared` are the
+/// planes across the packet's rays.
 pub fn firsts_of_surface<S: Simd>(
     simd: S,
     asked: &SurfaceQuery,
@@ -225,7 +228,8 @@ mod tests {
         ]
     }
 
-    /// A ray at or past what `shape` is made of: `aim` picks one of its points, and a place on the way to another.
+    /// A ray at or past what `shape` is made of: `aim` picks one of its points, and a place on the way to
+    /// another.
     fn ray_at(shape: &Shape, o: DVec3, (aim, share): (usize, f64), free: DVec3) -> Ray {
         let corners = match shape {
             Shape::Face(corners) => corners.to_vec(),

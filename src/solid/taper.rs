@@ -25,8 +25,8 @@ impl Taper {
     #[inline(always)]
     pub fn gradient<N: Number>(&self, q: Vector<N>) -> Vector<N> {
         let Self { middle, slope } = *self;
-        // The gradient of x² + y² − r(z)², with r taken from the point's own distance to the axis: on the surface they
-        // are equal, and this one can not turn inward.
+        // The gradient of x² + y² − r(z)², with r taken from the point's own distance to the axis: on the
+        // surface they are equal, and this one can not turn inward.
         let r = (q.x * q.x + q.y * q.y).root();
         let zero = r.same(0.0);
         let aside =
@@ -96,9 +96,9 @@ pub(super) struct Tapers<N> {
 }
 
 impl<N: Number> Tapers<N> {
-    /// The lines against `x² + y² ≤ ρ²`, `ρ = middle + slope · z ≥ 0`: where each is inside, counted from its start, the
-    /// point closest to the unit origin, which may be `off` its place; `seeming` is the share of that that is our own
-    /// rounding. An end that there is not is infinite.
+    /// The lines against `x² + y² ≤ ρ²`, `ρ = middle + slope · z ≥ 0`: where each is inside, counted from its
+    /// start, the point closest to the unit origin, which may be `off` its place; `seeming` is the share of
+    /// that that is our own rounding. An end that there is not is infinite.
     #[inline(always)]
     pub fn sides(&self, rays: &Rays<N>, off: Vector<N>, seeming: N) -> Spans<N> {
         self.of_kind::<false>(rays, off, seeming)
@@ -116,8 +116,8 @@ impl<N: Number> Tapers<N> {
             (a, b) = (a - d_rho * d_rho, b - rho * d_rho);
         }
         let c = o.x * o.x + o.y * o.y - rho * rho;
-        // b² − ac by Lagrange's identity for the form x² + y² − ρ²: differences of products of nearby lengths,
-        // never of their squares.
+        // b² − ac by Lagrange's identity for the form x² + y² − ρ²: differences of products of nearby
+        // lengths, never of their squares.
         let across = d.x * o.y - d.y * o.x;
         let (mut x, mut y) = (d.x * rho, d.y * rho);
         if !STRAIGHT {
@@ -198,8 +198,8 @@ struct SideForm<N, const STRAIGHT: bool> {
 }
 
 impl<N: Number, const STRAIGHT: bool> SideForm<N, STRAIGHT> {
-    /// How much a point at `t` that is moved by `off` changes the form: by (2|x| + off.x)·off.x, and so for y and ρ. Near
-    /// an apex hardly at all, and at the long end of an ellipse by the long axis' off only.
+    /// How much a point at `t` that is moved by `off` changes the form: by (2|x| + off.x)·off.x, and so for y
+    /// and ρ. Near an apex hardly at all, and at the long end of an ellipse by the long axis' off only.
     #[inline(always)]
     fn off(&self, t: N, off: Vector<N>) -> N {
         if STRAIGHT {
@@ -210,8 +210,9 @@ impl<N: Number, const STRAIGHT: bool> SideForm<N, STRAIGHT> {
         Vector { x: p.x * 2.0 + off.x, y: p.y * 2.0 + off.y, z: p.z * 2.0 + off.z }.dot(off)
     }
 
-    /// How far a root at `t` may be off. The root of a number that is off by `form_off · |a|` is off by that over twice
-    /// the root, and never by more than the root of that: all there is to say at the apex, where the root is 0.
+    /// How far a root at `t` may be off. The root of a number that is off by `form_off · |a|` is off by that
+    /// over twice the root, and never by more than the root of that: all there is to say at the apex, where
+    /// the root is 0.
     #[inline(always)]
     fn root_error(&self, t: N, off: Vector<N>, roots: &Roots<N>) -> N {
         let Roots { discriminant, half_inverse, a, inverse } = *roots;

@@ -6,8 +6,8 @@ use super::span::{Ends, ROUNDING, Spans};
 use super::taper::{Taper, Tapers};
 use super::unit_space::{UnitSpace, at_closest, is_finite, pass_by};
 
-/// The side of a unit truncated cone under an affine map. Scenes of a million are made of them: the map out of the unit space,
-/// which no ray asks for, is not kept.
+/// The side of a unit truncated cone under an affine map. Scenes of a million are made of them: the map out
+/// of the unit space, which no ray asks for, is not kept.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tube {
     space: UnitSpace,
@@ -118,11 +118,12 @@ impl<N: Number> Tubes<N> {
         }
     }
 
-    /// Which lines, brought to the unit space, come so near the axis that they may meet the tube: known without a division.
+    /// Which lines, brought to the unit space, come so near the axis that they may meet the tube: known
+    /// without a division.
     ///
-    /// Every crossing that is found lies between the caps, where the tube is no wider than its widest, and satisfies the
-    /// tube's equation as near as [`UnitSpace::off`] says: the line comes so near the axis, but for the rounding of that
-    /// distance, which is within the same.
+    /// Every crossing that is found lies between the caps, where the tube is no wider than its widest, and
+    /// satisfies the tube's equation as near as [`UnitSpace::off`] says: the line comes so near the axis, but
+    /// for the rounding of that distance, which is within the same.
     #[inline(always)]
     fn near(&self, rays: &Rays<N>) -> N::Mask {
         let Rays { o, d } = *rays;
@@ -146,16 +147,16 @@ impl Tube {
     pub fn new(place: &Placement, bottom: f64, top: f64, map_error: DVec3) -> Self {
         let space = UnitSpace::new(place, map_error);
         let DMat3 { x_axis, y_axis, z_axis } = place.linear;
-        // The widest radius of the ellipse that the map makes of a circle: the root of the greater eigenvalue of its
-        // Gram matrix.
+        // The widest radius of the ellipse that the map makes of a circle: the root of the greater eigenvalue
+        // of its Gram matrix.
         let (xx, yy, xy) = (x_axis.length_squared(), y_axis.length_squared(), x_axis.dot(y_axis));
         let widest = (0.5 * (xx + yy) + 0.5 * libm::hypot(xx - yy, 2.0 * xy)).sqrt();
         let radius = (bottom.max(top) * widest + space.displacement) * (1.0 + ROUNDING);
         Self { space, taper: Taper::new(bottom, top), along: z_axis.normalize_or_zero(), radius }
     }
 
-    /// Where the line of each ray goes in through the tube's wall, and where it comes out. A line with only one crossing,
-    /// which is steeper than the wall or parallel to it, has only one of them.
+    /// Where the line of each ray goes in through the tube's wall, and where it comes out. A line with only
+    /// one crossing, which is steeper than the wall or parallel to it, has only one of them.
     #[inline(always)]
     pub fn crossings<N: Number>(&self, rays: &Rays<N>) -> SideCrossings<N> {
         let like = rays.o;
@@ -219,8 +220,8 @@ impl Tube {
         self.taper.misses(&u) || self.taper.covers(&u)
     }
 
-    /// From unit directions to world directions: the inverse of the map that rays go by, off by as much as that may be
-    /// of the one before it. `None` for a map that rounding made flat, so thin is it.
+    /// From unit directions to world directions: the inverse of the map that rays go by, off by as much as
+    /// that may be of the one before it. `None` for a map that rounding made flat, so thin is it.
     fn linear(&self) -> Option<DMat3> {
         let back = DAffine3 { matrix3: self.space.inverse, translation: DVec3::ZERO };
         Placement::new(&back).map(|place| place.inverse)

@@ -11,8 +11,8 @@ pub(super) struct UnitSpace {
     pub center: DVec3,
     /// From world directions to unit directions.
     pub inverse: DMat3,
-    /// How far a point of the shape may be off its place, by its map and by our own rounding, along each axis of the unit
-    /// space: a coin has a sharp rim however thin it is, and a needle a sharp tip.
+    /// How far a point of the shape may be off its place, by its map and by our own rounding, along each axis
+    /// of the unit space: a coin has a sharp rim however thin it is, and a needle a sharp tip.
     pub off: DVec3,
     /// The same in the world, for all of it.
     pub displacement: f64,
@@ -106,8 +106,8 @@ impl<N: Number> Centred<N> {
     }
 }
 
-/// Rays from the point of each that is closest to the origin, the square of the length of their directions, and how far
-/// that point is from their starts.
+/// Rays from the point of each that is closest to the origin, the square of the length of their directions,
+/// and how far that point is from their starts.
 #[inline(always)]
 pub(super) fn at_closest<N: Number>(rays: &Rays<N>) -> (Rays<N>, N, N) {
     let Rays { o, d } = *rays;
@@ -120,8 +120,8 @@ pub(super) fn at_closest<N: Number>(rays: &Rays<N>) -> (Rays<N>, N, N) {
     (Rays { o, d }, d_squared, first + second)
 }
 
-/// Whether lines whose points closest to the unit origin are `o` are certainly beside a truncated cone, which lies within √2 of
-/// that origin; `off` is the sum of how far a point may be off along each axis.
+/// Whether lines whose points closest to the unit origin are `o` are certainly beside a truncated cone, which
+/// lies within √2 of that origin; `off` is the sum of how far a point may be off along each axis.
 #[inline(always)]
 pub(super) fn pass_by<N: Number>(o: Vector<N>, off: N) -> N::Mask {
     // (√2 + off)² with 4 for 2√2.

@@ -212,7 +212,7 @@ impl Probe for Stopwatch {
 
 /// A probe that is chosen while the program runs: what is traced is compiled once for both.
 #[derive(Clone, Copy, Debug, Default)]
-pub enum Watch {
+pub enum TileProbe {
     /// [`Silent`].
     #[default]
     Silent,
@@ -220,7 +220,7 @@ pub enum Watch {
     Timed(Stopwatch),
 }
 
-impl Watch {
+impl TileProbe {
     /// A stopwatch that starts in `stage`.
     pub fn timed(stage: Stage) -> Self {
         Self::Timed(Stopwatch::start(stage))
@@ -235,7 +235,7 @@ impl Watch {
     }
 }
 
-impl Probe for Watch {
+impl Probe for TileProbe {
     #[inline]
     fn at(&mut self, stage: Stage) {
         if let Self::Timed(watch) = self {

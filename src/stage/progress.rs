@@ -43,7 +43,8 @@ impl Task {
     }
 }
 
-/// How far the work of a thread, or of several, is. Clones share it. Written once an object or a tile, not once a ray.
+/// How far the work of a thread, or of several, is. Clones share it. Written once an object or a tile, not
+/// once a ray.
 #[derive(Clone, Debug, Default)]
 pub struct Progress(Arc<State>);
 

@@ -1,9 +1,11 @@
-//! CIE 1976 L*a*b*: colours at distances that the eye sees, with the lightness of the 13 levels as its first axis.
+//! CIE 1976 L*a*b*: colours at distances that the eye sees, with the lightness of the 13 levels as its first
+//! axis.
 
 use super::lightness::{light_of_lightness, lightnesses};
 use crate::math::{DMat3, DVec3};
 
-/// Linear sRGB (IEC 61966-2-1) to CIE XYZ, each row divided by its sum, which is white's: so white is exactly 1, 1, 1.
+/// Linear sRGB (IEC 61966-2-1) to CIE XYZ, each row divided by its sum, which is white's: so white is exactly
+/// 1, 1, 1.
 const XYZ: DMat3 = DMat3::from_cols_array(&[
     0.433_876_906_891_108_9,
     0.2126,
@@ -63,8 +65,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// The primaries of sRGB under D65, as tables print them; they differ in the second place with the digits of
-    /// the white that they assume.
+    /// The primaries of sRGB under D65, as tables print them; they differ in the second place with the digits
+    /// of the white that they assume.
     #[test]
     fn the_primaries_have_their_published_places() {
         for (color, printed) in [

@@ -13,7 +13,8 @@ pub(super) const LIGHTS: [f64; 13] = {
     while level < 13 {
         let dark = level / STEPS;
         let bright = if dark + 1 < GRAYS.len() { dark + 1 } else { dark };
-        // Both products are exact scalings for 0, 2 and 4 quarters, so the grays themselves come out to the bit.
+        // Both products are exact scalings for 0, 2 and 4 quarters, so the grays themselves come out to the
+        // bit.
         let quarters = (level % STEPS) as f64;
         lights[level] = (GRAYS[dark] * (STEPS as f64 - quarters) + GRAYS[bright] * quarters) / STEPS as f64;
         level += 1;
@@ -41,8 +42,8 @@ pub(super) const BORDERS: [f64; 12] = [
 /// The sRGB byte of each level; a test computes them.
 const BYTES: [u8; 13] = [0, 42, 60, 74, 85, 114, 136, 154, 170, 196, 218, 237, 255];
 
-/// How many equal parts light is cut into to find its level: so many that no two borders share one, and a power of
-/// two, so that a part is found without rounding.
+/// How many equal parts light is cut into to find its level: so many that no two borders share one, and a
+/// power of two, so that a part is found without rounding.
 const PARTS: usize = 64;
 
 /// The level of the darkest light in each part.

@@ -70,7 +70,8 @@ pub fn srgb_of_light(light: f64) -> u8 {
     if light <= SRGB_FOOT {
         return nearest(light * 12.92);
     }
-    // The power 1/2.4 is 5/12: the cube root of light to the 5/4. Only where bytes meet does it take the power itself.
+    // The power 1/2.4 is 5/12: the cube root of light to the 5/4. Only where bytes meet does it take the
+    // power itself.
     let power = near_cube_root(light * light.sqrt().sqrt());
     let byte = |power: f64| nearest(1.055 * power - 0.055);
     let (low, high) = (byte(power * (1.0 - 2.0 * NEAR)), byte(power * (1.0 + 2.0 * NEAR)));

@@ -15,8 +15,8 @@ impl<const WIDTH: usize, const HEIGHT: usize> Matrix<WIDTH, HEIGHT> {
 /// For the four grays: three steps between two neighbours, and so 13 levels.
 pub const FOUR_GRAYS: Matrix<2, 2> = Matrix([[0, 2], [3, 1]]);
 
-/// For a device with only ink and paper: 12 thresholds, and so 13 levels. Neighbouring ranks stand far apart, so
-/// that a middle level looks even.
+/// For a device with only ink and paper: 12 thresholds, and so 13 levels. Neighbouring ranks stand far apart,
+/// so that a middle level looks even.
 pub const INK_ONLY: Matrix<4, 3> = Matrix([[0, 6, 2, 8], [9, 3, 11, 5], [4, 10, 1, 7]]);
 
 #[cfg(test)]

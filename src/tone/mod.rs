@@ -28,11 +28,12 @@ pub enum Tone {
 }
 
 impl Tone {
-    /// The light, 0 to 1, that the screen should show for a computed `light`, which is clamped to 0 to 1 here.
+    /// The light, 0 to 1, that the screen should show for a computed `light`, which is clamped to 0 to 1
+    /// here.
     ///
-    /// [`Tone::Lightness`] changes nothing more. [`Tone::Even`] bends light by straight pieces, so that k/12 is
-    /// shown as the light of level k, and the borders between the even steps fall on the borders in lightness:
-    /// everything that comes after may then forget the tone. NaN, which no stage gives, stays NaN.
+    /// [`Tone::Lightness`] changes nothing more. [`Tone::Even`] bends light by straight pieces, so that k/12
+    /// is shown as the light of level k, and the borders between the even steps fall on the borders in
+    /// lightness: everything that comes after may then forget the tone. NaN, which no stage gives, stays NaN.
     #[inline]
     pub fn shown(self, light: f64) -> f64 {
         let light = light.clamp(0.0, 1.0);
@@ -47,8 +48,8 @@ impl Tone {
         }
     }
 
-    /// The same for the three primaries of a colour: their luminance is shown as it would be alone, then each is
-    /// clamped.
+    /// The same for the three primaries of a colour: their luminance is shown as it would be alone, then each
+    /// is clamped.
     #[inline]
     pub fn shown_color(self, color: DVec3) -> DVec3 {
         let luminance = luminance(color);
@@ -59,15 +60,16 @@ impl Tone {
         scaled.clamp(DVec3::ZERO, DVec3::ONE)
     }
 
-    /// The level that shows `light` (0 to 1; clamped). A light midway between two takes the lighter one; NaN takes
-    /// level 0.
+    /// The level that shows `light` (0 to 1; clamped). A light midway between two takes the lighter one; NaN
+    /// takes level 0.
     #[inline]
     pub fn level(self, light: f64) -> Level {
         Level::nearest(self.shown(light))
     }
 }
 
-/// What is shown at `half_steps` / 24 under [`Tone::Even`]: a level's light, then the border above it, in turn.
+/// What is shown at `half_steps` / 24 under [`Tone::Even`]: a level's light, then the border above it, in
+/// turn.
 #[inline]
 fn even_knot(half_steps: usize) -> f64 {
     let level = half_steps / 2;

@@ -2,13 +2,13 @@
 
 use crate::math::two_product_in_range;
 
-/// How far [`near_cube_root`] may be from the root, divided by the root: 2⁻⁴⁶. Its start is within 3.3 % (Kahan's: a
-/// third of the number's bits), and a step of Halley's takes an error e to 2/3 e³: to 2.4·10⁻⁵, then to 9.3·10⁻¹⁵; eight
-/// roundings come on top.
+/// How far [`near_cube_root`] may be from the root, divided by the root: 2⁻⁴⁶. Its start is within 3.3 %
+/// (Kahan's: a third of the number's bits), and a step of Halley's takes an error e to 2/3 e³: to 2.4·10⁻⁵,
+/// then to 9.3·10⁻¹⁵; eight roundings come on top.
 pub(super) const NEAR: f64 = 1.0 / (1_u64 << 46) as f64;
 
-/// What, added to a third of the upper half of a number's bits, gives that of nearly its cube root (W. Kahan, in
-/// FreeBSD's `s_cbrt.c`: (1023 − 1023/3 − 0.033) · 2²⁰).
+/// What, added to a third of the upper half of a number's bits, gives that of nearly its cube root (W. Kahan,
+/// in FreeBSD's `s_cbrt.c`: (1023 − 1023/3 − 0.033) · 2²⁰).
 const THIRD: u32 = 715_094_163;
 
 /// The cube root of a normal number above 0, to within [`NEAR`].
@@ -22,8 +22,8 @@ pub(super) fn near_cube_root(x: f64) -> f64 {
     halley(halley(f64::from_bits(u64::from(high) << 32)))
 }
 
-/// The numbers nearest to the cube roots of `x`, which lie from 2⁻¹⁰ to 2¹⁰: what `libm::cbrt` gives. Several are found
-/// side by side.
+/// The numbers nearest to the cube roots of `x`, which lie from 2⁻¹⁰ to 2¹⁰: what `libm::cbrt` gives. Several
+/// are found side by side.
 #[inline]
 pub(super) fn cube_roots<const N: usize>(x: [f64; N]) -> [f64; N] {
     let (mut low, mut high) = (x, x);
@@ -41,7 +41,8 @@ fn about_cube_root(x: f64) -> (f64, f64) {
     let (square, below_square) = two_product_in_range(y, y);
     let (cube, below_cube) = two_product_in_range(square, y);
     let step = ((x - cube) - below_cube - below_square * y) / (3.0 * square);
-    // The step's own error is that of Newton's method, the square of y's, 2⁻⁹², and less than 2⁻⁹⁵ of rounding.
+    // The step's own error is that of Newton's method, the square of y's, 2⁻⁹², and less than 2⁻⁹⁵ of
+    // rounding.
     let error = y * (1.0 / (1_u64 << 45) as f64 / (1_u64 << 45) as f64);
     (y + (step - error), y + (step + error))
 }

@@ -42,8 +42,8 @@ impl LevelDifference {
     }
 }
 
-/// For each cell of `per_cell` dots the most levels that any of its dots is off, 0 to 12: as many cells as fit whole, and those
-/// that the edge cuts.
+/// For each cell of `per_cell` dots the most levels that any of its dots is off, 0 to 12: as many cells as
+/// fit whole, and those that the edge cuts.
 ///
 /// # Panics
 /// The pictures must have the same size, and a cell a dot at least.

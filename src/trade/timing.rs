@@ -30,8 +30,8 @@ pub struct Timing {
 }
 
 impl Timing {
-    /// Draws a picture with all its rays as often as the effort wants. What is built once, the structure that cuts
-    /// space and the pool of threads, is built before.
+    /// Draws a picture with all its rays as often as the effort wants. What is built once, the structure that
+    /// cuts space and the pool of threads, is built before.
     pub fn new(studio: &Studio, request: &Request, effort: Effort) -> Self {
         let mut frame = studio.draw(request);
         let mut times = Vec::new();
@@ -67,7 +67,8 @@ impl Timing {
     }
 }
 
-/// The most memory that the process has held, in bytes, where the system tells: Linux does, by `VmHWM` of proc(5).
+/// The most memory that the process has held, in bytes, where the system tells: Linux does, by `VmHWM` of
+/// proc(5).
 pub fn peak_memory() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;

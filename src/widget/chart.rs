@@ -68,7 +68,8 @@ impl FlowChart {
         Self { counted: false, ..Self::new(&Frame::blank(nothing, Grid::from_values(nothing, Vec::new()))) }
     }
 
-    /// What is at work: its stage has a mark, its part of the whole in place of its count, and a bar for that.
+    /// What is at work: its stage has a mark, its part of the whole in place of its count, and a bar for
+    /// that.
     #[must_use]
     pub const fn working(mut self, step: Option<WorkStep>) -> Self {
         self.working = step;

@@ -52,8 +52,9 @@ fn do_not_include_the_request_for_help() {
     }
 }
 
-// Each from an attack on the arguments: a message of no words, a picture that ended for want of memory, a direction
-// that overflowed, a mesh taken for a scene, and a misspelt scene with no word of those that there are.
+// Each from an attack on the arguments: a message of no words, a picture that ended for want of memory, a
+// direction that overflowed, a mesh taken for a scene, and a misspelt scene with no word of those that there
+// are.
 #[test]
 fn arguments_out_of_range_are_explained() {
     let (_, file) = scene("out_of_range", BALL);

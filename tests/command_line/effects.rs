@@ -1,4 +1,5 @@
-//! An option changes the picture, or it is said, or refused, that it has no effect: every option beside every format.
+//! An option changes the picture, or it is said, or refused, that it has no effect: every option beside every
+//! format.
 
 use super::{run, scene, text};
 
@@ -24,7 +25,8 @@ const FORMATS: [&[&str]; 12] = [
     &["--format", "pfm", "--channel", "object"],
 ];
 
-/// Options that can change a picture, each but `--threads`, `--structure` and `--engine`, by which all are the same.
+/// Options that can change a picture, each but `--threads`, `--structure` and `--engine`, by which all are
+/// the same.
 const OPTIONS: [&[&str]; 24] = [
     &["--view", "side"],
     &["--eye", "9,9,9"],

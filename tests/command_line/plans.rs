@@ -1,9 +1,10 @@
-//! Plans as text: what is needed and why, and how much of it is expected. Times depend on the processor, and are left out.
+//! Plans as text: what is needed and why, and how much of it is expected. Times depend on the processor, and
+//! are left out.
 
 use std::process::Command;
 
-/// So few cells that the whole picture is sampled, however long that takes: six tiles. Of a larger one so much is sampled as a
-/// tenth of a second allows, which is less on a busy machine.
+/// So few cells that the whole picture is sampled, however long that takes: six tiles. Of a larger one so
+/// much is sampled as a tenth of a second allows, which is less on a busy machine.
 const FEW: &str = "--cells=40x12";
 
 /// The plan of a picture by the command line, a line for each stage and term.

@@ -1,4 +1,5 @@
-//! Rays aimed at one primitive: at its surface from outside, along its surface so that they graze it, and past it.
+//! Rays aimed at one primitive: at its surface from outside, along its surface so that they graze it, and
+//! past it.
 
 use ray13::math::{DVec3, Ray};
 use ray13::scene::{Primitive, Shape};
@@ -45,8 +46,8 @@ fn on_surface(shape: &Shape, chance: &mut Chance) -> (DVec3, DVec3) {
     }
 }
 
-/// A ray from `distance` away, in the scene's unit. Half of them meet the surface from outside; a quarter pass it at
-/// a tenth to 1e-16 of its size, on either side; a quarter go anywhere near it.
+/// A ray from `distance` away, in the scene's unit. Half of them meet the surface from outside; a quarter
+/// pass it at a tenth to 1e-16 of its size, on either side; a quarter go anywhere near it.
 pub fn aimed(primitive: &Primitive, distance: f64, chance: &mut Chance) -> Ray {
     let (p, n) = on_surface(&primitive.shape, chance);
     let (p, d) = match chance.below(4) {

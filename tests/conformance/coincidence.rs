@@ -45,7 +45,8 @@ fn hits(frame: &Frame) -> usize {
     frame.depth.as_ref().unwrap().values().iter().filter(|t| t.is_finite()).count()
 }
 
-/// So many maps, and after them their inverses in the other order: the product is the identity but for rounding.
+/// So many maps, and after them their inverses in the other order: the product is the identity but for
+/// rounding.
 fn there_and_back(depth: usize, chance: &mut Chance) -> String {
     let (mut there, mut back) = (String::new(), String::new());
     for _ in 0..depth {

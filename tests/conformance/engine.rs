@@ -1,5 +1,5 @@
-//! What the suite asks of an engine, a batch of rays at a time, in the scene's own unit; and the exact engine's
-//! answers.
+//! What the suite asks of an engine, a batch of rays at a time, in the scene's own unit; and the exact
+//! engine's answers.
 
 use ray13::frame::{Frame, Request, Studio, Wants};
 use ray13::glyph::{GlyphMode, Palette};
@@ -83,8 +83,8 @@ pub trait Subject: Sized {
     /// Whether a ray that leaves a hit along `toward` goes to the inside of the primitive that was hit.
     fn inward(&self, start: &Start) -> bool;
 
-    /// How far along the axes of a primitive's own coordinates a ray may pass on the other side of its rim and still be
-    /// said to meet it, or not to.
+    /// How far along the axes of a primitive's own coordinates a ray may pass on the other side of its rim
+    /// and still be said to meet it, or not to.
     fn rim(&self, primitive: &Primitive, ray: &Ray) -> DVec3;
 
     /// A picture.
@@ -183,14 +183,15 @@ impl Subject for ExactEngine {
         self.leaving(start).1.inward
     }
 
-    /// A point of a primitive seems off its place by [`ROUNDING`] of the lengths of the world and of the way from its
-    /// origin to the primitive's: that is what is rounded since the ray's start. Where the origin was moved, the eye's
-    /// place was rounded too. Along an axis of the primitive's own coordinates that is multiplied by the length of the
-    /// inverse map's row.
+    /// A point of a primitive seems off its place by [`ROUNDING`] of the lengths of the world and of the way
+    /// from its origin to the primitive's: that is what is rounded since the ray's start. Where the origin
+    /// was moved, the eye's place was rounded too. Along an axis of the primitive's own coordinates that is
+    /// multiplied by the length of the inverse map's row.
     ///
-    /// A chord that such an error could have made counts as none: on a sphere where the ray passes within once the
-    /// error of the silhouette, on the side of a frustum within three times, one for each axis. At an apex a chord through
-    /// a circle of radius ρ counts as none for ρ² ≤ 3·off·(2ρ + off), up to 6.5 times; rounded up to 7.
+    /// A chord that such an error could have made counts as none: on a sphere where the ray passes within
+    /// once the error of the silhouette, on the side of a frustum within three times, one for each axis. At
+    /// an apex a chord through a circle of radius ρ counts as none for ρ² ≤ 3·off·(2ρ + off), up to 6.5
+    /// times; rounded up to 7.
     fn rim(&self, primitive: &Primitive, ray: &Ray) -> DVec3 {
         let SceneFrame { origin, unit } = self.assembly.scene_frame;
         let from_origin = primitive.map.translation.distance(origin);

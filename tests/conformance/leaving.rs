@@ -78,12 +78,13 @@ pub fn surfaces_are_left_once<S: Subject>() {
     assert_none(&faults, left);
 }
 
-/// Whether the ray starts so near an edge, and crosses it so nearly along the surface, that it may as well be outside:
-/// of the solid shrunk by the engine's bound nothing is ahead.
+/// Whether the ray starts so near an edge, and crosses it so nearly along the surface, that it may as well be
+/// outside: of the solid shrunk by the engine's bound nothing is ahead.
 fn starts_at_rim(subject: &impl Subject, solid: &Primitive, start: &Start) -> bool {
     let from = Ray::new(start.ray.at(start.hit.t), start.toward);
     let inverse = solid.map.matrix3.inverse();
-    // Here the start is a point of the scene, each of its coordinates rounded, on a solid that may be off by its map.
+    // Here the start is a point of the scene, each of its coordinates rounded, on a solid that may be off by
+    // its map.
     let off = 4.0 * (f64::EPSILON * from.o.length() + solid.displacement().length());
     let rounded = DVec3::from_array([0, 1, 2].map(|i| inverse.row(i).length())) * off;
     verdict::<Big>(solid, &from, subject.rim(solid, &start.ray) + rounded) != Verdict::Hit
@@ -163,7 +164,8 @@ pub fn a_reversed_ray_finds_the_same_ends<S: Subject>() {
             compared += 1;
             for (a, b) in [(from_there[0], from_back[1]), (from_there[1], from_back[0])] {
                 let off = (a.t - (length - b.t)).abs();
-                // The other start is rounded, and each distance: that moves an end as far as the engine's own error.
+                // The other start is rounded, and each distance: that moves an end as far as the engine's own
+                // error.
                 let allowed = a.error + b.error + 2.0 * ulp(length);
                 worst = worst.max(off / allowed);
                 same += usize::from(off == 0.0);

@@ -11,8 +11,8 @@ use ray13::trace::{Fast, Hit, PacketHits, RayEngine, ShadowPacket, ShadowQuery, 
 
 use crate::conformance::engine::{Cut, ExactEngine, Found, Range, Start, Subject, drawn};
 
-/// Rays of a packet here: one less than it can hold, since a whole one is taken for a block of dots, whose corners bound
-/// the rest.
+/// Rays of a packet here: one less than it can hold, since a whole one is taken for a block of dots, whose
+/// corners bound the rest.
 const RAYS: usize = PACKET - 1;
 
 /// Packets of a tile.

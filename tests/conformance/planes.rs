@@ -27,8 +27,8 @@ fn grid(chance: &mut Chance) -> ([[f64; 4]; 3], Vec<Solid>) {
     (lines, boxes)
 }
 
-/// A ray that runs in one plane of the grid, or in two, which is along an edge: from outside the grid, and aimed at it.
-/// A place on a line is one of the middle two: those that boxes share.
+/// A ray that runs in one plane of the grid, or in two, which is along an edge: from outside the grid, and
+/// aimed at it. A place on a line is one of the middle two: those that boxes share.
 fn along_planes(lines: &[[f64; 4]; 3], chance: &mut Chance) -> Ray {
     let axis = chance.below(3);
     let (second, third) = ((axis + 1) % 3, (axis + 2) % 3);

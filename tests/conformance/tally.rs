@@ -15,8 +15,8 @@ pub struct Tally {
     pub wrong: Vec<String>,
     /// The same, within the engine's own bound of the rim.
     pub wrong_at_rim: usize,
-    /// The largest error of `t`, in ulps of the longest length on the way times `1 + tan` of the angle of incidence
-    /// and the ratio of the axes.
+    /// The largest error of `t`, in ulps of the longest length on the way times `1 + tan` of the angle of
+    /// incidence and the ratio of the axes.
     pub ulps: f64,
     /// The largest error of `t` in units of the engine's own word for it.
     pub stated: f64,
@@ -24,11 +24,13 @@ pub struct Tally {
     pub inexact: Vec<String>,
 }
 
-/// The error of `t`, in the ulps of [`Tally::ulps`], that no hit may pass, but one on the side of a cone: near its apex,
-/// and along it, an error grows by the square root of what moves it, and only the engine's own word is a bound.
+/// The error of `t`, in the ulps of [`Tally::ulps`], that no hit may pass, but one on the side of a cone:
+/// near its apex, and along it, an error grows by the square root of what moves it, and only the engine's own
+/// word is a bound.
 pub const MOST_ULPS: f64 = 4.0;
 
-/// The same at an edge: there the engine's bound for where a face may seem, 32 half-ulps of 6, decides which is named.
+/// The same at an edge: there the engine's bound for where a face may seem, 32 half-ulps of 6, decides which
+/// is named.
 const AT_EDGE: f64 = 96.0;
 
 /// The distance from a number to the next.
@@ -36,8 +38,8 @@ pub fn ulp(x: f64) -> f64 {
     x.next_up() - x
 }
 
-/// Whether a ray passes the apex of a cone within so much in the cone's own coordinates: there the error along one axis
-/// counts for all, because a chord is compared with what it may be off, not with where.
+/// Whether a ray passes the apex of a cone within so much in the cone's own coordinates: there the error
+/// along one axis counts for all, because a chord is compared with what it may be off, not with where.
 fn passes_apex(primitive: &Primitive, ray: &Ray, within: f64) -> bool {
     let apex = match primitive.shape {
         Shape::Frustum { top: 0.0, .. } => DVec3::Z,
@@ -92,13 +94,14 @@ impl Tally {
         let error = (Big::from(found.t) - end.t.clone()).abs().value();
         let (linear, center) = (primitive.map.matrix3, primitive.map.translation);
         let size = [0, 1, 2].iter().map(|&i| linear.col(i).length()).fold(0.0, f64::max);
-        // The longest length on the way: to the hit, or to the primitive's own place; from 8 sizes on the engine moves
-        // its origin there, and the scene's own numbers are taken as exact.
+        // The longest length on the way: to the hit, or to the primitive's own place; from 8 sizes on the
+        // engine moves its origin there, and the scene's own numbers are taken as exact.
         let length = found.t.max(center.length().min(8.0 * size) + size);
         let ulps = error / (ulp(length) * (1.0 + end.tangent) * ratio);
         let stated = error / (found.error + ulp(found.t));
         let is_cone = matches!(primitive.shape, Shape::Frustum { bottom, top } if bottom != top);
-        // At an edge the face beside may be named, which the ray may cross more steeply: then its word says less.
+        // At an edge the face beside may be named, which the ray may cross more steeply: then its word says
+        // less.
         let at_edge = end.face != found.surface;
         let most = if at_edge { AT_EDGE } else { MOST_ULPS };
         let is_inexact = (ulps > most && (at_edge || !is_cone)) || (stated > 1.0 && !at_edge);

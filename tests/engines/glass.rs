@@ -4,7 +4,8 @@ use ray13::math::{DVec3, Size};
 
 use crate::support::same::same;
 
-// Found by random scenes: one way goes into the first and leaves both in one place, where the second is passed over.
+// Found by random scenes: one way goes into the first and leaves both in one place, where the second is
+// passed over.
 #[test]
 fn two_solids_that_end_in_one_place() {
     let text = "material(kd = 0.8, ks = 0.2, n = 24, kt = 0.7, index = 1.4) {
@@ -15,7 +16,8 @@ fn two_solids_that_end_in_one_place() {
     same("cubes.scene", text, Size::new(43, 37), &eyes);
 }
 
-// Found by random texts: the corners of the patch do not lie in a plane, and behind the ball it seems to be met again.
+// Found by random texts: the corners of the patch do not lie in a plane, and behind the ball it seems to be
+// met again.
 #[test]
 fn a_bent_patch_that_reaches_into_a_ball() {
     let text = "l 2 1.129 0.9911721690219883 1 1 1
@@ -27,8 +29,9 @@ pp 4
     same("patch.nff", text, Size::new(16, 10), &[]);
 }
 
-// Found by an attack: the light was followed from surface to surface, the first of which alone was known as that which the
-// ray left, and two in one place were told apart by their errors. Now each object is asked for itself.
+// Found by an attack: the light was followed from surface to surface, the first of which alone was known as
+// that which the ray left, and two in one place were told apart by their errors. Now each object is asked for
+// itself.
 #[test]
 fn a_lamp_in_the_plane_of_the_face_that_a_ray_leaves() {
     let text = "camera(eye = [-5, 0, 3], target = [1, -1, 1], field = [40, 25]); light(at = [2, -2, 4]);

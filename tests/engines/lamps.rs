@@ -4,8 +4,8 @@ use ray13::math::Size;
 
 use crate::support::same::same;
 
-// Found by an attack: where rays of a tile came to the lamp from opposite sides, what stood before it was passed over by
-// those that ran against the axis of the tile's shadow packet, and light leaked through.
+// Found by an attack: where rays of a tile came to the lamp from opposite sides, what stood before it was
+// passed over by those that ran against the axis of the tile's shadow packet, and light leaked through.
 #[test]
 fn a_lamp_in_a_ball_over_a_floor_and_one_between_balls() {
     let texts = [

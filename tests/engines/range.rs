@@ -1,5 +1,5 @@
-//! There is no scene and no view for which the fast engine must not be used: where its numbers do not suffice, it asks the
-//! exact one.
+//! There is no scene and no view for which the fast engine must not be used: where its numbers do not
+//! suffice, it asks the exact one.
 
 use ray13::frame::{Request, Studio};
 use ray13::math::{DVec3, Size};

@@ -1,4 +1,5 @@
-//! Scenes as people write them: those inside the program, OpenSCAD's examples and the standard scenes of 1987.
+//! Scenes as people write them: those inside the program, OpenSCAD's examples and the standard scenes of
+//! 1987.
 
 use std::path::Path;
 
@@ -58,7 +59,8 @@ fn all_same(name: &str, scene: Scene, structures: &[StructureChoice]) {
     assert!(hits > 0, "{name}: no ray meets it");
 }
 
-/// The files of a folder that may stand beside this repository, by name, behind this repository's own of that kind.
+/// The files of a folder that may stand beside this repository, by name, behind this repository's own of that
+/// kind.
 pub fn with_those_beside(own: &[&str], folder: &str) -> Vec<(String, Scene)> {
     let files = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/files");
     let paths = own.iter().map(|name| files.join(name)).chain(beside::files(folder));

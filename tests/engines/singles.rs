@@ -103,7 +103,8 @@ fn same_from(text: &str, eyes: &[DVec3]) {
     }
 }
 
-/// What single precision can not tell apart is traced in double precision: a wall of a millionth, with one face from each of two primitives.
+/// What single precision can not tell apart is traced in double precision: a wall of a millionth, with one
+/// face from each of two primitives.
 #[test]
 fn thin_walls_stay() {
     let eyes = [DVec3::new(1.0, -2.0, 6.0), DVec3::new(5.0, 0.1, 1.0)];
@@ -114,7 +115,8 @@ fn thin_walls_stay() {
     );
 }
 
-/// Chords through a sharp edge are shorter than what their ends are off: a strip along it was lost that was dots wide.
+/// Chords through a sharp edge are shorter than what their ends are off: a strip along it was lost that was
+/// dots wide.
 #[test]
 fn sharp_edges_stay() {
     let above = [DVec3::new(0.0, 0.0, 10.0), DVec3::new(0.0, -1.0, 10.0), DVec3::new(3.0, -5.0, 7.0)];
@@ -254,7 +256,8 @@ proptest! {
         let dots = Size::new(96, 80);
         let [half, full] = both(&studio, &studio.camera(0, 1.2), dots, PrecisionChoice::Single);
         let differing = differing(&half, &full);
-        // Where light happens to be as bright as the step between two levels a row of dots may take the other.
+        // Where light happens to be as bright as the step between two levels a row of dots may take the
+        // other.
         let few = differing.levels * 500 <= differing.dots;
         prop_assert!(differing.others == 0 && differing.far == 0 && few, "{:?}", differing);
     }

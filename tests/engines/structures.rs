@@ -28,8 +28,9 @@ fn camera(eye: DVec3, target: DVec3) -> Camera {
     Camera { name: None, eye, target, up, field: [60.0, 45.0], span: FieldSpan::Edges, zoom: 1.0 }
 }
 
-/// Three views from outside the world, two from inside, and those that a walk from cell to cell finds hardest: along
-/// an axis within a plane of the lattice, and from a point on a plane, an edge and a corner of a cell.
+/// Three views from outside the world, two from inside, and those that a walk from cell to cell finds
+/// hardest: along an axis within a plane of the lattice, and from a point on a plane, an edge and a corner of
+/// a cell.
 fn cameras(scene: &Scene) -> Vec<(&'static str, Camera)> {
     let boxes: Vec<Bounds> = scene.objects.iter().map(|object| bounds(&object.solid)).collect();
     let world = boxes.iter().fold(Bounds::EMPTY, |all, b| all.join(b));

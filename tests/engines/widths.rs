@@ -12,7 +12,8 @@ use crate::support::request::request;
 use crate::support::same::{difference, fast};
 use crate::support::scenery::embedded_scenes;
 
-/// No width at all, and the best that this processor has, to which the others are held where this is not compiled.
+/// No width at all, and the best that this processor has, to which the others are held where this is not
+/// compiled.
 #[cfg(feature = "fallback")]
 fn levels() -> Vec<(&'static str, Level)> {
     vec![("fallback", Level::fallback()), ("the best", Level::new())]
@@ -36,8 +37,8 @@ fn levels() -> Vec<(&'static str, Level)> {
     vec![("the best", best)]
 }
 
-/// One scene with everything that has a formula of its own: balls, boxes straight and skew, round solids, prisms, meshes,
-/// expressions of them, mirrors and glass.
+/// One scene with everything that has a formula of its own: balls, boxes straight and skew, round solids,
+/// prisms, meshes, expressions of them, mirrors and glass.
 const ALL_KINDS: &str = "
     light(at = [6, -6, 8]); light(at = [-5, -3, 4], intensity = 0.5);
     material(kr = 0.4) translate([-3, 0, 0]) sphere(1);

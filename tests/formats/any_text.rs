@@ -1,5 +1,5 @@
-//! Anything at all as the text of a scene, in every format that is read: an answer in time, every error at a place
-//! within the text, and of what is read a picture, by every structure the same.
+//! Anything at all as the text of a scene, in every format that is read: an answer in time, every error at a
+//! place within the text, and of what is read a picture, by every structure the same.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -20,7 +20,8 @@ use ray13::scene::{Diagnostics, ReadOptions, Scene, embedded, read};
 
 const DOTS: Size = Size::new(8, 8);
 
-/// What takes milliseconds may take so long, on however slow a machine. A text that needs more hangs the program.
+/// What takes milliseconds may take so long, on however slow a machine. A text that needs more hangs the
+/// program.
 const DEADLINE: Duration = Duration::from_secs(20);
 
 /// Reads a text and draws what it says; what is wrong with that, if anything is. `name` tells the format.
@@ -80,7 +81,8 @@ pub fn placed(errors: &Diagnostics) -> Result<(), String> {
     Ok(())
 }
 
-/// Texts that are right, read once: the scenes within the program, this repository's files, and those beside it.
+/// Texts that are right, read once: the scenes within the program, this repository's files, and those beside
+/// it.
 static TEXTS: LazyLock<Vec<(&str, Vec<u8>)>> = LazyLock::new(|| {
     let mut all: Vec<_> = embedded().iter().map(|s| ("test.scene", s.text.as_bytes().to_vec())).collect();
     all.extend(KEPT.map(|(name, text)| (name, text.to_vec())));

@@ -1,5 +1,5 @@
-//! What a program wrote wrong, as a user meets it: the rest is shown, and one line says what is not. And what a program
-//! nests deeper than people do.
+//! What a program wrote wrong, as a user meets it: the rest is shown, and one line says what is not. And what
+//! a program nests deeper than people do.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};

@@ -1,5 +1,5 @@
-//! How much memory a scene takes: what the reader counts on is what the program then takes, and what is more than it may
-//! is an error.
+//! How much memory a scene takes: what the reader counts on is what the program then takes, and what is more
+//! than it may is an error.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,5 +1,5 @@
-//! Eric Haines's standard scenes, counted as others counted them, and a small one of this repository's own, counted by
-//! the oracle.
+//! Eric Haines's standard scenes, counted as others counted them, and a small one of this repository's own,
+//! counted by the oracle.
 
 use ray13::frame::{Frame, Studio};
 use ray13::math::{DVec3, Size};
@@ -23,8 +23,9 @@ fn own_balls() -> Studio {
     Studio::new(read("balls.nff", text, &ReadOptions::default()).unwrap()).unwrap()
 }
 
-/// Counts of an independent program in f64 that starts rays on their surfaces, four generations after the primary
-/// rays. Its primary hits are those published by Havran and Sixta (Comparison of hierarchical grids, 1999).
+/// Counts of an independent program in f64 that starts rays on their surfaces, four generations after the
+/// primary rays. Its primary hits are those published by Havran and Sixta (Comparison of hierarchical grids,
+/// 1999).
 struct Expected {
     name: &'static str,
     primary_hits: u64,
@@ -32,8 +33,8 @@ struct Expected {
     shadow_hits: u64,
     secondary_rays: u64,
     secondary_hits: u64,
-    /// The share by which a count other than the primary hits may differ. Gears and teapot have rays that run along
-    /// edges which two faces share; which of the two shows decides what is sent on.
+    /// The share by which a count other than the primary hits may differ. Gears and teapot have rays that run
+    /// along edges which two faces share; which of the two shows decides what is sent on.
     share: f64,
 }
 
@@ -99,7 +100,8 @@ counted!(teapot, 161_546, 409_139, 40_619, 226_182, 67_616, 0.01);
 counted!(tetra, 49_950, 46_261, 5_557, 0, 0, 0.005);
 counted!(tree, 169_909, 1_097_835, 43_403, 0, 0, 0.005);
 
-/// How far from a surface the oracle starts a ray, in the scene's unit: far more than rounding, far less than a ball.
+/// How far from a surface the oracle starts a ray, in the scene's unit: far more than rounding, far less than
+/// a ball.
 const OFF: f64 = 1e-7;
 
 fn at_rest(anchor: Anchor) -> DVec3 {

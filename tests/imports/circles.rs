@@ -1,7 +1,7 @@
 //! Finds files that import each other.
 //!
-//! A name is traced to the file that it is defined in, through the `pub use` of the modules that pass it on, so that to name a
-//! sibling by its room is the same as to name it by its file.
+//! A name is traced to the file that it is defined in, through the `pub use` of the modules that pass it on,
+//! so that to name a sibling by its room is the same as to name it by its file.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -18,7 +18,8 @@ struct Module<'a> {
     passed_on: BTreeMap<&'a str, Vec<&'a str>>,
 }
 
-/// What each file imports, by the file's path below `src/`; `files` are paths and texts. Files of tests are left out.
+/// What each file imports, by the file's path below `src/`; `files` are paths and texts. Files of tests are
+/// left out.
 pub fn graph(files: &[(String, String)]) -> Graph {
     let modules = modules(files);
     let mut graph = Graph::new();
@@ -135,8 +136,8 @@ fn is_public(tokens: &[Token<'_>], at: usize) -> bool {
 }
 
 impl<'a> Module<'a> {
-    /// Every path that the file names: what it uses, and paths in its code from `crate`, `self` or `super` on. What it only passes
-    /// on is none of its imports.
+    /// Every path that the file names: what it uses, and paths in its code from `crate`, `self` or `super`
+    /// on. What it only passes on is none of its imports.
     fn imports(&self, own: &[&'a str]) -> Vec<Vec<&'a str>> {
         let tokens = &self.tokens;
         let (mut found, mut passed) = (Vec::new(), Vec::new());
@@ -218,7 +219,8 @@ impl InlineModules {
     }
 }
 
-/// The file in which what a path names, seen from the module `from`, is defined; none for what another crate has.
+/// The file in which what a path names, seen from the module `from`, is defined; none for what another crate
+/// has.
 fn file_of<'a>(
     modules: &BTreeMap<Vec<&'a str>, Module<'a>>,
     from: &[&'a str],

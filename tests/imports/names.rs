@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::tokens::{tokens, without_tests};
 
-/// The public types of a file: `pub struct`, `enum`, `trait`, `type` and `union`, without those of `pub(crate)` and the like,
-/// and without tests.
+/// The public types of a file: `pub struct`, `enum`, `trait`, `type` and `union`, without those of
+/// `pub(crate)` and the like, and without tests.
 pub fn public_types(text: &str) -> Vec<String> {
     let all = tokens(text);
     let tokens = without_tests(&all);

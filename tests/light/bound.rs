@@ -21,8 +21,8 @@ fn material() -> impl Strategy<Value = Material> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 64, ..ProptestConfig::default() })]
 
-    /// With shares that add up to 1 at most no light comes out of nothing, however the solids overlap, touch and
-    /// enclose one another.
+    /// With shares that add up to 1 at most no light comes out of nothing, however the solids overlap, touch
+    /// and enclose one another.
     #[test]
     fn no_dot_is_brighter_than_the_brightest_source(
         materials in prop::collection::vec(material(), 7),

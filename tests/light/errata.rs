@@ -1,5 +1,5 @@
-//! The formulas that the paper's text gets wrong, or the scan made unreadable, each by its meaning: the table in
-//! docs/paper.md names these tests.
+//! The formulas that the paper's text gets wrong, or the scan made unreadable, each by its meaning: the table
+//! in docs/paper.md names these tests.
 
 use crate::support::picture::{Seen, look, look_at, shape};
 use ray13::frame::{Studio, pcat};
@@ -164,7 +164,8 @@ fn ball_over_ground(kr: f64, shading: Shading) -> Seen {
     look_at(scene, DVec3::new(0.0, -6.0, 0.0), shading)
 }
 
-/// What a ray that leaves a point of the ball along the mirror direction sees: the ground's ambient light, or the sky.
+/// What a ray that leaves a point of the ball along the mirror direction sees: the ground's ambient light, or
+/// the sky.
 fn mirrored(point: DVec3, normal: DVec3) -> Option<f64> {
     let sight = (point - DVec3::new(0.0, -6.0, 0.0)).normalize();
     let d = sight - 2.0 * sight.dot(normal) * normal;

@@ -1,5 +1,6 @@
-//! The way of a ray through balls of glass, worked out without the program: where the index of refraction changes is
-//! asked of the points just before and just behind each sphere, and the ray bends by the angles of Snell's law.
+//! The way of a ray through balls of glass, worked out without the program: where the index of refraction
+//! changes is asked of the points just before and just behind each sphere, and the ray bends by the angles of
+//! Snell's law.
 
 use ray13::math::DVec3;
 
@@ -57,7 +58,8 @@ impl World<'_> {
     }
 }
 
-/// By angles: the ray turns in the plane of `d` and the normal, from the angle of incidence to that of refraction.
+/// By angles: the ray turns in the plane of `d` and the normal, from the angle of incidence to that of
+/// refraction.
 fn bent(d: DVec3, normal: DVec3, before: f64, behind: f64) -> DVec3 {
     let inward = if d.dot(normal) > 0.0 { normal } else { -normal };
     let sideways = d - d.dot(inward) * inward;

@@ -83,8 +83,8 @@ fn that_is_totally_reflected_is_sent_once_with_both_shares() {
     assert_eq!((path[1].kind, path[1].weight), (RayKind::Mirror, 0.75));
 }
 
-// Every scene of the Standard Procedural Databases, whose background is blue, was traced in three channels for a gray
-// picture.
+// Every scene of the Standard Procedural Databases, whose background is blue, was traced in three channels
+// for a gray picture.
 #[test]
 fn in_one_channel_is_the_gray_of_that_in_three_where_the_background_alone_has_a_colour() {
     let text = "world(ambient = 0.1, background = [0.1, 0.4, 0.9]); light(at = [-3, -9, 5]);

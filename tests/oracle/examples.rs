@@ -1,5 +1,5 @@
-//! The tracer against the oracle's calculation: OpenSCAD's examples, and the scenes inside the program. No dot may
-//! be hit by one and missed by the other, and their depths agree to nine digits.
+//! The tracer against the oracle's calculation: OpenSCAD's examples, and the scenes inside the program. No
+//! dot may be hit by one and missed by the other, and their depths agree to nine digits.
 
 use std::path::{Path, PathBuf};
 

@@ -1,5 +1,5 @@
-//! The tracer against the oracle's calculation, on expressions that nobody would draw: small numbers on a coarse
-//! grid, so that faces are flush, edges meet and solids coincide, and then the whole of it turned.
+//! The tracer against the oracle's calculation, on expressions that nobody would draw: small numbers on a
+//! coarse grid, so that faces are flush, edges meet and solids coincide, and then the whole of it turned.
 
 use crate::support::agreement::compare;
 use crate::support::anything::{any_rotation, any_solid};

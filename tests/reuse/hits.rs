@@ -17,8 +17,8 @@ pub fn scene(name: &str, text: &str) -> Scene {
     read(name, text.as_bytes(), &ReadOptions::default()).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// Solids flush with each other, opaque and of glass, of which another one shows where glass lets no light through; and one
-/// that is not convex.
+/// Solids flush with each other, opaque and of glass, of which another one shows where glass lets no light
+/// through; and one that is not convex.
 pub const FLUSH: &str = "
     camera(eye = [-4, -7, 5], target = [1, 1, 0.5], field = [45, 30]);
     light(at = [-6, -2, 9], intensity = 0.7); light(at = [4, -8, 3], intensity = 0.3);
@@ -30,7 +30,8 @@ pub const FLUSH: &str = "
         [[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]]);
 ";
 
-/// Surfaces that bound no solid: polygons, one above the other, patches with normals of their own, cones; and a mirror.
+/// Surfaces that bound no solid: polygons, one above the other, patches with normals of their own, cones; and
+/// a mirror.
 pub const SURFACES: &str = include_str!("../files/surfaces.nff");
 
 /// A solid that is not convex, from so far that the way there is most of each distance.
@@ -84,8 +85,8 @@ fn changes(plain: &Request) -> Vec<Request> {
     all
 }
 
-/// The share of all hits that lie, in any of these scenes, where several surfaces are in one place: which of them shows is a
-/// question of material, and their rays are traced again. [`FLUSH`] has the most.
+/// The share of all hits that lie, in any of these scenes, where several surfaces are in one place: which of
+/// them shows is a question of material, and their rays are traced again. [`FLUSH`] has the most.
 const MOST_IN_ONE_PLACE: f64 = 0.6;
 
 /// The picture was traced as if nothing had been kept.

@@ -1,5 +1,5 @@
-//! Whether the tracer and the oracle's calculation see the same: the same dots hit, depths to nine digits, the same
-//! object, the same normal.
+//! Whether the tracer and the oracle's calculation see the same: the same dots hit, depths to nine digits,
+//! the same object, the same normal.
 
 use ray13::frame::{Frame, Studio};
 use ray13::math::{DVec3, Size};
@@ -22,8 +22,9 @@ pub struct Comparison {
 /// The share by which two depths may differ.
 const DEPTH: f64 = 1e-9;
 
-/// Maps and directions are rounded to 53 bits, and a needle's map multiplies that: what is left of a normal is far
-/// more than a gray level needs, and a wrong face or a missing square would differ by far more than this.
+/// Maps and directions are rounded to 53 bits, and a needle's map multiplies that: what is left of a normal
+/// is far more than a gray level needs, and a wrong face or a missing square would differ by far more than
+/// this.
 const NORMAL: f64 = 1e-6;
 
 /// Draws one picture by every structure, all alike to the bit, and works it out again.

@@ -1,4 +1,5 @@
-//! Solids that nobody would draw: small numbers on a coarse grid, so that faces are flush, edges meet and solids coincide.
+//! Solids that nobody would draw: small numbers on a coarse grid, so that faces are flush, edges meet and
+//! solids coincide.
 
 use std::sync::Arc;
 

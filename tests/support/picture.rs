@@ -1,4 +1,5 @@
-//! Pictures of single solids, read back dot by dot: where each dot's ray met the solid, with which normal, how bright.
+//! Pictures of single solids, read back dot by dot: where each dot's ray met the solid, with which normal,
+//! how bright.
 
 use ray13::frame::{Frame, Studio};
 use ray13::math::{DAffine3, DVec2, DVec3, Size};

@@ -3,8 +3,8 @@
 use ray13::math::{DVec3, Size};
 use ray13::scene::Camera;
 
-/// The direction that each dot looks along, of length 1, in scan order: the picture geometry of the design, written
-/// out again.
+/// The direction that each dot looks along, of length 1, in scan order: the picture geometry of the design,
+/// written out again.
 pub fn directions(camera: &Camera, dots: Size) -> Vec<DVec3> {
     let forward = (camera.target - camera.eye).normalize();
     let right = forward.cross(camera.up).normalize();

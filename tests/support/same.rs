@@ -28,7 +28,8 @@ fn dots(frame: &Frame) -> Vec<Vec<u64>> {
     all
 }
 
-/// How many dots of two pictures differ, and what the first of them hold: light, colour, depth, normal, object.
+/// How many dots of two pictures differ, and what the first of them hold: light, colour, depth, normal,
+/// object.
 pub fn difference(a: &Frame, b: &Frame) -> Option<String> {
     let (one, other) = (dots(a), dots(b));
     assert_eq!(one.len(), other.len());
@@ -69,8 +70,8 @@ pub fn exact(studio: &Studio, request: &Request, structure: StructureChoice) -> 
     frame
 }
 
-/// Checks that both engines give the same picture of a text in which something stands before a lamp: by its own camera, and
-/// from some eyes.
+/// Checks that both engines give the same picture of a text in which something stands before a lamp: by its
+/// own camera, and from some eyes.
 #[track_caller]
 pub fn same(name: &str, text: &str, dots: Size, eyes: &[DVec3]) {
     let scene = read(name, text.as_bytes(), &ReadOptions::default());

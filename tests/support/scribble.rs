@@ -1,9 +1,11 @@
-//! Texts of scenes as nobody writes them: pieces in any order, programs of any numbers, right texts gone wrong.
+//! Texts of scenes as nobody writes them: pieces in any order, programs of any numbers, right texts gone
+//! wrong.
 
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 
-/// Pieces of all formats, right and wrong, of which texts are put together and which right ones are disturbed by.
+/// Pieces of all formats, right and wrong, of which texts are put together and which right ones are disturbed
+/// by.
 const PIECES: [&str; 78] = [
     "cube(1);",
     "cube(",

@@ -15,8 +15,8 @@ pub struct Pictures {
 }
 
 impl Pictures {
-    /// The pictures of a view, if each holds only values that a picture may hold; else what is wrong. The light of each
-    /// primary is computed where `color` says so.
+    /// The pictures of a view, if each holds only values that a picture may hold; else what is wrong. The
+    /// light of each primary is computed where `color` says so.
     pub fn sound(
         studio: &Studio,
         camera: &Camera,

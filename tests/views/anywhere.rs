@@ -1,5 +1,5 @@
-//! Every picture is defined: wherever the eye stands and whatever it looks at, no value is infinite or not a number,
-//! and every structure gives the same bits. Inputs that have no picture are refused with the reason.
+//! Every picture is defined: wherever the eye stands and whatever it looks at, no value is infinite or not a
+//! number, and every structure gives the same bits. Inputs that have no picture are refused with the reason.
 
 use crate::support::cases::cases;
 use crate::support::request::request;
@@ -69,7 +69,8 @@ const SOLIDS: [(&str, &str); 16] = [
     ("nested balls", "sphere(1); sphere(0.5); difference() { sphere(1); sphere(0.5); }"),
 ];
 
-/// Surfaces of [`SOLIDS`]: mirrors, glass of every index, shares that are all 0, highlights as sharp as numbers are.
+/// Surfaces of [`SOLIDS`]: mirrors, glass of every index, shares that are all 0, highlights as sharp as
+/// numbers are.
 const MATERIALS: [&str; 7] = [
     "color(\"gray\")",
     "material(kd = 0, ks = 0, kr = 1)",
@@ -98,7 +99,8 @@ const PLACES: [DVec3; 14] = [
     DVec3::new(9.0, -9.0, 9.0),
 ];
 
-/// A light at the origin, at a corner, at the eye's place in some views, and one as near to an axis as numbers tell.
+/// A light at the origin, at a corner, at the eye's place in some views, and one as near to an axis as
+/// numbers tell.
 const LIGHTS: &str = "world(ambient = 0.1, background = [0.1, 0.2, 0.3], k = 1);
     light(at = [0, 0, 0]); light(at = [1, 1, 1], intensity = 0.3); light(at = [9, -9, 9], color = [1, 0.5, 0.2]);
     light(at = [1e-200, 0, 1]);";
@@ -192,7 +194,8 @@ fn along_axes_and_with_any_field_and_zoom() {
     }
 }
 
-// A long run of the property below: the normal of the ball was the root of a subnormal number, and 1.0000055 long.
+// A long run of the property below: the normal of the ball was the root of a subnormal number, and 1.0000055
+// long.
 #[test]
 fn from_so_far_that_a_place_in_a_ball_is_lost() {
     let text = "cube([1, 2, 1]); sphere(1); cube(1);";
@@ -237,8 +240,8 @@ fn at_every_size_and_distance() {
     }
 }
 
-// Two lights of 1e308 each summed up to infinity, and so did the samples of a dot; an infinite light times a depth term
-// of 0 was not a number; and a highlight's cosine of 1 + 2e-16 to the power of 1e300 was infinite.
+// Two lights of 1e308 each summed up to infinity, and so did the samples of a dot; an infinite light times a
+// depth term of 0 was not a number; and a highlight's cosine of 1 + 2e-16 to the power of 1e300 was infinite.
 #[test]
 fn with_lights_as_bright_as_numbers_are() {
     let white = "[1.7e308, 1.7e308, 1.6e308]";
@@ -282,7 +285,8 @@ fn what_has_no_picture_is_refused() {
         ("cube(1);\ncamera(eye = [1e308, 0, 0], target = [-1e308, 0, 0]);", "2:14", "farther apart"),
         ("cube(1);\ncamera(eye = [0, 0, 0]);", "2:14", "the same point"),
         ("cube(1); camera(eye = [0, 5, 0], up = [1e-15, 1, 0]);", "1:39", "along the line of sight"),
-        // Found by tests/formats/any_text.rs: these were read, and then could not be put together, at no place.
+        // Found by tests/formats/any_text.rs: these were read, and then could not be put together, at no
+        // place.
         ("sphere(5e-324);", "1:1", "smaller than"),
         ("multmatrix([[1, 1, 0, 0], [0, 5e-324, 0, 0], [0, 0, 1, 0]]) cube(2);", "1:61", "smaller than"),
         ("translate([0, 0, 1e306]) cube(1);", "1:26", "farther than 1e305"),
@@ -386,8 +390,8 @@ fn any_camera() -> impl Strategy<Value = Camera> {
     )
 }
 
-/// Drawn by [`any_view_of_any_scene`]: the start of each ray was moved once toward the world, which left one part in 2^52
-/// of the way, and cells were looked for from there in vain.
+/// Drawn by [`any_view_of_any_scene`]: the start of each ray was moved once toward the world, which left one
+/// part in 2^52 of the way, and cells were looked for from there in vain.
 #[test]
 fn from_farther_away_than_numbers_have_digits() {
     let text = format!("{LIGHTS} translate([0, 0, 1]) sphere(semi = [1, 2, 0.5]); sphere(1); cube(1);");

@@ -1,5 +1,5 @@
-//! Scenes and views at the ends of what numbers can hold. Each of these came from an attack on the program that found
-//! it wanting.
+//! Scenes and views at the ends of what numbers can hold. Each of these came from an attack on the program
+//! that found it wanting.
 
 use crate::support::request::request;
 use ray13::frame::{Frame, Studio};
@@ -50,8 +50,8 @@ fn drawn_by(scene: Scene, camera: &Camera, dots: Size) -> Frame {
 
 const MIDDLE: (u32, u32) = (10, 10);
 
-// The error of a crossing at the apex was infinite: alone, the cone was entered through its base; in a composite,
-// the crossing took all those behind it along.
+// The error of a crossing at the apex was infinite: alone, the cone was entered through its base; in a
+// composite, the crossing took all those behind it along.
 #[test]
 fn a_ray_through_the_apex_meets_the_cone() {
     let cone = "cylinder(h = 2, r1 = 1, r2 = 0, center = true);";
@@ -121,8 +121,8 @@ fn assert_same_scene(text: &str, plain: &str) {
     assert!(frame.counts.primary_hits > 100 || expected.counts.primary_hits == 0, "{text}");
 }
 
-// The face shown was the first in the file, which a far cutter or a far pivot had made less sure; the plate flush with it
-// was asked for its own error only, and lay in its own shadow.
+// The face shown was the first in the file, which a far cutter or a far pivot had made less sure; the plate
+// flush with it was asked for its own error only, and lay in its own shadow.
 #[test]
 fn flush_faces_of_unlike_errors_do_not_shade_each_other() {
     let plate = "translate([-0.5, -0.5, 0.1]) cube([1, 1, 0.2]);";
@@ -179,7 +179,8 @@ fn a_solid_minus_itself_is_nothing_however_unsure_the_copy() {
     }
 }
 
-// The share that a way of 1e55 there and back loses of a solid of 1 is no f32: the bound was infinite, and hid the solid.
+// The share that a way of 1e55 there and back loses of a solid of 1 is no f32: the bound was infinite, and
+// hid the solid.
 #[test]
 fn no_bound_hides_a_solid() {
     for solid in ["cylinder(h = 2, r = 1);", "rotate([1, 2, 3]) cube(1);", "scale([1, 2, 3]) sphere(0.5);"] {

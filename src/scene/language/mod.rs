@@ -1,8 +1,8 @@
 //! The scene language: the grammar of OpenSCAD's `.csg` files, and a few words for what OpenSCAD lacks.
 //!
-//! Text → tokens ([`lexer`]) → events with places ([`parser`], [`syntax`]) → scene ([`build`]), which knows its words
-//! from one table ([`vocabulary`]). Each event is used as it comes, so that no tree of the text is ever in memory.
-//! `docs/scene-language.md` describes the language for people.
+//! Text → tokens ([`lexer`]) → events with places ([`parser`], [`syntax`]) → scene ([`build`]), which knows
+//! its words from one table ([`vocabulary`]). Each event is used as it comes, so that no tree of the text is
+//! ever in memory. `docs/scene-language.md` describes the language for people.
 
 mod build;
 mod css_colors;
@@ -83,8 +83,9 @@ fn each(
     }
 }
 
-/// Whether a program wrote the text, so that wrong parts are left out: what ends in `.csg` does, and what has no ending,
-/// as standard input has none, where it names the settings that OpenSCAD gives to every round solid.
+/// Whether a program wrote the text, so that wrong parts are left out: what ends in `.csg` does, and what has
+/// no ending, as standard input has none, where it names the settings that OpenSCAD gives to every round
+/// solid.
 fn is_from_a_program(name: &str, text: &str) -> bool {
     match Path::new(name).extension() {
         Some(extension) => extension.eq_ignore_ascii_case("csg"),

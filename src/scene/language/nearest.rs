@@ -1,6 +1,7 @@
 //! The nearest right word to a misspelt one.
 
-/// Longer words get no proposal: the distance costs the product of both lengths, and no right word is as long.
+/// Longer words get no proposal: the distance costs the product of both lengths, and no right word is as
+/// long.
 const LONGEST: usize = 32;
 
 /// The candidate that the fewest edits make of `word`; none where more than a third of it would change.

@@ -32,8 +32,8 @@ impl Lamps {
         self.lamps.append(&mut next.lamps);
     }
 
-    /// Lights the scene. The format's own rule: each of L lights whose intensity is not given has √L / 2L, and so
-    /// has the ambient light. A file without lights leaves both as they are.
+    /// Lights the scene. The format's own rule: each of L lights whose intensity is not given has √L / 2L,
+    /// and so has the ambient light. A file without lights leaves both as they are.
     pub fn finish(self, scene: &mut Scene) {
         let count = self.lamps.len() as f64;
         let share = count.sqrt() / (2.0 * count);
@@ -143,8 +143,8 @@ impl Fills {
         })
     }
 
-    /// The same with those of what follows in the file, and which of them each of those now is. What came before the first
-    /// `f` there has the material that was the last here.
+    /// The same with those of what follows in the file, and which of them each of those now is. What came
+    /// before the first `f` there has the material that was the last here.
     pub fn append(&mut self, next: Self) -> Vec<MaterialId> {
         let of = |fill: Option<[f64; 8]>| match fill {
             Some(values) => self.id(values),

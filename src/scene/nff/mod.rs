@@ -1,8 +1,8 @@
 //! NFF, Eric Haines's Neutral File Format: spheres, open cones and cylinders, polygons and patches.
 //!
-//! Text → words ([`tokens`]) → entities ([`entity`]) → scene: [`view`], [`light`] and [`solids`] take what each
-//! entity says. Words count, not lines: a polygon may go on over as many as it likes. Stretches of a large text are read by
-//! all threads. `docs/nff.md` describes the format for people.
+//! Text → words ([`tokens`]) → entities ([`entity`]) → scene: [`view`], [`light`] and [`solids`] take what
+//! each entity says. Words count, not lines: a polygon may go on over as many as it likes. Stretches of a
+//! large text are read by all threads. `docs/nff.md` describes the format for people.
 
 mod entity;
 mod ignored;
@@ -64,9 +64,9 @@ const STRETCH: usize = 1 << 20;
 
 /// Reads stretches of about so many bytes by all threads. `None` for a text of one stretch, or with errors.
 ///
-/// Each stretch begins with a line that begins an entity. A text without errors means the same when it is read so: no
-/// entity that is right has a word among its numbers, so none goes on behind the beginning of another. Where there are
-/// errors, one thread has to find them in the order of the text.
+/// Each stretch begins with a line that begins an entity. A text without errors means the same when it is
+/// read so: no entity that is right has a word among its numbers, so none goes on behind the beginning of
+/// another. Where there are errors, one thread has to find them in the order of the text.
 fn in_stretches(text: &str, bytes: usize, options: &ReadOptions) -> Option<Reader> {
     let stretches = stretches(text, bytes);
     if stretches.len() == 1 {

@@ -1,5 +1,5 @@
-//! How much memory a scene will take, counted before it is read: stretches are read by many threads, which have no
-//! count in common.
+//! How much memory a scene will take, counted before it is read: stretches are read by many threads, which
+//! have no count in common.
 
 use crate::scene::memory::{ASSEMBLED, ASSEMBLED_FACES, ASSEMBLED_TRIANGLE, too_little};
 use crate::scene::{Diagnostic, Object};
@@ -7,7 +7,8 @@ use crate::scene::{Diagnostic, Object};
 /// Bytes that any shape takes.
 const SHAPE: u64 = size_of::<Object>() as u64 + ASSEMBLED;
 
-/// Bytes that a text takes at most for each of its own: the shortest sphere, `s 0 0 0 1` and a blank, has ten.
+/// Bytes that a text takes at most for each of its own: the shortest sphere, `s 0 0 0 1` and a blank, has
+/// ten.
 const MOST: u64 = 1 + SHAPE / 10;
 
 /// The error of a text whose scene takes more than `limit` bytes, where it does.

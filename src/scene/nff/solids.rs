@@ -38,7 +38,8 @@ impl Solids {
         let center = entity.vector(|| "the centre".to_owned())?;
         let [radius] = entity.numbers(["the radius"])?;
         entity.check(radius, radius.value > 0.0, "the radius is above 0")?;
-        // What has no reciprocal has no inverse map; the general question costs more than the rest of a sphere.
+        // What has no reciprocal has no inverse map; the general question costs more than the rest of a
+        // sphere.
         let large_enough = radius.value.recip().is_finite();
         entity.check(radius, large_enough, "it is smaller than a 64-bit float holds")?;
         let map = DAffine3::from_mat3_translation(DMat3::from_diagonal(DVec3::splat(radius.value)), center);

@@ -35,9 +35,9 @@ impl NffToken<'_> {
     }
 }
 
-/// A decimal of up to 15 digits without an exponent, which are most of all words: its digits as a whole number and the
-/// power of ten below them are both exact, so their quotient is rounded once (Clinger: How to read floating point numbers
-/// accurately, PLDI 1990). `None` for every other word.
+/// A decimal of up to 15 digits without an exponent, which are most of all words: its digits as a whole
+/// number and the power of ten below them are both exact, so their quotient is rounded once (Clinger: How to
+/// read floating point numbers accurately, PLDI 1990). `None` for every other word.
 #[inline]
 fn plain_decimal(word: &[u8]) -> Option<f64> {
     /// A whole number of so many digits is below 2^53.

@@ -9,7 +9,8 @@ use super::ignored::Extra;
 /// The words of a viewpoint, in the order that the format gives them; any other order is read too.
 const WORDS: [&str; 7] = ["from", "at", "up", "angle", "hither", "yon", "resolution"];
 
-/// The camera of a viewpoint. Its picture is square, and its angle is that between the outermost centres of dots.
+/// The camera of a viewpoint. Its picture is square, and its angle is that between the outermost centres of
+/// dots.
 pub fn camera(entity: &mut Entity) -> Result<Camera, Reported> {
     let (mut from, mut at, mut up, mut angle) = (None, None, None, None);
     while let Some(word) = entity.tokens.peek().filter(|token| WORDS.contains(&token.word)) {

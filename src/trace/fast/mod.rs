@@ -97,8 +97,8 @@ impl<'a> Fast<'a> {
         self.level
     }
 
-    /// Moves the starts of rays from the eye near to the world. Sets the path lengths there, in two parts that
-    /// are to be added to a distance, the second first.
+    /// Moves the starts of rays from the eye near to the world. Sets the path lengths there, in two parts
+    /// that are to be added to a distance, the second first.
     pub fn approach(&self, packet: &mut RayPacket, before: &mut [Lanes; 2]) {
         primary_packets::approach(packet, before, self.level);
     }
@@ -119,10 +119,10 @@ impl<'a> Fast<'a> {
         self.first_of_sources::<f64>(sources, &mut TracedPackets { own: &mut [], nearest }, memory).given_up
     }
 
-    /// The first hits of the rays from the eye through a tile, as [`Fast::first_of`] finds them. `nearest` has
-    /// as many as the tile has blocks. The rays of a block are made where they may meet anything; the answer
-    /// has a bit for each block whose are. Of the others nothing is to be read. `probe` is told when rays are
-    /// made.
+    /// The first hits of the rays from the eye through a tile, as [`Fast::first_of`] finds them. `nearest`
+    /// has as many as the tile has blocks. The rays of a block are made where they may meet anything; the
+    /// answer has a bit for each block whose are. Of the others nothing is to be read. `probe` is told when
+    /// rays are made.
     pub fn first_seen(
         &self,
         packets: &mut PrimaryPackets,

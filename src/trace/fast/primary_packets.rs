@@ -14,8 +14,8 @@ pub struct PrimaryPackets<'a> {
     pub camera: &'a TileCamera<'a>,
     /// As many as the tile has blocks.
     pub rays: &'a mut [RayPacket],
-    /// The path length from the eye to where each ray starts, in two parts that are to be added to a distance, the second
-    /// first.
+    /// The path length from the eye to where each ray starts, in two parts that are to be added to a
+    /// distance, the second first.
     pub before: &'a mut [[Lanes; 2]],
 }
 
@@ -27,8 +27,8 @@ impl PrimaryPackets<'_> {
     }
 }
 
-/// Moves the starts of rays from the eye near to the world. Sets the path lengths there, as [`PrimaryPackets::before`] has
-/// them.
+/// Moves the starts of rays from the eye near to the world. Sets the path lengths there, as
+/// [`PrimaryPackets::before`] has them.
 pub(super) fn approach(packet: &mut RayPacket, before: &mut [Lanes; 2], level: Level) {
     dispatch!(level, simd => approached(simd, packet, before));
 }

@@ -11,7 +11,8 @@ use crate::conformance::long::{cases, report};
 use crate::conformance::solids::{CYLINDER, moved, placed, scene, solid};
 use crate::conformance::tally::ulp;
 
-/// The same set with the operands in another order: all of a union or an intersection, the cuts of a difference.
+/// The same set with the operands in another order: all of a union or an intersection, the cuts of a
+/// difference.
 fn shuffled(solid: &Solid, chance: &mut Chance) -> Solid {
     let mut all = |parts: &[Solid], kept: usize| {
         let mut parts: Vec<Solid> = parts.iter().map(|part| shuffled(part, chance)).collect();
@@ -39,8 +40,8 @@ fn bars(places: &[(f64, f64)], half: f64, axis: usize) -> impl Iterator<Item = S
     })
 }
 
-/// A sponge of three levels of differences, most of whose faces are flush with others: bars are cut from a cube, balls
-/// and rods from the finer bars, and small cubes from the rods.
+/// A sponge of three levels of differences, most of whose faces are flush with others: bars are cut from a
+/// cube, balls and rods from the finer bars, and small cubes from the rods.
 fn sponge() -> Solid {
     let steps = [-2.0 / 3.0, 0.0, 2.0 / 3.0];
     let around: Vec<(f64, f64)> = steps

@@ -60,9 +60,9 @@ pub fn any_solid(chance: &mut Chance, depth: usize) -> Solid {
     }
 }
 
-/// So many times the rounding of a scene's maps an engine's own rounding comes to. Its bound for a point is 96 to 152
-/// ulps of its unit ([`ROUNDING`](ray13::solid::ROUNDING)); that of a map is 4 ulps of how far the solid reaches, which
-/// is half a unit at least for the farthest: 48 to 76 times as much.
+/// So many times the rounding of a scene's maps an engine's own rounding comes to. Its bound for a point is
+/// 96 to 152 ulps of its unit ([`ROUNDING`](ray13::solid::ROUNDING)); that of a map is 4 ulps of how far the
+/// solid reaches, which is half a unit at least for the farthest: 48 to 76 times as much.
 const ENGINE: f64 = 64.0;
 
 /// What was compared.
@@ -107,9 +107,9 @@ impl Comparison {
             if agrees(found, expected, ray, 1.0) {
                 continue;
             }
-            // Within the engine's bound of another answer it may be right: where other surfaces than the oracle's own
-            // tolerance makes one are one to it, and where the ray runs along a face or through an edge, or starts
-            // on a surface.
+            // Within the engine's bound of another answer it may be right: where other surfaces than the
+            // oracle's own tolerance makes one are one to it, and where the ray runs along a face or through
+            // an edge, or starts on a surface.
             let clusters = [0.0, 1.0 / ENGINE, ENGINE]
                 .map(|factor| Oracle::<Big>::with_tolerance(world, factor).hit(ray.o, ray.d));
             let beside = rays_beside(ray, ENGINE * map_error(world)).map(|ray| oracle.hit(ray.o, ray.d));
@@ -226,7 +226,8 @@ fn agrees(found: Option<Found>, expected: Option<Hit>, ray: &Ray, share: f64) ->
     match (found, expected) {
         (None, None) => true,
         (Some(found), Some(hit)) => {
-            // A surface is said to be entered or left by a normal of its own, which the oracle has no word for.
+            // A surface is said to be entered or left by a normal of its own, which the oracle has no word
+            // for.
             let enters = hit.entering.is_none_or(|entering| entering == found.entering);
             // A ray that starts afar was rounded there, and so is its length.
             let off = share * (found.error + 4.0 * ulp(found.t) + 4.0 * ulp(ray.o.abs().max_element()));

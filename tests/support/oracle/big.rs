@@ -1,4 +1,5 @@
-//! Numbers of 600 bits with exponents of 64: no length of f64, nor a product of many, is too large or too small.
+//! Numbers of 600 bits with exponents of 64: no length of f64, nor a product of many, is too large or too
+//! small.
 
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -8,9 +9,9 @@ use dashu_float::{Context, FBig, Repr};
 
 use super::number::Number;
 
-/// Every operation rounds to the nearest number of this many bits. A determinant of f64 numbers of like size needs
-/// 160; what cancels between a coefficient's square and a product is at most 2·log₂ of the ratios of lengths, 60 bits
-/// for a distance of 1e9 radii, 80 more for axes as 1 to 1e6 twice over.
+/// Every operation rounds to the nearest number of this many bits. A determinant of f64 numbers of like size
+/// needs 160; what cancels between a coefficient's square and a product is at most 2·log₂ of the ratios of
+/// lengths, 60 bits for a distance of 1e9 radii, 80 more for axes as 1 to 1e6 twice over.
 const BITS: usize = 600;
 
 const CONTEXT: Context<HalfEven> = Context::new(BITS);

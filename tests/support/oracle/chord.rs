@@ -13,8 +13,8 @@ pub struct End<N> {
     pub t: N,
     /// The number of the face, as the program numbers them.
     pub face: u32,
-    /// The tangent of the angle between the ray and the face's normal in the primitive's own coordinates: how much
-    /// farther along the ray the end moves than the face does. `l / √(1 − l²)` on a sphere.
+    /// The tangent of the angle between the ray and the face's normal in the primitive's own coordinates: how
+    /// much farther along the ray the end moves than the face does. `l / √(1 − l²)` on a sphere.
     pub tangent: f64,
 }
 
@@ -62,8 +62,8 @@ fn chord_of_line<N: Number>(primitive: &Primitive, o: &Row<N>, d: &Row<N>) -> Op
     Some(Chord { enter: end(&inside.first()?[0]), leave: end(&inside.last()?[1]) })
 }
 
-/// The tangent of the angle between a direction and a gradient, both given in the world, in the primitive's own
-/// coordinates.
+/// The tangent of the angle between a direction and a gradient, both given in the world, in the primitive's
+/// own coordinates.
 fn tangent<N: Number>(primitive: &Primitive, d: &Row<N>, outward: &[N; 3]) -> f64 {
     let d: [N; 3] = inverse::<N>(&primitive.map).map(|row| dot(&row, d));
     let matrix = primitive.map.matrix3;
@@ -73,8 +73,9 @@ fn tangent<N: Number>(primitive: &Primitive, d: &Row<N>, outward: &[N; 3]) -> f6
     if along.is_zero() { f64::INFINITY } else { (dot(&across, &across).sqrt() / along).value() }
 }
 
-/// Whether the ray, from its start on, must meet the primitive, must miss it, or neither, when the primitive may lie
-/// as far as `off` from its place along each axis of its own coordinates: it is put to the corners of that box.
+/// Whether the ray, from its start on, must meet the primitive, must miss it, or neither, when the primitive
+/// may lie as far as `off` from its place along each axis of its own coordinates: it is put to the corners of
+/// that box.
 pub fn verdict<N: Number>(primitive: &Primitive, ray: &Ray, off: DVec3) -> Verdict {
     let (o, d): (Row<N>, Row<N>) = (point(ray.o), direction(ray.d));
     let matrix = primitive.map.matrix3;
@@ -93,13 +94,13 @@ pub fn verdict<N: Number>(primitive: &Primitive, ray: &Ray, off: DVec3) -> Verdi
     }
 }
 
-/// How far a line passes from the middle of a curved surface, as a share of what it may without missing it: below 1 it
-/// crosses the surface, at 1 it touches its silhouette.
+/// How far a line passes from the middle of a curved surface, as a share of what it may without missing it:
+/// below 1 it crosses the surface, at 1 it touches its silhouette.
 ///
-/// For a sphere or ellipsoid it is the distance from the centre in the unit space. For the side of a frustum, extended
-/// beyond its caps, it is `|dₓo_y − d_yo_x|` over `|d ρ − ρ′ o|` in the cross-section, where `ρ` is the radius at the
-/// start and `ρ′` its change along the direction: both are the same from every point of the line, and for a cylinder
-/// their quotient is the distance from the axis in radii.
+/// For a sphere or ellipsoid it is the distance from the centre in the unit space. For the side of a frustum,
+/// extended beyond its caps, it is `|dₓo_y − d_yo_x|` over `|d ρ − ρ′ o|` in the cross-section, where `ρ` is
+/// the radius at the start and `ρ′` its change along the direction: both are the same from every point of the
+/// line, and for a cylinder their quotient is the distance from the axis in radii.
 pub fn silhouette<N: Number>(primitive: &Primitive, ray: &Ray) -> Option<f64> {
     let rows = inverse::<N>(&primitive.map);
     let (world_o, world_d): (Row<N>, Row<N>) = (point(ray.o), direction(ray.d));

@@ -1,10 +1,11 @@
-//! The depth of a scene along a ray, worked out the slow way: every surface of every primitive is one equation in
-//! world coordinates; all its crossings with the ray are sorted; and the points halfway between them are tested for
-//! membership in the whole CSG expression. No lattice, no intervals, no pruning, no coordinates of the primitive's
-//! own, and no code of the program's own.
+//! The depth of a scene along a ray, worked out the slow way: every surface of every primitive is one
+//! equation in world coordinates; all its crossings with the ray are sorted; and the points halfway between
+//! them are tested for membership in the whole CSG expression. No lattice, no intervals, no pruning, no
+//! coordinates of the primitive's own, and no code of the program's own.
 //!
-//! The arithmetic is a [`Number`]: [`Wide`] of 106 bits for whole pictures, [`Big`] of 600 bits with exponents of any
-//! size for scales and ratios at the ends of f64. The scene's and the ray's own f64 are taken as exact.
+//! The arithmetic is a [`Number`]: [`Wide`] of 106 bits for whole pictures, [`Big`] of 600 bits with
+//! exponents of any size for scales and ratios at the ends of f64. The scene's and the ray's own f64 are
+//! taken as exact.
 
 mod big;
 mod chord;
@@ -86,19 +87,20 @@ struct Crossing<N> {
     slack: f64,
 }
 
-/// A crossing counts as on a primitive's surface where its other sides are passed by no more than this, in the units
-/// of their equations (1 from the middle to the surface). Only the choice of candidates depends on it, not a depth:
-/// a candidate too many changes no membership.
+/// A crossing counts as on a primitive's surface where its other sides are passed by no more than this, in
+/// the units of their equations (1 from the middle to the surface). Only the choice of candidates depends on
+/// it, not a depth: a candidate too many changes no membership.
 const SLACK: f64 = 1e-9;
 
 impl<'a, N: Number> Oracle<'a, N> {
-    /// An oracle to which a stretch of a ray is of no account that vanishes when surfaces move by what was rounded in
-    /// their maps, which the scene says of each primitive.
+    /// An oracle to which a stretch of a ray is of no account that vanishes when surfaces move by what was
+    /// rounded in their maps, which the scene says of each primitive.
     pub fn new(scene: &'a Scene) -> Self {
         Self::with_tolerance(scene, 1.0)
     }
 
-    /// The same with so many times the scene's [`map_error`](Primitive::map_error); 0 takes its numbers at their word.
+    /// The same with so many times the scene's [`map_error`](Primitive::map_error); 0 takes its numbers at
+    /// their word.
     pub fn with_tolerance(scene: &'a Scene, tolerance: f64) -> Self {
         let mut size = 0.0_f64;
         for object in &scene.objects {
@@ -115,7 +117,8 @@ impl<'a, N: Number> Oracle<'a, N> {
         Self { scene, pieces, unit, tolerance }
     }
 
-    /// The first point in front of the origin where the ray enters or leaves an object, or meets an open surface.
+    /// The first point in front of the origin where the ray enters or leaves an object, or meets an open
+    /// surface.
     pub fn hit(&self, origin: DVec3, toward: DVec3) -> Option<Hit> {
         self.exact_hit(origin, toward).map(|(_, hit)| hit)
     }
@@ -147,8 +150,8 @@ impl<'a, N: Number> Oracle<'a, N> {
         Some((t.clone(), Hit { t: t.value(), ..hit }))
     }
 
-    /// How far a crossing may move along the ray when its surface moves by the tolerance; no farther than through
-    /// the whole piece.
+    /// How far a crossing may move along the ray when its surface moves by the tolerance; no farther than
+    /// through the whole piece.
     fn slack(&self, piece: &Piece<N>, normal: DVec3, toward: DVec3) -> f64 {
         let length = toward.length();
         let off = self.tolerance * piece.map_error;
@@ -156,8 +159,9 @@ impl<'a, N: Number> Oracle<'a, N> {
         (off / sine.max(f64::MIN_POSITIVE)).min(2.0 * piece.radius) / length
     }
 
-    /// The first point in front of the origin where the ray enters or leaves an object that is a solid. From outside
-    /// all of them that is where it enters their union; from inside one it may be an object that lies within it.
+    /// The first point in front of the origin where the ray enters or leaves an object that is a solid. From
+    /// outside all of them that is where it enters their union; from inside one it may be an object that lies
+    /// within it.
     fn solid_hit(&self, ray: &Ray<N>) -> Option<(N, f64, Hit)> {
         let mut crossings = Vec::new();
         for (index, piece) in self.pieces.iter().enumerate() {
@@ -214,8 +218,8 @@ impl<'a, N: Number> Oracle<'a, N> {
         self.scene.objects.iter().map(|object| member(&object.solid, &mut rest)).collect()
     }
 
-    /// The object and the surface that show at a place where objects change: the first object that changes there,
-    /// and the first of its pieces whose crossing makes a difference.
+    /// The object and the surface that show at a place where objects change: the first object that changes
+    /// there, and the first of its pieces whose crossing makes a difference.
     fn surface(&self, here: &[Crossing<N>], before: &[bool], after: &[bool], toward: DVec3) -> (N, f64, Hit) {
         let changes =
             |a: &[bool], b: &[bool], object: usize| self.in_objects(a)[object] != self.in_objects(b)[object];
@@ -282,8 +286,8 @@ impl<N: Number> Piece<N> {
         Self { object, surface, center, radius, map_error: primitive.displacement().length() / unit }
     }
 
-    /// Whether a ray comes near the ball; a hundredth of its radius, and what rounding takes from the way there, are
-    /// far more than any rounding.
+    /// Whether a ray comes near the ball; a hundredth of its radius, and what rounding takes from the way
+    /// there, are far more than any rounding.
     fn may_meet(&self, ray: &Ray<N>) -> bool {
         let d = ray.toward.normalize();
         let to = self.center - ray.origin;

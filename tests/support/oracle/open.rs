@@ -1,5 +1,5 @@
-//! Surfaces that bound no solid: polygons as frusta of triangles counted by parity, the wall of a tube as the quadric
-//! between its caps.
+//! Surfaces that bound no solid: polygons as frusta of triangles counted by parity, the wall of a tube as the
+//! quadric between its caps.
 
 use ray13::math::{DAffine3, DVec3};
 use ray13::scene::Shape;
@@ -34,8 +34,8 @@ impl<N: Number> Open<N> {
         }
     }
 
-    /// Where the ray first meets it; the normal of the surface there; and the normal that it shows, turned to the side
-    /// that the ray comes from.
+    /// Where the ray first meets it; the normal of the surface there; and the normal that it shows, turned to
+    /// the side that the ray comes from.
     pub fn first(&self, o: &Row<N>, d: &Row<N>, toward: DVec3) -> Option<(N, DVec3, DVec3)> {
         match self {
             Self::Tube(sides) => {

@@ -116,8 +116,8 @@ fn quadratic<N: Number>(a: &N, b: &N, c: &N) -> Vec<N> {
     roots
 }
 
-/// The sides of a convex shape, moved into the world: a point `p` of the world is inside where each side is 0 or less
-/// at it. They stand in the order of the program's own face numbers.
+/// The sides of a convex shape, moved into the world: a point `p` of the world is inside where each side is 0
+/// or less at it. They stand in the order of the program's own face numbers.
 pub fn sides<N: Number>(shape: &Shape, map: &DAffine3) -> Vec<Side<N>> {
     let rows = inverse::<N>(map);
     // The function a·x + b·y + c·z + w of the unit coordinates, as a row over the world's.

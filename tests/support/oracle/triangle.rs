@@ -61,8 +61,9 @@ impl<N: Number> Triangle<N> {
         dot(&normal, &normal)
     }
 
-    /// Where the line crosses it. A line through an edge that two triangles share crosses exactly one of those
-    /// two, or both or neither where they fold back, because both ask the same question about that edge.
+    /// Where the line crosses it. A line through an edge that two triangles share crosses exactly one of
+    /// those two, or both or neither where they fold back, because both ask the same question about that
+    /// edge.
     pub fn crossing(&self, o: &Row<N>, d: &Row<N>) -> Option<N> {
         let [a, b, c] = &self.corners;
         let turns = [(a, b), (b, c), (c, a)].map(|(p, q)| passes_left(p, q, o, d));
@@ -80,8 +81,8 @@ impl<N: Number> Triangle<N> {
     }
 }
 
-/// On which side the line passes the edge from `p` to `q`: the sign of a determinant, computed for the edge in one
-/// fixed order of its ends so that the edge's two triangles never disagree.
+/// On which side the line passes the edge from `p` to `q`: the sign of a determinant, computed for the edge
+/// in one fixed order of its ends so that the edge's two triangles never disagree.
 fn passes_left<N: Number>(p: &[N; 3], q: &[N; 3], o: &Row<N>, d: &Row<N>) -> bool {
     let swapped = p > q;
     let (first, second) = if swapped { (q, p) } else { (p, q) };

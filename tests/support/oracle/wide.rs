@@ -1,5 +1,6 @@
-//! Numbers of about 106 bits: the unevaluated sum of two f64 (Dekker 1971; Knuth's two-sum). With so many bits to
-//! spare, the textbook formulas are accurate enough, and nothing clever is shared with the program under test.
+//! Numbers of about 106 bits: the unevaluated sum of two f64 (Dekker 1971; Knuth's two-sum). With so many
+//! bits to spare, the textbook formulas are accurate enough, and nothing clever is shared with the program
+//! under test.
 
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};

@@ -204,7 +204,8 @@ fn a_chord_names_its_faces() {
     assert_eq!(faces(Shape::Cube, [0.0, 0.1, 3.0], [0.0, 0.0, -1.0]), Some((2.0, 5, 4.0, 4)));
     assert_eq!(faces(CYLINDER, [0.0, 0.0, -3.0], [0.0, 0.0, 1.0]), Some((2.0, 1, 4.0, 2)));
     assert_eq!(faces(CYLINDER, [-3.0, 0.0, 0.0], [1.0, 0.0, 0.0]), Some((2.0, 0, 4.0, 0)));
-    // Steeper than the side of the cone: in through the base, out through the side; and above its tip, nothing.
+    // Steeper than the side of the cone: in through the base, out through the side; and above its tip,
+    // nothing.
     assert_eq!(faces(CONE, [0.25, 0.0, -3.0], [0.0, 0.0, 1.0]), Some((2.0, 1, 3.5, 0)));
     assert_eq!(faces(CONE, [-3.0, 0.0, 1.5], [1.0, 0.0, 0.0]), None);
     // A line that only touches is not inside.

@@ -134,7 +134,8 @@ impl<'c, 'a> BoundArguments<'c, 'a> {
         self.refuse(error.help(format!("give it: {name} = {takes}")), Lost::Empty, sink)
     }
 
-    /// An error of the call; where wrong parts are left out, a note that a primitive, or what a map holds, is `lost`.
+    /// An error of the call; where wrong parts are left out, a note that a primitive, or what a map holds, is
+    /// `lost`.
     pub fn refuse(&self, error: Diagnostic, lost: Lost, sink: &mut Sink) -> Lost {
         let name = self.word.name;
         let what = match self.word.meaning {
@@ -182,8 +183,8 @@ impl<'c, 'a> BoundArguments<'c, 'a> {
         }
     }
 
-    /// Whether numbers that are no colour are taken as the nearest that is one, which is said: where wrong parts are left
-    /// out, a part is not left out for its colour.
+    /// Whether numbers that are no colour are taken as the nearest that is one, which is said: where wrong
+    /// parts are left out, a part is not left out for its colour.
     fn is_clamped(
         &self,
         parameter: &Parameter,

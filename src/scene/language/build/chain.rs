@@ -6,8 +6,8 @@ use crate::math::{Bounds, DAffine3, DMat3, DVec3, is_singular, product_rest};
 use crate::scene::Diagnostic;
 use crate::scene::language::syntax::TextSpan;
 
-/// What the numbers of a turn lost before they were there, as a share of 1: three turns by Rodrigues' formula, 9 roundings
-/// of sine, cosine and axis each, are 27 half-ulps, rounded up to 28.
+/// What the numbers of a turn lost before they were there, as a share of 1: three turns by Rodrigues'
+/// formula, 9 roundings of sine, cosine and axis each, are 27 half-ulps, rounded up to 28.
 const TURNED: f64 = 14.0 * f64::EPSILON;
 
 /// What a decimal number loses when it becomes an f64: half an ulp.
@@ -70,12 +70,13 @@ impl Chain {
         &self.product
     }
 
-    /// How far along each axis a point of the box may lie from where exact arithmetic would put it in the world, to
-    /// first order.
+    /// How far along each axis a point of the box may lie from where exact arithmetic would put it in the
+    /// world, to first order.
     ///
-    /// Each map adds what its own numbers lost, which those above it carry into the world, and what the product lost when
-    /// it was multiplied to it. Whole and half numbers lose nothing. The parts of the product are multiplied out, not the
-    /// norms of the maps: of a hundred turns the hundredth is not more off than a hundred times the first.
+    /// Each map adds what its own numbers lost, which those above it carry into the world, and what the
+    /// product lost when it was multiplied to it. Whole and half numbers lose nothing. The parts of the
+    /// product are multiplied out, not the norms of the maps: of a hundred turns the hundredth is not more
+    /// off than a hundred times the first.
     pub fn error(&self, b: &Bounds) -> DVec3 {
         let (mut points, mut error) = (b.corners(), DVec3::ZERO);
         let mut next = self.last.as_ref();
@@ -91,8 +92,8 @@ impl Chain {
     }
 }
 
-/// How far each number of a map may be from what was meant. A multiple of a half, such as 0 and 1 in a quarter turn, is
-/// exactly that.
+/// How far each number of a map may be from what was meant. A multiple of a half, such as 0 and 1 in a
+/// quarter turn, is exactly that.
 fn unsure(own: &DAffine3, numbers: Numbers) -> DAffine3 {
     // Larger numbers are not written digit by digit.
     let whole = |x: f64| (2.0 * x).fract() == 0.0 && x.abs() < libm::ldexp(1.0, 52);

@@ -4,8 +4,8 @@ use crate::math::DVec3;
 use crate::scene::language::css_colors::CSS_COLORS;
 use crate::scene::language::nearest::nearest;
 
-/// A CSS name in any case, or `#rgb`, `#rgba`, `#rrggbb`, `#rrggbbaa`: a colour of the screen (sRGB), given as
-/// the light that shows it; and its alpha.
+/// A CSS name in any case, or `#rgb`, `#rgba`, `#rrggbb`, `#rrggbbaa`: a colour of the screen (sRGB), given
+/// as the light that shows it; and its alpha.
 pub fn by_name(name: &str) -> Option<(DVec3, Option<f64>)> {
     if let Some(digits) = name.strip_prefix('#') {
         return by_digits(digits);

@@ -1,7 +1,8 @@
 //! Calls that are open, and the stack of solids on which what they hold waits for them.
 //!
-//! An operator takes its operands off the stack only where it becomes an operand of another kind of operator: so no list is
-//! copied from level to level, and reading stays linear in the length of the text however the text is nested.
+//! An operator takes its operands off the stack only where it becomes an operand of another kind of operator:
+//! so no list is copied from level to level, and reading stays linear in the length of the text however the
+//! text is nested.
 
 use super::Builder;
 use super::frame::{BuiltCall, OpenCall, Run};
@@ -12,8 +13,8 @@ use crate::scene::memory::ASSEMBLED_OPERATOR;
 use crate::scene::{Diagnostic, Object, Solid};
 
 impl Builder {
-    /// Before another child of the innermost call: makes one solid of the child before it, where its operands would not
-    /// be those of the call.
+    /// Before another child of the innermost call: makes one solid of the child before it, where its operands
+    /// would not be those of the call.
     pub(super) fn make_room(&mut self) {
         let Some(frame) = self.frames.last_mut() else { return };
         if let (Some(operator), Run::Operands(own)) = (frame.operator(), frame.run)

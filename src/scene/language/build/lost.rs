@@ -5,7 +5,8 @@ use crate::scene::diagnostic::Reported;
 /// What a call without a solid is to what holds it. Why there is none has gone to the sink.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lost {
-    /// Nothing, as OpenSCAD means it: a cube of no size. A difference from it is nothing, an intersection with it, too.
+    /// Nothing, as OpenSCAD means it: a cube of no size. A difference from it is nothing, an intersection
+    /// with it, too.
     Empty,
     /// Something that is not known: an operator that needs it is not known either.
     Missing,

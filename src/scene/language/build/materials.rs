@@ -104,8 +104,8 @@ impl Surfaces {
             material.name = None;
             material.color = color;
             if alpha < 1.0 {
-                // As a picture behind a pane: alpha of its colour and of what it mirrors, and the rest of what stands
-                // behind.
+                // As a picture behind a pane: alpha of its colour and of what it mirrors, and the rest of
+                // what stands behind.
                 material.color *= alpha;
                 material.kr *= alpha;
                 material.kt = 1.0 - alpha;

@@ -87,8 +87,8 @@ impl Builder {
         }
     }
 
-    /// Takes an event, as if the text had neither definitions nor assignments nor a root, or with what a survey found
-    /// of them.
+    /// Takes an event, as if the text had neither definitions nor assignments nor a root, or with what a
+    /// survey found of them.
     pub fn take(&mut self, event: &SyntaxEvent<'_>) -> Flow {
         match event {
             SyntaxEvent::Assignment(..) if self.survey.is_done() => {}

@@ -76,7 +76,8 @@ impl Builder {
                 let role = self.role(call, word, is_object);
                 let inner = match self.enter(call, word, &context) {
                     Ok(inner) => inner,
-                    // What is below a wrong map is left out. Where it is an error, errors below it are looked for, too.
+                    // What is below a wrong map is left out. Where it is an error, errors below it are looked
+                    // for, too.
                     Err(lost) if self.sink.leaves_out() && self.sink.is_clean() => {
                         return self.lose(lost, call);
                     }

@@ -21,7 +21,8 @@ pub struct EarClipper {
     budget: f64,
 }
 
-/// The side of a cell of OpenSCAD's grid (`GRID_FINE`), in the scene's unit: 2⁻²⁰. Points in one cell are one point there.
+/// The side of a cell of OpenSCAD's grid (`GRID_FINE`), in the scene's unit: 2⁻²⁰. Points in one cell are one
+/// point there.
 const GRID: f64 = 1.0 / (1 << 20) as f64;
 
 /// Cubed corners of a scene's faces: a quarter of a second at worst; one face of 1,700 corners.
@@ -50,8 +51,8 @@ impl EarClipper {
 
 /// Bytes that reading a `polyhedron` call takes at most beside its values, by the number of those.
 pub fn bytes(arguments: &BoundArguments<'_, '_>) -> u64 {
-    // A point, its places in the lists and in the map of points; a corner's share of triangles, and of the sets of them
-    // and of their edges.
+    // A point, its places in the lists and in the map of points; a corner's share of triangles, and of the
+    // sets of them and of their edges.
     const OF_POINT: u64 = 120;
     const OF_CORNER: u64 = 120;
     let items = |name: &str| match arguments.value(name).map(|value| &value.value) {
@@ -84,8 +85,8 @@ pub fn polyhedron(
     let call = Call { arguments, points, faces };
     let exact = call.surface(Merging::Equal, clipper, sink)?;
     let Some(open) = &exact.open else { return Ok(exact.shape()) };
-    // Points that a program computed twice differ in their last digits; to OpenSCAD they are one. Only those on open
-    // edges are merged here: what is closed may be thinner than the grid, and stays.
+    // Points that a program computed twice differ in their last digits; to OpenSCAD they are one. Only those
+    // on open edges are merged here: what is closed may be thinner than the grid, and stays.
     if let Ok(welded) = call.surface(Merging::Near(&exact.open_corners()), clipper, &mut Sink::new(true))
         && welded.open.is_none()
     {
@@ -210,8 +211,8 @@ impl Call<'_, '_> {
         Ok(corners)
     }
 
-    /// The corners of a face, without neighbours that are the same point. Fewer than three: no area. None where the face
-    /// is left out.
+    /// The corners of a face, without neighbours that are the same point. Fewer than three: no area. None
+    /// where the face is left out.
     fn polygon(
         &self,
         corners: &Corners,
@@ -278,7 +279,8 @@ struct Corners {
     cells: HashMap<[i64; 3], u32>,
 }
 
-/// So many cells from 0 a cell's number is no longer exact in 64 bits: 8.8e12. The grid is far finer there than the numbers are.
+/// So many cells from 0 a cell's number is no longer exact in 64 bits: 8.8e12. The grid is far finer there
+/// than the numbers are.
 const FARTHEST: f64 = 9e18;
 
 impl Corners {
@@ -300,8 +302,8 @@ impl Corners {
         self.merged.push(place);
     }
 
-    /// The cell of OpenSCAD's grid in which a point is: the nearest in which one is already, of its own and the
-    /// neighbouring ones, as in `Grid3d::align`.
+    /// The cell of OpenSCAD's grid in which a point is: the nearest in which one is already, of its own and
+    /// the neighbouring ones, as in `Grid3d::align`.
     fn cell(&self, point: DVec3) -> [i64; 3] {
         let own = (point / GRID).round().to_array().map(|x| x as i64);
         let around = |i: i64| [i % 3, i / 3 % 3, i / 9].map(|step| step - 1);
@@ -337,8 +339,8 @@ fn triangulate(points: &[DVec3], polygon: &[u32], clipper: &mut EarClipper, mut 
         }
     };
     let flat = flattened(points, polygon);
-    // Of a face that is not convex, too, a frusta is right by the parity rule: where its triangles overlap they
-    // cancel. But every overlap costs each ray that passes it.
+    // Of a face that is not convex, too, a frusta is right by the parity rule: where its triangles overlap
+    // they cancel. But every overlap costs each ray that passes it.
     let ears = if is_convex(&flat) { None } else { clipper.clip(&flat) };
     let Some(ears) = ears else { return frusta(polygon) };
     // Ear clipping leaves out corners that lie on a straight line, and other faces may still end there. What

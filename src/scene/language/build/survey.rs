@@ -1,7 +1,8 @@
-//! A first reading of a text for what may stand below its uses: definitions, `$fn` of the whole file, and a root (`!`).
+//! A first reading of a text for what may stand below its uses: definitions, `$fn` of the whole file, and a
+//! root (`!`).
 //!
-//! Most long files have none of them, because a program wrote them: they are read once, and again only where the first
-//! of them turns up.
+//! Most long files have none of them, because a program wrote them: they are read once, and again only where
+//! the first of them turns up.
 
 use crate::scene::language::dictionary::{Known, look_up};
 use crate::scene::language::syntax::{Call, Value};

@@ -15,7 +15,8 @@ use crate::scene::Diagnostic;
 use crate::scene::diagnostic::{Reported, Sink};
 use crate::scene::memory::Memory;
 
-/// Braces, chained calls and brackets may be nested so deep: programs write 267 levels, OpenSCAD reads some 600.
+/// Braces, chained calls and brackets may be nested so deep: programs write 267 levels, OpenSCAD reads some
+/// 600.
 pub const MAX_DEPTH: usize = 2000;
 
 const EXPORT: &str = "arithmetic, variables and modules are OpenSCAD's work: \

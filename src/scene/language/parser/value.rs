@@ -125,7 +125,8 @@ impl<'a> Parser<'a> {
     }
 }
 
-/// A number too large is an error of its own, after which the parse goes on; or what the word that takes it leaves out.
+/// A number too large is an error of its own, after which the parse goes on; or what the word that takes it
+/// leaves out.
 fn finite(number: f64, token: Token<'_>, sink: &mut Sink) -> Result<f64, Reported> {
     if number.is_finite() || sink.leaves_out() {
         return Ok(number);

@@ -190,7 +190,8 @@ fn views_lights_and_the_world() {
 
 #[test]
 fn a_file_as_openscad_writes_it() {
-    // The shape of OpenSCAD's own example "CSG-modules": groups for modules, colours, settings on every solid.
+    // The shape of OpenSCAD's own example "CSG-modules": groups for modules, colours, settings on every
+    // solid.
     let scene: Scene = scene(
         "group() {
 	multmatrix([[1, 0, 0, -24], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) {

@@ -1,6 +1,7 @@
 //! Parts that are wrong in themselves: left out of what a program wrote, an error in what a person wrote.
 //!
-//! Of 844 files that OpenSCAD had written 23 were refused for one such part each, all the rest of them with it.
+//! Of 844 files that OpenSCAD had written 23 were refused for one such part each, all the rest of them with
+//! it.
 
 use super::structured;
 use crate::math::DVec3;
@@ -13,8 +14,8 @@ fn skipping(name: &str, text: &str) -> Result<Scene, Diagnostics> {
     read(name, text.as_bytes(), &ReadOptions { skip_unsupported: true, ..ReadOptions::default() })
 }
 
-/// What is left of a program's file, and what is said of it; the same as is left of a person's file on demand, which is
-/// an error otherwise.
+/// What is left of a program's file, and what is said of it; the same as is left of a person's file on
+/// demand, which is an error otherwise.
 fn left(text: &str) -> (String, Vec<String>) {
     let scene = read("part.csg", text.as_bytes(), &ReadOptions::default())
         .unwrap_or_else(|errors| panic!("{text}\n{errors}"));

@@ -1,3 +1,5 @@
+//! Whether what a culler leaves out is never met.
+
 use fearless_simd::{Level, dispatch};
 use proptest::prelude::*;
 

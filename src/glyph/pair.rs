@@ -3,9 +3,9 @@
 //!
 //! The measure is that of [`fit`](super::fit): an error e over the dots is seen with the squared strength
 //! `eᵀ K e`, in each axis of L*a*b* alike. With the dots m in ink and n in paper, e = l − a m − b n, and the
-//! best a and b of a parting are those of least squares: `mᵀKm a + mᵀKn b = mᵀKl` and `mᵀKn a + nᵀKn b = nᵀKl`.
-//! Where there are levels, each of the two is then shown by the nearest: the pair that is nearest as a whole
-//! would weave two levels over every surface that lies between them.
+//! best a and b of a parting are those of least squares: `mᵀKm a + mᵀKn b = mᵀKl` and
+//! `mᵀKn a + nᵀKn b = nᵀKl`. Where there are levels, each of the two is then shown by the nearest: the pair
+//! that is nearest as a whole would weave two levels over every surface that lies between them.
 
 use super::cell::Cell;
 use super::eye::{Dots, overlaps};

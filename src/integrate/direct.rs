@@ -30,7 +30,7 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
         let (level, illumination) = (self.engine.level(), self.illumination());
         let wave = &mut memory.tile.waves[generation];
         for k in 0..wave.rays.len() {
-            let (hits, known) = (wave.surfaces[k].hits, wave.known[k]);
+            let (hits, known) = (wave.surfaces[k].hits, wave.resolved_singly[k]);
             for (part, light) in wave.light_mut(k).iter_mut().enumerate() {
                 before_lamps(illumination.background.part(part), hits, known, light, level);
             }

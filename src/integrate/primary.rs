@@ -69,7 +69,7 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
             let found = wave.found(k);
             meter.counts.primary_hits += u64::from(found.count_ones());
             if let Some(hits) = keep.as_mut().filter(|_| found != 0) {
-                hits.keep(k, BlockHits::new(&wave.nearest[k], wave.known[k], &met_singly));
+                hits.keep(k, BlockHits::new(&wave.nearest[k], wave.resolved_singly[k], &met_singly));
             }
         }
     }
@@ -120,7 +120,7 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
             let hit = self.single.engine.first(&ray, &mut memory.engine, meter);
             let sent = PathState::primary(ray, wave.inside.clone());
             let single = SingleRay { at, sent: &sent, hit };
-            if let Some(met) = self.take(wave, &single, goal, memory, meter) {
+            if let Some(met) = self.record_single(wave, &single, goal, memory, meter) {
                 met_singly.push((at, met));
             }
         }

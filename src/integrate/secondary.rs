@@ -84,7 +84,7 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
                 let at = queue.place(number);
                 if wave.nearest[at.packet].unsure >> at.lane & 1 == 1 {
                     let hit = self.single.engine.next(&sent.ray, *departure, &mut memory.engine, meter);
-                    self.take(wave, &SingleRay { at, sent, hit }, Goal::Light, memory, meter);
+                    self.record_single(wave, &SingleRay { at, sent, hit }, Goal::Light, memory, meter);
                 }
             }
         }

@@ -19,10 +19,10 @@ pub(super) struct SingleRay<'a> {
 }
 
 impl<C: Channel> WavefrontIntegrator<'_, C> {
-    /// Takes over what one ray met that was traced by itself, the last one. Where that is more than one
-    /// surface in one place, its light is found at once, as far as light is asked for; else its normal is
-    /// still to be found.
-    pub(super) fn take(
+    /// Stores what a ray met that was traced singly, the last one. Where several surfaces coincide there, it
+    /// is resolved and lit now, as far as light is asked for, and marked as resolved; else its normal is
+    /// found later, with the packet's.
+    pub(super) fn record_single(
         &self,
         wave: &mut Wavefront<C>,
         ray: &SingleRay,
@@ -44,7 +44,7 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
         }
         meter.at(Stage::Cell);
         wave.nearest[at.packet].set(at.lane, Some(&met.hit));
-        wave.known[at.packet] |= 1 << at.lane;
+        wave.resolved_singly[at.packet] |= 1 << at.lane;
         Some(met)
     }
 
@@ -57,10 +57,10 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
     ) {
         let (level, illumination) = (self.engine.level(), self.illumination());
         let assembly = illumination.assembly;
-        let Wavefront { rays, before, nearest, surfaces, departures, known, .. } = wave;
+        let Wavefront { rays, before, nearest, surfaces, departures, resolved_singly, .. } = wave;
         let (packet, nearest, surfaces) = (&rays[k], &nearest[k], &mut surfaces[k]);
         surfaces.set_points(packet, &before[k], nearest, level);
-        surfaces.hits &= !known[k];
+        surfaces.hits &= !resolved_singly[k];
         for (RayIndex { lane, .. }, met) in met_singly {
             surfaces.p.set(*lane, met.p);
             surfaces.path_length.0[*lane] = met.hit.t;
@@ -74,7 +74,9 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
             let hit = Hit { t: 0.0, error: 0.0, p, object: 0, primitive, surface, entering: true };
             departures[k].set(at.lane, &illumination.departure(&hit, p, normal));
         }
-        for (RayIndex { lane, .. }, met) in met_singly.iter().filter(|(at, _)| known[k] >> at.lane & 1 == 1) {
+        for (RayIndex { lane, .. }, met) in
+            met_singly.iter().filter(|(at, _)| resolved_singly[k] >> at.lane & 1 == 1)
+        {
             surfaces.normal.set(*lane, met.normal);
         }
     }

@@ -61,7 +61,7 @@ pub(super) struct Wavefront<C> {
     pub light: Vec<Lanes>,
     /// The rays that met several surfaces in one place, a bit for each: their surface is known already, and
     /// its light, where light is asked for.
-    pub known: Vec<u64>,
+    pub resolved_singly: Vec<u64>,
     /// The mirror rays of this generation, and its Snell rays; none in the first.
     pub queues: [RayQueue; 2],
     /// Whether its rays are so incoherent that those towards the lamps are better traced as a stream.
@@ -96,7 +96,7 @@ impl<C> Wavefront<C> {
             surfaces: Vec::new(),
             departures: Vec::new(),
             light: Vec::new(),
-            known: Vec::new(),
+            resolved_singly: Vec::new(),
             queues: Default::default(),
             incoherent: false,
             parts: std::marker::PhantomData,
@@ -115,8 +115,8 @@ impl<C: Channel> Wavefront<C> {
             self.light.resize(count * C::PARTS, Lanes::filled(0.0));
         }
         self.incoherent = false;
-        self.known.clear();
-        self.known.resize(count, 0);
+        self.resolved_singly.clear();
+        self.resolved_singly.resize(count, 0);
     }
 
     /// Forgets the rays that were sent on to it.
@@ -221,7 +221,7 @@ impl<C: Channel> Wavefront<C> {
     /// Which rays of a packet met something, a bit for each.
     #[inline]
     pub fn found(&self, packet: usize) -> u64 {
-        self.surfaces[packet].hits | self.known[packet]
+        self.surfaces[packet].hits | self.resolved_singly[packet]
     }
 
     /// What one ray met; the distance is that from the eye.

@@ -132,7 +132,7 @@ impl Ball {
     }
 
     /// The share of its errors that our own rounding may have made.
-    pub fn seeming(&self) -> f64 {
+    pub fn rounding_share(&self) -> f64 {
         (SEEN / self.off).min(1.0)
     }
 

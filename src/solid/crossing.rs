@@ -86,19 +86,19 @@ pub fn at_start(end: &End, form: &WorldShape, departure: Option<Departure>) -> b
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PlaceError<N> {
     pub off: N,
-    pub seeming: N,
+    pub rounding_share: N,
 }
 
 impl PlaceError<f64> {
     /// That of a primitive.
     #[inline(always)]
     pub fn of(form: &WorldShape) -> Self {
-        Self { off: form.off(), seeming: form.seeming() }
+        Self { off: form.off(), rounding_share: form.rounding_share() }
     }
 }
 
 /// Up to which distance a crossing with this error lies at the start of its ray, given how far its primitive
-/// is off, and which share of that is seeming.
+/// is off, and rounding's share of that.
 #[inline(always)]
 pub(super) fn start_of<N, M>(error: N, own: PlaceError<M>, departure_off: Option<N>) -> N
 where
@@ -106,7 +106,7 @@ where
 {
     match departure_off {
         Some(off) => error * (off / own.off + 1.0),
-        None => error * 2.0 * own.seeming,
+        None => error * 2.0 * own.rounding_share,
     }
 }
 
@@ -136,7 +136,11 @@ impl<N: Number> RayStarts<N> {
 
     #[inline(always)]
     fn reach(&self, end: &Ends<N>, form: &WorldShape) -> N {
-        start_of(end.error, PlaceError { off: form.off() * N::COARSER, seeming: form.seeming() }, self.off)
+        start_of(
+            end.error,
+            PlaceError { off: form.off() * N::COARSER, rounding_share: form.rounding_share() },
+            self.off,
+        )
     }
 }
 

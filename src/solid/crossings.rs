@@ -181,7 +181,7 @@ fn next_place<S: Simd, T: Real>(
 ) -> [u64; 3] {
     let shift = row * T::LANES;
     let (infinite, zero) = (T::all(simd, f64::INFINITY), T::all(simd, 0.0));
-    let (mut t, mut error, mut off, mut seeming) = (infinite, zero, zero, zero);
+    let (mut t, mut error, mut off, mut rounding_share) = (infinite, zero, zero, zero);
     for leaf in 0..sides.places.len() {
         let known = sides.of(leaf);
         for side in known.sides() {
@@ -193,10 +193,11 @@ fn next_place<S: Simd, T: Real>(
             t = sooner.choose(their_t, t);
             error = sooner.choose(side.error.load(simd, row), error);
             off = sooner.choose(T::all(simd, known.off), off);
-            seeming = sooner.choose(T::all(simd, known.seeming), seeming);
+            rounding_share = sooner.choose(T::all(simd, known.rounding_share), rounding_share);
         }
     }
-    let start = start_of(error, PlaceError { off, seeming }, departures.map(|d| d.off.load(simd, row)));
+    let start =
+        start_of(error, PlaceError { off, rounding_share }, departures.map(|d| d.off.load(simd, row)));
     let open = T::row_of(simd, open, row);
     let ended = open & (t.is_equal(infinite) | t.is_above(T::all(simd, reach.to)));
     let (asking, limit) = (open & !ended, t + error);

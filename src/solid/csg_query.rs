@@ -39,7 +39,7 @@ impl Departures {
     pub const NONE: Self =
         Self { primitive: Lanes::filled(Self::NOWHERE), inward: 0, off: Lanes::filled(0.0) };
 
-    /// Sets the surface that one ray starts on; it goes to the outside unless it did to the inside before.
+    /// Sets the surface that one ray starts on, and whether it goes inward.
     pub fn set(&mut self, lane: usize, departure: &Departure) {
         self.primitive.0[lane] = departure.primitive;
         self.off.0[lane] = departure.off;

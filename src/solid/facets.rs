@@ -21,7 +21,7 @@ pub struct ConvexPolyhedron {
     /// The largest of them.
     displacement: f64,
     /// The least share of it that is our own rounding.
-    seeming: f64,
+    rounding_share: f64,
     thickness: f64,
 }
 
@@ -48,13 +48,13 @@ impl ConvexPolyhedron {
         let bounds = unit.bounds.mapped(&map);
         let seen = rounding_at(place.center.length());
         let off: Box<[f64]> = faces.iter().map(|face| seen + face.normal.abs().dot(map_error)).collect();
-        let seeming = off.iter().map(|off| seen / off).fold(1.0, f64::min);
+        let rounding_share = off.iter().map(|off| seen / off).fold(1.0, f64::min);
         let displacement = off.iter().fold(0.0, |most: f64, &off| most.max(off));
         // The narrowest unit solid, a prism of three sides, is 1.5 thick, a pyramid over it more than a third
         // of that.
         let thickness = 0.5 / norm(&place.inverse);
         let (center, corners) = (place.center, Box::default());
-        Self { faces, center, bounds, corners, off, displacement, seeming, thickness }
+        Self { faces, center, bounds, corners, off, displacement, rounding_share, thickness }
     }
 
     /// The same solid, with its corners.
@@ -101,7 +101,7 @@ impl ConvexPolyhedron {
             );
         }
         spans.if_any(
-            self.seeming,
+            self.rounding_share,
             #[inline(always)]
             |surface| surface,
         )
@@ -113,8 +113,8 @@ impl ConvexPolyhedron {
     }
 
     /// The share of its errors that our own rounding may have made.
-    pub fn seeming(&self) -> f64 {
-        self.seeming
+    pub fn rounding_share(&self) -> f64 {
+        self.rounding_share
     }
 
     /// How far two parallel planes around it are apart at least, or less.

@@ -140,13 +140,13 @@ impl WorldShape {
     /// The share of its crossings' errors that our own rounding may have made; the rest its map lost when it
     /// was composed. What is made of corners knows no such share.
     #[inline]
-    pub(super) fn seeming(&self) -> f64 {
+    pub(super) fn rounding_share(&self) -> f64 {
         match self {
-            Self::Ball(ball) => ball.seeming(),
-            Self::AxisBox(slabs) => slabs.seeming(),
-            Self::SkewBox(slabs) => slabs.seeming(),
-            Self::Round(round) => round.seeming(),
-            Self::Facets(facets) => facets.seeming(),
+            Self::Ball(ball) => ball.rounding_share(),
+            Self::AxisBox(slabs) => slabs.rounding_share(),
+            Self::SkewBox(slabs) => slabs.rounding_share(),
+            Self::Round(round) => round.rounding_share(),
+            Self::Facets(facets) => facets.rounding_share(),
             Self::Mesh(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => 1.0,
         }
     }
@@ -166,7 +166,10 @@ impl WorldShape {
     /// Whether it is a solid that a ray meets in one span at most.
     #[inline]
     pub fn is_convex(&self) -> bool {
-        !matches!(self, Self::Mesh(_)) && !self.is_surface()
+        match self {
+            Self::Ball(_) | Self::AxisBox(_) | Self::SkewBox(_) | Self::Round(_) | Self::Facets(_) => true,
+            Self::Mesh(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => false,
+        }
     }
 
     /// Whether it is a surface, which bounds no solid.

@@ -56,8 +56,8 @@ impl Round {
     }
 
     /// The share of its errors that our own rounding may have made.
-    pub fn seeming(&self) -> f64 {
-        self.space.seeming
+    pub fn rounding_share(&self) -> f64 {
+        self.space.rounding_share
     }
 
     /// The outward normals at points of the surface, of length 1; along the axis at the apex of a cone.
@@ -128,7 +128,7 @@ fn sphere_spans<N: Number>(rays: &Centred<N>) -> Spans<N> {
     }
     let l = l_squared.root();
     let half_squared = (-l + 1.0) * (l + 1.0);
-    let least = if N::DECIDES { across * 2.0 * rays.seeming } else { grazing };
+    let least = if N::DECIDES { across * 2.0 * rays.rounding_share } else { grazing };
     let any = near_enough & half_squared.is_above(least);
     let root = half_squared.root();
     let slowness = rays.t.same(1.0) / rays.d_squared.root();
@@ -182,7 +182,7 @@ fn cone_spans<N: Number>(rays: &Centred<N>, taper: &Taper) -> Spans<N> {
         Ends { t: rays.t + side.leave.t, ..side.leave },
     );
     spans.if_any(
-        rays.seeming,
+        rays.rounding_share,
         #[inline(always)]
         |surface| surface.smaller(bottom),
     )

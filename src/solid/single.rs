@@ -46,7 +46,7 @@ pub(super) fn decide_single<S: Simd, T: Real>(
             #[inline(always)]
             |d| d.off.load(simd, row),
         );
-        let own = PlaceError { off: known.off, seeming: known.seeming };
+        let own = PlaceError { off: known.off, rounding_share: known.rounding_share };
         let starts = [start_of(enter.error, own, offs), start_of(leave.error, own, offs)];
         if !T::DECIDES {
             let near = enter.t.magnitude().is_at_most(starts[0]) | leave.t.magnitude().is_at_most(starts[1]);

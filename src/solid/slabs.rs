@@ -52,7 +52,7 @@ impl AxisBox {
             }
         }
         let spans = spans.if_any(
-            self.seeming(),
+            self.rounding_share(),
             #[inline(always)]
             |axis| axis,
         );
@@ -65,7 +65,7 @@ impl AxisBox {
     }
 
     /// The share of its errors that our own rounding may have made.
-    pub fn seeming(&self) -> f64 {
+    pub fn rounding_share(&self) -> f64 {
         SEEN / self.off
     }
 
@@ -92,7 +92,7 @@ pub struct SkewBox {
     /// The same in the world, for all of it.
     displacement: f64,
     /// The least share of it that is our own rounding.
-    seeming: f64,
+    rounding_share: f64,
     /// What rounding may make of the 0 of a direction in the plane of such a face.
     still: [f64; 3],
 }
@@ -104,11 +104,11 @@ impl SkewBox {
         let lengths = rows.map(DVec3::length);
         let seen = rounding_at(place.center.length());
         let off = [0, 1, 2].map(|i| seen * lengths[i] + rows[i].abs().dot(map_error));
-        let seeming = (0..3).map(|i| seen * lengths[i] / off[i]).fold(1.0, f64::min);
+        let rounding_share = (0..3).map(|i| seen * lengths[i] / off[i]).fold(1.0, f64::min);
         let displacement = seen + map_error.length();
         // A dot product of three terms and the row itself: 4 half-ulps.
         let still = lengths.map(|length| 2.0 * f64::EPSILON * length);
-        Self { place, rows, off, displacement, seeming, still }
+        Self { place, rows, off, displacement, rounding_share, still }
     }
 
     /// Where each ray is inside.
@@ -127,7 +127,7 @@ impl SkewBox {
         }
         with_sides(
             spans.if_any(
-                self.seeming,
+                self.rounding_share,
                 #[inline(always)]
                 |axis| axis,
             ),
@@ -141,8 +141,8 @@ impl SkewBox {
     }
 
     /// The share of its errors that our own rounding may have made.
-    pub fn seeming(&self) -> f64 {
-        self.seeming
+    pub fn rounding_share(&self) -> f64 {
+        self.rounding_share
     }
 
     /// The outward normal of a face, of length 1.

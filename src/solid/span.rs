@@ -134,21 +134,21 @@ impl<N: Number> Spans<N> {
     }
 
     /// The spans, without those of which nothing is left. Not-a-number counts as nothing, and so does a chord
-    /// across an edge that rounding could have made: `seeming` is its share of the errors. Between faces of
-    /// one `pair` every chord counts, however thin the plate.
+    /// across an edge that rounding could have made: `rounding_share` is its share of the errors. Between
+    /// faces of one `pair` every chord counts, however thin the plate.
     #[inline(always)]
-    pub(super) fn if_any(mut self, seeming: f64, pair: impl Fn(N) -> N) -> Self {
+    pub(super) fn if_any(mut self, rounding_share: f64, pair: impl Fn(N) -> N) -> Self {
         let length = self.leave.t - self.enter.t;
         let same_pair = pair(self.enter.surface).is_equal(pair(self.leave.surface));
         let off = self.enter.error + self.leave.error;
-        let long = length.is_above(if N::DECIDES { off * seeming } else { off });
+        let long = length.is_above(if N::DECIDES { off * rounding_share } else { off });
         self.any = self.any & length.is_above(length.same(0.0)) & (same_pair | long);
         self.may = if N::DECIDES { self.any } else { self.may & length.is_above(-off) };
         self
     }
 
-    /// Leaves no span to those that are not `inside`, which some may only seem to be, or not to be: those
-    /// that are `near`.
+    /// Removes the spans of rays that are not `inside`. In single precision, rays that are `near` the limit
+    /// keep only `may`: double precision decides.
     #[inline(always)]
     pub(super) fn keep(&mut self, inside: N::Mask, near: impl FnOnce() -> N::Mask) {
         if N::DECIDES {
@@ -188,6 +188,6 @@ pub struct Departure {
     /// Whether the ray goes to the inside of the primitive.
     pub inward: bool,
     /// How far the primitive, and with it the start, may be off its place:
-    /// [`WorldShape::off`](super::Form::off).
+    /// [`WorldShape::off`](super::WorldShape::off).
     pub off: f64,
 }

@@ -50,7 +50,7 @@ pub(super) struct CachedSpans<T> {
     /// How far its crossings may be off: [`WorldShape::off`]; and the share of that which is our own
     /// rounding.
     pub off: f64,
-    pub seeming: f64,
+    pub rounding_share: f64,
     /// Which rays have one; and which may have one, as far as double precision might say.
     any: u64,
     doubtful: u64,
@@ -82,7 +82,7 @@ impl<T: Real> CachedSpans<T> {
     const NONE: Self = Self {
         primitive: 0,
         off: 0.0,
-        seeming: 0.0,
+        rounding_share: 0.0,
         any: 0,
         doubtful: 0,
         enter: SpanEnds::NONE,
@@ -162,7 +162,7 @@ impl<T: Real> SpanCache<T> {
             self.count += 1;
             let known = &mut self.spans[self.count - 1];
             (known.primitive, known.any, known.doubtful) = (primitive, 0, 0);
-            (known.off, known.seeming) = (form.off() * T::COARSER, form.seeming());
+            (known.off, known.rounding_share) = (form.off() * T::COARSER, form.rounding_share());
             let (here, inward) = departures.map_or((0, 0), |d| d.here(simd, primitive));
             with_spans!(simd, form, learn, packet, wanted, here, inward, known);
             self.count - 1

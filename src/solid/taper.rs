@@ -79,11 +79,11 @@ impl Taper {
     pub fn sides<N: Number>(&self, rays: &Centred<N>) -> Spans<N> {
         let tapers = Tapers { middle: rays.t.same(self.middle), slope: rays.t.same(self.slope) };
         let lines = Rays { o: rays.o, d: rays.d };
-        let (off, seeming) = (rays.o.same(rays.off), rays.t.same(rays.seeming));
+        let (off, rounding_share) = (rays.o.same(rays.off), rays.t.same(rays.rounding_share));
         if self.slope == 0.0 {
-            tapers.of_kind::<true>(&lines, off, seeming)
+            tapers.of_kind::<true>(&lines, off, rounding_share)
         } else {
-            tapers.of_kind::<false>(&lines, off, seeming)
+            tapers.of_kind::<false>(&lines, off, rounding_share)
         }
     }
 }
@@ -97,16 +97,16 @@ pub(super) struct Tapers<N> {
 
 impl<N: Number> Tapers<N> {
     /// The lines against `x² + y² ≤ ρ²`, `ρ = middle + slope · z ≥ 0`: where each is inside, counted from its
-    /// start, the point closest to the unit origin, which may be `off` its place; `seeming` is the share of
-    /// that that is our own rounding. An end that there is not is infinite.
+    /// start, the point closest to the unit origin, which may be `off` its place; `rounding_share` is the
+    /// share of that that is our own rounding. An end that there is not is infinite.
     #[inline(always)]
-    pub fn sides(&self, rays: &Rays<N>, off: Vector<N>, seeming: N) -> Spans<N> {
-        self.of_kind::<false>(rays, off, seeming)
+    pub fn sides(&self, rays: &Rays<N>, off: Vector<N>, rounding_share: N) -> Spans<N> {
+        self.of_kind::<false>(rays, off, rounding_share)
     }
 
     /// The same. `STRAIGHT`: all slopes are 0, and the terms that have them are left out.
     #[inline(always)]
-    fn of_kind<const STRAIGHT: bool>(&self, rays: &Rays<N>, off: Vector<N>, seeming: N) -> Spans<N> {
+    fn of_kind<const STRAIGHT: bool>(&self, rays: &Rays<N>, off: Vector<N>, rounding_share: N) -> Spans<N> {
         let Self { middle, slope } = *self;
         let Rays { o, d } = *rays;
         let zero = middle.same(0.0);
@@ -132,7 +132,7 @@ impl<N: Number> Tapers<N> {
         let (crosses, steeper) = (a.is_above(still), a.is_below(-still));
         let inverse = zero.same(1.0) / a;
         // A chord is none where the form at its middle, −discriminant / a at t = −b / a, may be 0.
-        let known = if N::DECIDES { off * seeming } else { off };
+        let known = if N::DECIDES { off * rounding_share } else { off };
         let least = a * form.off(-b * inverse, known);
         let is_chord = discriminant.is_above(zero) & discriminant.is_above(least);
         let is_number = discriminant.is_equal(discriminant);

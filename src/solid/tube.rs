@@ -66,7 +66,7 @@ pub(super) struct Tubes<N> {
     rows: [Vector<N>; 3],
     off: Vector<N>,
     off_sum: N,
-    seeming: N,
+    rounding_share: N,
     taper: Tapers<N>,
 }
 
@@ -77,7 +77,7 @@ impl<N: Number> Tubes<N> {
     /// Tubes of numbers that [`Tube::numbers`] gives.
     #[inline(always)]
     pub fn new(numbers: [N; NUMBERS_OF_TUBE]) -> Self {
-        let [x, y, z, ax, ay, az, bx, by, bz, cx, cy, cz, off_x, off_y, off_z, seeming, middle, slope] =
+        let [x, y, z, ax, ay, az, bx, by, bz, cx, cy, cz, off_x, off_y, off_z, rounding_share, middle, slope] =
             numbers;
         let rows =
             [Vector { x: ax, y: ay, z: az }, Vector { x: bx, y: by, z: bz }, Vector { x: cx, y: cy, z: cz }];
@@ -86,7 +86,7 @@ impl<N: Number> Tubes<N> {
             rows,
             off: Vector { x: off_x, y: off_y, z: off_z },
             off_sum: off_x + off_y + off_z,
-            seeming,
+            rounding_share,
             taper: Tapers { middle, slope },
         }
     }
@@ -107,7 +107,7 @@ impl<N: Number> Tubes<N> {
         if !near.any() {
             return SideCrossings::none(t);
         }
-        let side = self.taper.sides(&rays, self.off, self.seeming);
+        let side = self.taper.sides(&rays, self.off, self.rounding_share);
         let met = side.any & near;
         SideCrossings {
             enter: Ends { t: t + side.enter.t, ..side.enter },
@@ -160,14 +160,14 @@ impl Tube {
     #[inline(always)]
     pub fn crossings<N: Number>(&self, rays: &Rays<N>) -> SideCrossings<N> {
         let like = rays.o;
-        let UnitSpace { center, inverse, off, seeming, .. } = &self.space;
+        let UnitSpace { center, inverse, off, rounding_share, .. } = &self.space;
         let [middle, slope] = self.taper.numbers();
         let tubes = Tubes {
             center: like.same(*center),
             rows: [like.same(inverse.row(0)), like.same(inverse.row(1)), like.same(inverse.row(2))],
             off: like.same(*off),
             off_sum: like.x.same(off.element_sum()),
-            seeming: like.x.same(*seeming),
+            rounding_share: like.x.same(*rounding_share),
             taper: Tapers { middle: like.x.same(middle), slope: like.x.same(slope) },
         };
         tubes.crossings(rays)
@@ -176,12 +176,28 @@ impl Tube {
     /// What [`Tubes::new`] asks for.
     #[inline(always)]
     pub(super) fn numbers(&self) -> [f64; NUMBERS_OF_TUBE] {
-        let UnitSpace { center, inverse, off, seeming, .. } = &self.space;
+        let UnitSpace { center, inverse, off, rounding_share, .. } = &self.space;
         let DMat3 { x_axis: x, y_axis: y, z_axis: z } = inverse;
         let [middle, slope] = self.taper.numbers();
         [
-            center.x, center.y, center.z, x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z, off.x, off.y, off.z,
-            *seeming, middle, slope,
+            center.x,
+            center.y,
+            center.z,
+            x.x,
+            y.x,
+            z.x,
+            x.y,
+            y.y,
+            z.y,
+            x.z,
+            y.z,
+            z.z,
+            off.x,
+            off.y,
+            off.z,
+            *rounding_share,
+            middle,
+            slope,
         ]
     }
 

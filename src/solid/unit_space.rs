@@ -17,7 +17,7 @@ pub(super) struct UnitSpace {
     /// The same in the world, for all of it.
     pub displacement: f64,
     /// The least share of it that is our own rounding.
-    pub seeming: f64,
+    pub rounding_share: f64,
 }
 
 /// Rays in the unit space, re-centred: `o` is the point of each that is closest to the unit origin.
@@ -31,7 +31,7 @@ pub(super) struct Centred<N> {
     /// How far `o` may be off along each axis.
     pub off: DVec3,
     /// The share of it that is our own rounding.
-    pub seeming: f64,
+    pub rounding_share: f64,
 }
 
 impl UnitSpace {
@@ -41,9 +41,9 @@ impl UnitSpace {
         let rows = [inverse.row(0), inverse.row(1), inverse.row(2)];
         let seen = rounding_at(center.length());
         let off = rows.map(|row| seen * row.length() + row.abs().dot(map_error));
-        let seeming = (0..3).map(|i| seen * rows[i].length() / off[i]).fold(1.0, f64::min);
+        let rounding_share = (0..3).map(|i| seen * rows[i].length() / off[i]).fold(1.0, f64::min);
         let displacement = seen + map_error.length();
-        Self { center, inverse, off: DVec3::from_array(off), displacement, seeming }
+        Self { center, inverse, off: DVec3::from_array(off), displacement, rounding_share }
     }
 
     /// The inverse map makes no way longer by more than this: the root of the sum of its squares.
@@ -68,7 +68,7 @@ impl UnitSpace {
     #[inline(always)]
     pub fn recentred<N: Number>(&self, rays: &Rays<N>) -> Centred<N> {
         let (Rays { o, d }, d_squared, t) = at_closest(rays);
-        Centred { o, d, d_squared, t, off: self.off * N::COARSER, seeming: self.seeming }
+        Centred { o, d, d_squared, t, off: self.off * N::COARSER, rounding_share: self.rounding_share }
     }
 
     /// Points of the world there.

@@ -36,7 +36,7 @@ impl Fast<'_> {
         for (k, found) in traced.nearest.iter_mut().enumerate() {
             memory.far.push(if sources.is_blind(k) { f64::NEG_INFINITY } else { f64::INFINITY });
             if are_made_late {
-                found.forget_rays();
+                found.clear_ray_bits();
             } else {
                 found.clear();
             }

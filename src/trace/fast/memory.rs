@@ -13,10 +13,11 @@ use super::reordering::RayReordering;
 /// What tracing a tile needs, used again for every tile.
 #[derive(Debug)]
 pub struct TileMemory {
-    /// By packet: its own frustum, if its rays are traced, and how far away what they meet may be to matter.
+    /// By packet: its frustum; `None` where it is not traced.
     pub(super) frustums: Vec<Option<Frustum>>,
+    /// By packet: what its rays meet beyond this distance cannot matter.
     pub(super) far: Vec<f64>,
-    /// Their rays in single precision, for as many as a frusta has.
+    /// By packet: its rays in single precision, for culling.
     pub(super) cullers: Vec<PacketCuller>,
     pub(super) frusta: FrustumSoa,
     pub(super) reordering: RayReordering,

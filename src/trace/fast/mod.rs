@@ -142,7 +142,7 @@ impl<'a> Fast<'a> {
         let traced = &mut TracedPackets { own: &mut own, nearest: &mut met };
         let touched = self.first_of_sources::<f32>(sources, traced, memory).touched;
         dispatch!(self.level, simd => for (k, found) in nearest.iter_mut().enumerate() {
-            found.forget_rays();
+            found.clear_ray_bits();
             if touched >> k & 1 == 1 {
                 simd.vectorize(
                     #[inline(always)]

@@ -2,7 +2,7 @@
 
 use fearless_simd::Simd;
 
-use crate::math::{Bounds, Mask, Number, RayPacket, Rays, RealIds, SimdIds, SimdReal};
+use crate::math::{Bounds, Mask, Number, RayPacket, Rays, RealIds, SimdIds};
 use crate::solid::{
     Ball, Body, Ends, ExprView, FirstCrossings, RayStarts, Spans, SurfaceQuery, WorldShape, firsts_of_spans,
     firsts_of_surface, with_spans,
@@ -12,7 +12,7 @@ use super::Fast;
 use super::composite::CompositeTest;
 use super::memory::TileMemory;
 use super::packet_culler::{PacketCuller, Slabs};
-use super::packet_hits::HitCandidate;
+use super::packet_hits::{Faces, HitCandidate};
 use super::precision::Precision;
 use super::sink::{HitSink, offer_crossings, offer_hits};
 use super::source::PacketSource;
@@ -146,7 +146,7 @@ fn ball_of_packet<S: Simd, T: Precision, H: HitSink<T>>(
 ) {
     let ConvexTest { source, wanted, form, object, primitive } = *test;
     let yes = T::row_of(simd, u64::MAX, 0);
-    let (surface, ids) = (RealIds::<T, S>::all(simd, 0), RealIds::<T, S>::all(simd, primitive));
+    let (surface, ids) = (Faces::Ids(RealIds::<T, S>::all(simd, 0)), RealIds::<T, S>::all(simd, primitive));
     let start = T::all(simd, start);
     for row in 0..T::ROWS {
         if !T::has_any(wanted, row) {
@@ -207,7 +207,7 @@ fn convex_of_packet<S: Simd, T: Precision, H: HitSink<T>>(
         }
         let FirstCrossings { end, entering, any } = firsts_of_spans(spans, form, &starts);
         let Ends { t, error, surface } = end;
-        let surface = surface.ids();
+        let surface = Faces::Numbers(surface);
         sink.offer(simd, row, &HitCandidate { any, t, error, entering, object, primitive: ids, surface });
     }
 }

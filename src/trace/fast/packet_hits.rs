@@ -2,7 +2,7 @@
 
 use fearless_simd::Simd;
 
-use crate::math::{Lanes, Mask, Number, RayPacket, Real, RealIds, RealMask, SimdIds, SimdRegister};
+use crate::math::{Lanes, Mask, Number, RayPacket, Real, RealIds, RealMask, SimdIds, SimdReal, SimdRegister};
 use crate::solid::Crossing;
 
 use super::super::hit::Hit;
@@ -60,12 +60,12 @@ impl<T: Real> PacketHits<T> {
     pub fn clear(&mut self) {
         self.t = Lanes::filled(T::INFINITY);
         self.second = Lanes::filled(T::INFINITY);
-        self.forget_rays();
+        self.clear_ray_bits();
     }
 
-    /// Forgets which rays enter an object, and which are left to others; keeps the hits.
+    /// Clears `entering`, `unsure` and `incoherent`; keeps the columns of hits.
     #[inline]
-    pub(super) fn forget_rays(&mut self) {
+    pub(super) fn clear_ray_bits(&mut self) {
         (self.entering, self.unsure, self.incoherent) = (0, 0, 0);
     }
 }
@@ -140,7 +140,7 @@ impl<T: Real> PacketHits<T> {
         let bits = T::bits_of(simd, nearer, row);
         self.object.put_ids::<T, S>(simd, row, bits, RealIds::<T, S>::all(simd, met.object));
         self.primitive.put_ids::<T, S>(simd, row, bits, met.primitive);
-        self.surface.put_ids::<T, S>(simd, row, bits, met.surface);
+        self.surface.put_ids::<T, S>(simd, row, bits, met.surface.ids());
         self.entering = self.entering & !bits | T::bits_of(simd, met.entering, row) & bits;
     }
 
@@ -203,5 +203,25 @@ pub struct HitCandidate<T: Real, S: Simd> {
     /// The primitive.
     pub primitive: RealIds<T, S>,
     /// The face.
-    pub surface: RealIds<T, S>,
+    pub surface: Faces<T, S>,
+}
+
+/// The faces of a primitive that the rays of a row cross.
+#[derive(Clone, Copy)]
+pub enum Faces<T: Real, S: Simd> {
+    /// By their ids.
+    Ids(RealIds<T, S>),
+    /// As the kernels compute them, by numbers that are ids: only those of hits are worth converting.
+    Numbers(T::SimdReal<S>),
+}
+
+impl<T: Real, S: Simd> Faces<T, S> {
+    /// Their ids.
+    #[inline(always)]
+    fn ids(self) -> RealIds<T, S> {
+        match self {
+            Self::Ids(ids) => ids,
+            Self::Numbers(numbers) => numbers.ids(),
+        }
+    }
 }

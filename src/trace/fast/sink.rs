@@ -6,7 +6,7 @@ use fearless_simd::Simd;
 use crate::math::{Lanes, Number, Real};
 use crate::solid::PacketCrossings;
 
-use super::packet_hits::{HitCandidate, PacketHits};
+use super::packet_hits::{Faces, HitCandidate, PacketHits};
 
 /// The most leaves of an expression that are evaluated at once, rather than the rays being cut into shorter
 /// slices: more cost more than slices do.
@@ -67,7 +67,7 @@ impl<U: Real> Found<'_, U> {
                         entering: T::row_of(simd, self.entering, row),
                         object,
                         primitive: self.primitive.ids::<T, S>(simd, row),
-                        surface: self.surface.ids::<T, S>(simd, row),
+                        surface: Faces::Ids(self.surface.ids::<T, S>(simd, row)),
                     };
                     sink.offer(simd, row, &met);
                 }

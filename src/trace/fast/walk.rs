@@ -28,7 +28,7 @@ pub(super) trait TileVisitor<S: Simd> {
     /// ray.
     fn rank(near: f32x8<S>) -> f32x8<S>;
 
-    /// Whether of an object that is a ball this says all that there is to know.
+    /// Whether an object that is a ball is culled by its bounding sphere in place of its box.
     fn takes_ball(&self, object: u32) -> bool;
 
     /// Intersects packet `k` with an object that its frustum may meet, no nearer to any ray's start than

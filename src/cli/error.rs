@@ -17,7 +17,8 @@ pub enum CliError {
     /// A scene that is no scene, already rendered with its places: exit code 2.
     #[error("{0}")]
     Scene(String),
-    /// Pictures that were to be the same are not: exit code 1.
+    /// Pictures that were to be the same are not: exit code 1, which `diff` and `snapshot` have for nothing
+    /// else.
     #[error("{0}")]
     Different(String),
     /// Something could not be written: exit code 1.
@@ -34,6 +35,14 @@ impl CliError {
         match self {
             Self::Input(_) | Self::Arguments(_) | Self::Scene(_) => ExitCode::from(2),
             Self::Different(_) | Self::Output(_) | Self::Viewer(_) => ExitCode::from(1),
+        }
+    }
+
+    /// What could not be written as an error of exit code 2, as diff(1) has it: 1 says that pictures differ.
+    pub fn apart_from_differences(self) -> Self {
+        match self {
+            Self::Output(what) => Self::Input(what),
+            other => other,
         }
     }
 

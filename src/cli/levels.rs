@@ -14,6 +14,7 @@ use super::arguments::PictureArguments;
 use super::error::{CliError, visible};
 use super::input;
 use super::picture::Unsized;
+use super::render::say_nothing;
 
 /// A terminal's cells, of which a picture without a size has as many dots as they show.
 const CELLS: Size = Size::new(80, 25);
@@ -58,7 +59,12 @@ impl Drawing<'_> {
             }
         }
         let request = picture.request(studio, look, Wants::LIGHT, Unsized::Screen)?;
-        Ok(studio.draw(&request).levels(request.tone))
+        let frame = studio.draw(&request);
+        if let Some(over) = &frame.over_budget {
+            return Err(CliError::Input(format!("{over}: use --structure tree")));
+        }
+        say_nothing(&frame);
+        Ok(frame.levels(request.tone))
     }
 }
 
@@ -75,6 +81,9 @@ pub fn read(file: &str) -> Result<Option<Grid<Level>>, CliError> {
     match read {
         Err(e) if is_named => return Err(failed(&e)),
         Err(_) => return Ok(None),
+        Ok(_) if bytes.len() as u64 > MAX_FILE_BYTES => {
+            return Err(failed(&format!("it is larger than {MAX_FILE_BYTES} bytes")));
+        }
         Ok(_) => {}
     }
     match read_levels(&bytes) {

@@ -8,10 +8,13 @@ use crate::tone::{Level, Tone};
 use crate::trade::{LevelDifference, cells_apart};
 
 use super::error::CliError;
+use super::picture::no_color;
 use super::terminal;
 
 /// The most columns of a marked picture: those of a terminal. A larger one is shown smaller.
 const COLUMNS: u32 = 80;
+/// And the most rows: some screens of them.
+const ROWS: u32 = 120;
 
 /// Black on yellow, by xterm's numbers.
 const MARK: [Paint; 2] = [Paint::Indexed(16), Paint::Indexed(226)];
@@ -38,11 +41,13 @@ pub fn summary(difference: &LevelDifference, tolerance: u8) -> String {
 /// how many levels, as a digit of 1 to C.
 pub fn picture(own: &Grid<Level>, reference: &Grid<Level>, tolerance: u8) -> Result<Vec<u8>, CliError> {
     let per_cell = GlyphMode::Blocks.dots_per_cell();
-    let smaller = own.size().width.div_ceil(per_cell.width * COLUMNS).max(1);
+    let Size { width, height } = own.size();
+    let smaller =
+        width.div_ceil(per_cell.width * COLUMNS).max(height.div_ceil(per_cell.height * ROWS)).max(1);
     let light = shrunk(own, smaller);
     let shown = compose(&light, GlyphMode::Blocks, Palette::Mono(Ground::Dark), Tone::Lightness);
     let apart = cells_apart(own, reference, Size::new(per_cell.width * smaller, per_cell.height * smaller));
-    let is_colored = terminal::of_output().is_some_and(output::Capabilities::has_256_colors);
+    let is_colored = !no_color() && terminal::of_output().is_some_and(output::Capabilities::has_256_colors);
     let size = apart.size();
     let cells = Grid::from_fn(size, |column, row| {
         let levels = apart[(column, row)];

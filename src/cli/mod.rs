@@ -38,8 +38,8 @@ use write::print;
 /// The scene that the program shows when it is given none.
 const FIRST_SCENE: &str = "hanyang";
 
-/// Runs the command line: exit code 0 for done, 1 where writing or the terminal failed, 2 for bad input or
-/// arguments. Errors go to standard error.
+/// Runs the command line: exit code 0 for done, 1 where writing or the terminal failed or pictures that are
+/// compared differ, 2 for bad input or arguments. Errors go to standard error.
 pub fn run() -> ExitCode {
     match parse::parse().and_then(|arguments| arguments.map_or(Ok(()), command)) {
         Ok(()) => ExitCode::SUCCESS,
@@ -56,8 +56,10 @@ fn command(arguments: Arguments) -> Result<(), CliError> {
         Some(Command::Render(render)) => render::run(&render),
         Some(Command::Bench(bench)) => bench::run(&bench),
         Some(Command::Plan(plan)) => plan::run(&plan),
-        Some(Command::Diff(diff)) => diff::run(&diff),
-        Some(Command::Snapshot(snapshot)) => snapshot::run(&snapshot),
+        Some(Command::Diff(diff)) => diff::run(&diff).map_err(CliError::apart_from_differences),
+        Some(Command::Snapshot(snapshot)) => {
+            snapshot::run(&snapshot).map_err(CliError::apart_from_differences)
+        }
         Some(Command::Check(scene)) => check(&scene),
         Some(Command::Scenes { name }) => scenes(name.as_deref()),
         Some(Command::Completions { shell }) => manual::completions(shell),

@@ -101,7 +101,6 @@ impl PictureArguments {
 
     /// The palette asked for; else what the terminal and `NO_COLOR` (<https://no-color.org>) leave.
     pub fn palette(&self, terminal: Option<Capabilities>) -> Palette {
-        let forbidden = || std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
         // In a file they are meant for a terminal like the one here.
         let here = || terminal.unwrap_or_else(capabilities);
         let depth = || here().color_depth();
@@ -114,7 +113,7 @@ impl PictureArguments {
             Some(PaletteName::Mono) => Palette::Mono(ground),
             Some(PaletteName::Color) => Palette::Color(depth()),
             Some(PaletteName::Dos16) => Palette::DOS,
-            None if forbidden() || terminal.is_some_and(|terminal| !terminal.has_grays()) => {
+            None if no_color() || terminal.is_some_and(|terminal| !terminal.has_grays()) => {
                 Palette::Mono(ground)
             }
             Some(PaletteName::Dos) | None => four_grays(),
@@ -161,6 +160,11 @@ impl PictureArguments {
             tone: self.tone(),
         })
     }
+}
+
+/// Whether the user wants no colours anywhere (<https://no-color.org>).
+pub fn no_color() -> bool {
+    std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty())
 }
 
 /// The terminal's cells, less the line that the shell's prompt comes to stand on.

@@ -81,7 +81,7 @@ pub fn still(
 }
 
 /// Says why a picture is all background.
-fn say_nothing(frame: &Frame) {
+pub fn say_nothing(frame: &Frame) {
     if let Some(why) = frame.nothing {
         tell(&why.to_string());
     }

@@ -21,8 +21,13 @@ enum Outcome {
     Same,
     /// Written for the first time, or again since it had changed.
     Written,
-    /// Kept, and different: the line that says how.
-    Different(String),
+    /// Kept, and different.
+    Different {
+        /// A line that says how.
+        how: String,
+        /// The picture with what changed marked.
+        picture: Vec<u8>,
+    },
     /// Not kept yet.
     Missing,
 }
@@ -42,27 +47,53 @@ pub fn run(arguments: &SnapshotArguments) -> Result<(), CliError> {
         memory: arguments.memory,
         picture: &arguments.picture,
     };
-    let (mut all, mut failed) = (0, 0);
+    let mut pictures = Pictures::default();
+    let mut scenes = Vec::new();
     for file in &arguments.files {
+        if !Path::new(file).is_file() {
+            return Err(CliError::Input(format!(
+                "{}: snapshots are kept beside a scene's file, and there is no file of that name",
+                visible(file)
+            )));
+        }
         let studio = drawing.studio(file)?;
         let views = match arguments.picture.camera.view.clone() {
             Some(view) => vec![Some(view)],
             None => named_views(studio.scene().views.iter().map(|view| view.name.as_deref())),
         };
-        for (path, view) in places(Path::new(file), views)? {
-            let kept = if path.exists() { levels::read(&path.to_string_lossy())? } else { None };
-            let shown = drawing.levels(&studio, view.as_deref(), kept.as_ref().map(Grid::size))?;
-            let outcome = compare(arguments, &path, &shown, kept.as_ref())?;
-            let name = visible(&path.to_string_lossy());
+        scenes.push((studio, pictures.places(file, views)?));
+    }
+    // No picture takes the place of a scene, by whatever link.
+    for path in scenes.iter().flat_map(|(_, places)| places).map(|place| &place.path) {
+        for scene in &arguments.files {
+            Destination::File(path.clone()).check(scene)?;
+        }
+    }
+    let (mut all, mut failed) = (0, 0);
+    for (studio, places) in &scenes {
+        for Place { path, view } in places {
+            let kept = kept(path, arguments.update)?;
+            let shown = drawing.levels(studio, view.as_deref(), kept.as_ref().map(Grid::size))?;
+            let outcome = compare(arguments, path, &shown, kept.as_ref())?;
             let line = match &outcome {
-                Outcome::Same => format!("{name}: same\n"),
-                Outcome::Written => format!("{name}: written\n"),
-                Outcome::Different(how) => format!("{name}: {how}\n"),
-                Outcome::Missing => format!("{name}: not kept yet, --update keeps it\n"),
+                Outcome::Same => "same",
+                Outcome::Written => "written",
+                Outcome::Different { how, .. } => how,
+                Outcome::Missing => "not kept yet, --update keeps it",
             };
-            print(line.as_bytes())?;
+            print(
+                format!(
+                    "{}: {line}
+",
+                    visible(&path.to_string_lossy())
+                )
+                .as_bytes(),
+            )?;
+            if let Outcome::Different { picture, .. } = &outcome {
+                print(picture)?;
+            }
             all += 1;
-            failed += usize::from(matches!(outcome, Outcome::Different(_) | Outcome::Missing));
+            failed += usize::from(matches!(outcome, Outcome::Different { .. } | Outcome::Missing));
         }
     }
     if failed == 0 {
@@ -73,7 +104,21 @@ pub fn run(arguments: &SnapshotArguments) -> Result<(), CliError> {
     )))
 }
 
-/// Compares one picture, prints what changed and writes what is to be kept.
+/// The picture that is kept in a file; `None` where there is none. One that is broken, as a merge leaves it,
+/// counts as none where it is to be written again.
+fn kept(path: &Path, update: bool) -> Result<Option<Grid<Level>>, CliError> {
+    let name = path.to_string_lossy();
+    let found = path.try_exists().map_err(|e| CliError::Input(format!("{}: {e}", visible(&name))))?;
+    if !found {
+        return Ok(None);
+    }
+    match levels::read(&name) {
+        Err(_) if update => Ok(None),
+        read => read,
+    }
+}
+
+/// Compares one picture, and writes what is to be kept.
 fn compare(
     arguments: &SnapshotArguments,
     path: &Path,
@@ -96,7 +141,8 @@ fn compare(
         }
         let [own, other] =
             [shown, kept].map(|grid| format!("{} × {}", grid.size().width, grid.size().height));
-        return Ok(Outcome::Different(format!("it has {other} dots, and {own} are asked for")));
+        let how = format!("it has {other} dots, and {own} are asked for");
+        return Ok(Outcome::Different { how, picture: Vec::new() });
     };
     if difference.beyond(arguments.tolerance) == 0 {
         return Ok(Outcome::Same);
@@ -104,8 +150,10 @@ fn compare(
     if arguments.update {
         return write();
     }
-    print(&marked::picture(shown, kept, arguments.tolerance)?)?;
-    Ok(Outcome::Different(marked::summary(&difference, arguments.tolerance)))
+    Ok(Outcome::Different {
+        how: marked::summary(&difference, arguments.tolerance),
+        picture: marked::picture(shown, kept, arguments.tolerance)?,
+    })
 }
 
 /// The views that are kept: all that have a name, else the scene's own.
@@ -114,57 +162,71 @@ fn named_views<'a>(names: impl Iterator<Item = Option<&'a str>>) -> Vec<Option<S
     if named.is_empty() { vec![None] } else { named }
 }
 
-/// Where each view is kept: `part.levels`, or `part.front.levels` for a view `front`, beside the scene. Of a
-/// view's name letters, digits, `-` and `_` stay.
-fn places(scene: &Path, views: Vec<Option<String>>) -> Result<BTreeMap<PathBuf, Option<String>>, CliError> {
-    let stem = scene.file_stem().filter(|_| scene != Path::new("-")).ok_or_else(|| {
-        CliError::Input("snapshots are kept beside a scene's file: give it by its name".to_owned())
-    })?;
-    let mut places = BTreeMap::new();
-    for view in views {
-        let mut name = stem.to_os_string();
-        if let Some(view) = &view {
-            let keep = |c: char| if c.is_alphanumeric() || matches!(c, '-' | '_') { c } else { '-' };
-            name.push(".");
-            name.push(view.chars().map(keep).collect::<String>());
-        }
-        name.push(".levels");
-        let path = scene.with_file_name(name);
-        if let Some(Some(other)) = places.insert(path.clone(), view.clone()) {
-            let view = view.unwrap_or_default();
-            return Err(CliError::Input(format!(
-                "the views `{}` and `{}` would both be kept as {}: rename one",
-                visible(&other),
-                visible(&view),
-                visible(&path.to_string_lossy())
-            )));
-        }
+/// Where one view is kept.
+#[derive(Debug, PartialEq)]
+struct Place {
+    path: PathBuf,
+    /// Its name; `None` for the view of a scene that names none.
+    view: Option<String>,
+}
+
+/// All pictures of a run, by their files: of which scene and view each is.
+#[derive(Default)]
+struct Pictures(BTreeMap<PathBuf, String>);
+
+impl Pictures {
+    /// Where each view of a scene is kept: `part.levels`, or `part.front.levels` for a view `front`, beside
+    /// the scene. Of a view's name letters, digits, `-` and `_` stay. Fails where two would be kept in one
+    /// file.
+    fn places(&mut self, scene: &str, views: Vec<Option<String>>) -> Result<Vec<Place>, CliError> {
+        let file = Path::new(scene);
+        let stem = file.file_stem().unwrap_or(file.as_os_str());
+        let place = |view: Option<String>| {
+            let mut name = stem.to_os_string();
+            if let Some(view) = &view {
+                let keep = |c: char| if c.is_alphanumeric() || matches!(c, '-' | '_') { c } else { '-' };
+                name.push(".");
+                name.push(view.chars().map(keep).collect::<String>());
+            }
+            name.push(".levels");
+            let path = file.with_file_name(name);
+            let view_of = |view: &String| format!("the view `{view}` of {scene}");
+            let own = view.as_ref().map_or_else(|| scene.to_owned(), view_of);
+            match self.0.insert(path.clone(), own.clone()) {
+                None => Ok(Place { path, view }),
+                Some(other) => Err(CliError::Input(visible(&format!(
+                    "{other} and {own} would both be kept as {}: rename one",
+                    path.display()
+                )))),
+            }
+        };
+        views.into_iter().map(place).collect()
     }
-    Ok(places)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn each_view_has_a_file_beside_the_scene() {
-        let views = named_views([Some("front"), None, Some("from above/left")].into_iter());
-        let places = places(Path::new("parts/a.csg"), views).unwrap();
-        let paths: Vec<String> = places.keys().map(|path| path.to_string_lossy().into_owned()).collect();
-        assert_eq!(paths, ["parts/a.from-above-left.levels", "parts/a.front.levels"]);
+    fn places(scene: &str, names: &[Option<&str>]) -> Result<Vec<String>, CliError> {
+        let places = Pictures::default().places(scene, named_views(names.iter().copied()))?;
+        Ok(places.into_iter().map(|place| place.path.to_string_lossy().into_owned()).collect())
     }
 
     #[test]
-    fn a_scene_without_views_has_one_picture() {
-        let places = places(Path::new("a.csg"), named_views([None].into_iter())).unwrap();
-        assert_eq!(places.into_iter().collect::<Vec<_>>(), [(PathBuf::from("a.levels"), None)]);
+    fn each_named_view_has_a_file_beside_the_scene() {
+        let paths = places("parts/a.csg", &[Some("front"), None, Some("from above/left")]).unwrap();
+        assert_eq!(paths, ["parts/a.front.levels", "parts/a.from-above-left.levels"]);
+        assert_eq!(places("a.csg", &[None]).unwrap(), ["a.levels"]);
     }
 
     #[test]
-    fn views_that_would_share_a_file_are_refused() {
-        let views = named_views([Some("a b"), Some("a-b")].into_iter());
-        assert!(places(Path::new("a.csg"), views).is_err());
-        assert!(places(Path::new("-"), vec![None]).is_err());
+    fn pictures_that_would_share_a_file_are_refused() {
+        assert!(places("a.csg", &[Some("a b"), Some("a-b")]).is_err());
+        let mut pictures = Pictures::default();
+        pictures.places("a.csg", vec![None]).unwrap();
+        assert!(pictures.places("a.nff", vec![None]).is_err());
+        pictures.places("c.scene", vec![Some("front".to_owned())]).unwrap();
+        assert!(pictures.places("c.front.csg", vec![None]).is_err());
     }
 }

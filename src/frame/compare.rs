@@ -9,8 +9,9 @@ use crate::tone::{Level, Tone, lightness};
 
 use super::Frame;
 
-/// CIE L* from a level to the next: white's 100 in twelve equal steps.
-const LEVEL: f64 = 100.0 / 12.0;
+/// A twelfth of white's CIE L*, 100: from a level to the next in the mean, though the 13 levels are not
+/// evenly spaced.
+const TWELFTH: f64 = 100.0 / 12.0;
 
 /// How far a picture is from a reference. What one of the two does not hold is not compared.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,11 +24,12 @@ pub struct Comparison {
     pub first: Option<[u32; 2]>,
     /// Dots that show another object, or nothing where the reference shows one, or the other way round.
     pub objects: Option<usize>,
-    /// The largest difference of two depths, as a share of the reference's, 0 or more, among the dots where
-    /// both see something and, as far as that is known, the same object.
+    /// The largest difference of two depths, as a share of the reference's, 0 or more, among the dots where,
+    /// as far as that is known, both see the same object. Infinite where only one sees anything, where one is
+    /// not a number, and where the reference's is 0 and the other is not.
     pub depth: Option<f64>,
-    /// The largest difference of two lights, 0 to 12: in levels, which are even steps of CIE L*. Light is
-    /// clamped to 0 to 1 before, as a screen does.
+    /// The largest difference of two lights, 0 to 12, in twelfths of white's CIE L*: a level in the mean.
+    /// Light is clamped to 0 to 1 before, as a screen does.
     pub light: f64,
     /// The root of the mean of the squares of these differences.
     pub light_rms: f64,
@@ -68,7 +70,7 @@ impl Frame {
         let (mut levels, mut changed, mut first) = (0, 0, None);
         for dot in dots.clone() {
             let [own, other] = [self, reference].map(|frame| frame.light.values()[dot]);
-            let apart = (shown_lightness(own) - shown_lightness(other)).abs() / LEVEL;
+            let apart = (shown_lightness(own) - shown_lightness(other)).abs() / TWELFTH;
             light = light.max(apart);
             squares += apart * apart;
             levels += usize::from(level(own) != level(other));
@@ -79,13 +81,14 @@ impl Frame {
         }
         let depth = depths.map(|(own, other)| {
             let pairs = dots.clone().filter(|&dot| !shows_another(dot)).map(|dot| (own[dot], other[dot]));
-            let seen = pairs.filter(|(own, other)| own.is_finite() && other.is_finite());
-            seen.map(|(own, other)| share(own, other)).fold(0.0, f64::max)
+            pairs.map(|(own, other)| share(own, other)).fold(0.0, f64::max)
         });
         let cells = match (&self.cells, &reference.cells) {
             (Some(own), Some(other)) if own.size() == other.size() => {
                 Some(own.values().iter().zip(other.values()).filter(|(own, other)| own != other).count())
             }
+            // Other cells over the same dots: all of them differ.
+            (Some(own), Some(_)) => Some(own.size().area()),
             _ => None,
         };
         Ok(Comparison {
@@ -143,7 +146,11 @@ impl fmt::Display for Comparison {
         if let Some(depth) = self.depth {
             write!(f, "; depths by up to {depth:.1e} of theirs")?;
         }
-        write!(f, "; light by up to {:.2} levels, {:.3} in the mean (RMS)", self.light, self.light_rms)?;
+        write!(
+            f,
+            "; light by up to {:.2} twelfths of L*, {:.3} in the mean (RMS)",
+            self.light, self.light_rms
+        )?;
         write!(f, "; {} in another level", self.levels)?;
         if let Some(cells) = self.cells {
             write!(f, "; {cells} cells")?;
@@ -166,9 +173,13 @@ fn level(light: f64) -> Level {
     Tone::Lightness.level(light)
 }
 
-/// The difference as a share of the other; 0 for equals, also at 0.
+/// The difference as a share of the other; 0 for equals, also at 0 and where both are infinite or no numbers.
 fn share(own: f64, other: f64) -> f64 {
-    if own == other { 0.0 } else { (own - other).abs() / other.abs() }
+    if own == other || (own.is_nan() && other.is_nan()) {
+        return 0.0;
+    }
+    let share = (own - other).abs() / other.abs();
+    if share.is_nan() { f64::INFINITY } else { share }
 }
 
 #[cfg(test)]
@@ -227,6 +238,25 @@ mod tests {
         assert!((comparison.depth.unwrap() - 0.5).abs() < 1e-12, "{comparison}");
         assert!((0.5..1.5).contains(&comparison.light), "{comparison}");
         assert!((comparison.light_rms - comparison.light / 16.0).abs() < 1e-12, "{comparison}");
+    }
+
+    #[test]
+    fn depths_that_are_no_numbers_are_far_off() {
+        for (own, other, expected) in [
+            (f64::NAN, 5.0, f64::INFINITY),
+            (5.0, f64::NAN, f64::INFINITY),
+            (5.0, f64::INFINITY, f64::INFINITY),
+            (f64::INFINITY, 5.0, f64::INFINITY),
+            (f64::INFINITY, f64::INFINITY, 0.0),
+            (f64::NAN, f64::NAN, 0.0),
+            (0.0, 0.0, 0.0),
+            (6.0, 5.0, 0.2),
+        ] {
+            assert!(
+                share(own, other) == expected || (share(own, other) - expected).abs() < 1e-12,
+                "{own} {other}"
+            );
+        }
     }
 
     #[test]

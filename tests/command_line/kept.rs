@@ -101,3 +101,41 @@ fn what_can_not_be_compared_says_why() {
         assert!(message.contains(why), "{message}");
     }
 }
+
+/// From a merge that left `<<<<<<< HEAD` in a kept picture, which `--update` then refused to write.
+#[test]
+fn what_is_broken_or_shared_is_said_before_anything_is_written() {
+    let folder = parts("broken");
+    let path = |name: &str| folder.join(name).to_str().unwrap().to_owned();
+    let (part, kept) = (path("part.csg"), path("part.levels"));
+    fs::write(&kept, "<<<<<<< HEAD\n").unwrap();
+    assert!(fails(&run(&["snapshot", &part]), 2).contains("'<' is no level"));
+    done(&run(&["snapshot", &part, "--update"]));
+    done(&run(&["snapshot", &part]));
+    // Two scenes that would be kept in one file.
+    let before = fs::read(&kept).unwrap();
+    fs::copy(&part, path("part.scene")).unwrap();
+    let message = fails(&run(&["snapshot", "--update", &part, &path("part.scene")]), 2);
+    assert!(message.contains("would both be kept as"), "{message}");
+    assert_eq!(fs::read(&kept).unwrap(), before);
+    // What stands inside the program has no file to be beside.
+    assert!(fails(&run(&["snapshot", "--update", "die"]), 2).contains("no file of that name"));
+    // A picture that is a link to the scene would take its place.
+    #[cfg(unix)]
+    {
+        fs::remove_file(&kept).unwrap();
+        std::os::unix::fs::symlink("part.csg", &kept).unwrap();
+        fails(&run(&["snapshot", "--update", &part]), 2);
+        assert_eq!(fs::read_to_string(&part).unwrap(), "cube(2, center = true);\n");
+    }
+}
+
+#[test]
+fn a_picture_of_nothing_says_so() {
+    let folder = parts("nothing");
+    let scene = folder.join("away.scene");
+    fs::write(&scene, "camera(eye = [0, -9, 0], target = [0, -99, 0]); sphere(1);\n").unwrap();
+    let output = run(&["snapshot", "--update", scene.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(text(&output.stderr).contains("nothing"), "{}", text(&output.stderr));
+}

@@ -112,17 +112,8 @@ pub struct DiffArguments {
     /// The picture after. A scene has the dots of the .levels file that it is compared with, in characters'
     /// cells where they fit
     pub after: String,
-    /// Dots may differ by so many of the 13 levels
-    #[arg(long, value_name = "LEVELS", value_parser = clap::value_parser!(u8).range(0..=12), default_value = "0")]
-    pub tolerance: u8,
-    /// Leave out what OpenSCAD can show and ray13 can not
-    #[arg(long)]
-    pub skip_unsupported: bool,
-    /// Memory that the scene may take, as in 500MiB or 2GiB [default: half of the machine's]
-    #[arg(long, value_name = "BYTES", value_parser = values::bytes)]
-    pub memory: Option<u64>,
     #[command(flatten)]
-    pub picture: PictureArguments,
+    pub comparison: ComparisonArguments,
 }
 
 #[derive(Clone, Debug, Args)]
@@ -133,6 +124,13 @@ pub struct SnapshotArguments {
     /// Keep what has changed and what is new
     #[arg(long)]
     pub update: bool,
+    #[command(flatten)]
+    pub comparison: ComparisonArguments,
+}
+
+/// How scenes are read and drawn for a comparison, and what it forgives.
+#[derive(Clone, Debug, Args)]
+pub struct ComparisonArguments {
     /// Dots may differ by so many of the 13 levels
     #[arg(long, value_name = "LEVELS", value_parser = clap::value_parser!(u8).range(0..=12), default_value = "0")]
     pub tolerance: u8,

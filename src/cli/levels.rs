@@ -10,23 +10,16 @@ use crate::output::{LevelsError, read_levels};
 use crate::scene::MAX_FILE_BYTES;
 use crate::tone::Level;
 
-use super::arguments::PictureArguments;
+use super::arguments::ComparisonArguments;
 use super::error::{CliError, visible};
 use super::input;
 use super::picture::Unsized;
-use super::render::say_nothing;
+use super::render::{refuse_over_budget, say_nothing};
 
 /// A terminal's cells, of which a picture without a size has as many dots as they show.
 const CELLS: Size = Size::new(80, 25);
 
-/// How scenes are read and drawn.
-pub struct Drawing<'a> {
-    pub skip_unsupported: bool,
-    pub memory: Option<u64>,
-    pub picture: &'a PictureArguments,
-}
-
-impl Drawing<'_> {
+impl ComparisonArguments {
     /// Reads a scene and says what was left out.
     pub fn studio(&self, file: &str) -> Result<Studio, CliError> {
         let scene = input::read(file, self.skip_unsupported, self.memory)?;
@@ -60,12 +53,15 @@ impl Drawing<'_> {
         }
         let request = picture.request(studio, look, Wants::LIGHT, Unsized::Screen)?;
         let frame = studio.draw(&request);
-        if let Some(over) = &frame.over_budget {
-            return Err(CliError::Input(format!("{over}: use --structure tree")));
-        }
+        refuse_over_budget(&frame)?;
         say_nothing(&frame);
         Ok(frame.levels(request.tone))
     }
+}
+
+/// The dots of a picture across and down, as people write them.
+pub fn dots(levels: &Grid<Level>) -> String {
+    format!("{} × {}", levels.size().width, levels.size().height)
 }
 
 /// The picture of levels that a file holds; `None` where it is something else, as a scene, or is not there.

@@ -44,9 +44,7 @@ pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
     }
     let mut frame = studio.draw(&request);
     frame.times[crate::stage::Stage::Objects] = read;
-    if let Some(over) = &frame.over_budget {
-        return Err(CliError::Input(format!("{over}: use --structure tree")));
-    }
+    refuse_over_budget(&frame)?;
     let writing = Instant::now();
     let values = Values::new(still, &arguments.picture);
     let bytes = encoded(&frame, &request, format, values)?;
@@ -78,6 +76,14 @@ pub fn still(
     print(&encoded(&frame, &request, StillFormat::Txt, Values::Toned)?)?;
     say_nothing(&frame);
     Ok(())
+}
+
+/// Refuses a picture whose space is cut otherwise than was asked for.
+pub fn refuse_over_budget(frame: &Frame) -> Result<(), CliError> {
+    match &frame.over_budget {
+        Some(over) => Err(CliError::Input(format!("{over}: use --structure tree"))),
+        None => Ok(()),
+    }
 }
 
 /// Says why a picture is all background.

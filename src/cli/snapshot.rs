@@ -11,7 +11,7 @@ use crate::trade::LevelDifference;
 
 use super::arguments::SnapshotArguments;
 use super::error::{CliError, visible};
-use super::levels::{self, Drawing};
+use super::levels;
 use super::write::{Destination, print};
 use super::{effects, input, marked};
 
@@ -35,18 +35,14 @@ enum Outcome {
 /// Compares each view of each scene with its picture beside the file; with `--update` keeps what has changed.
 /// Exit code 1 where any differs or is missing.
 pub fn run(arguments: &SnapshotArguments) -> Result<(), CliError> {
-    if arguments.picture.camera.replaces_anything() {
+    let comparison = &arguments.comparison;
+    if comparison.picture.camera.replaces_anything() {
         return Err(CliError::Input(
             "snapshots show the views of their scenes: --view picks one, and only the scene moves it"
                 .to_owned(),
         ));
     }
-    input::say(&effects::check(&arguments.picture, effects::Presentation::Cells)?);
-    let drawing = Drawing {
-        skip_unsupported: arguments.skip_unsupported,
-        memory: arguments.memory,
-        picture: &arguments.picture,
-    };
+    input::say(&effects::check(&comparison.picture, effects::Presentation::Cells)?);
     let mut pictures = Pictures::default();
     let mut scenes = Vec::new();
     for file in &arguments.files {
@@ -56,8 +52,8 @@ pub fn run(arguments: &SnapshotArguments) -> Result<(), CliError> {
                 visible(file)
             )));
         }
-        let studio = drawing.studio(file)?;
-        let views = match arguments.picture.camera.view.clone() {
+        let studio = comparison.studio(file)?;
+        let views = match comparison.picture.camera.view.clone() {
             Some(view) => vec![Some(view)],
             None => named_views(studio.scene().views.iter().map(|view| view.name.as_deref())),
         };
@@ -73,7 +69,7 @@ pub fn run(arguments: &SnapshotArguments) -> Result<(), CliError> {
     for (studio, places) in &scenes {
         for Place { path, view } in places {
             let kept = kept(path, arguments.update)?;
-            let shown = drawing.levels(studio, view.as_deref(), kept.as_ref().map(Grid::size))?;
+            let shown = comparison.levels(studio, view.as_deref(), kept.as_ref().map(Grid::size))?;
             let outcome = compare(arguments, path, &shown, kept.as_ref())?;
             let line = match &outcome {
                 Outcome::Same => "same",
@@ -139,20 +135,19 @@ fn compare(
         if arguments.update {
             return write();
         }
-        let [own, other] =
-            [shown, kept].map(|grid| format!("{} × {}", grid.size().width, grid.size().height));
+        let [own, other] = [shown, kept].map(levels::dots);
         let how = format!("it has {other} dots, and {own} are asked for");
         return Ok(Outcome::Different { how, picture: Vec::new() });
     };
-    if difference.beyond(arguments.tolerance) == 0 {
+    if difference.beyond(arguments.comparison.tolerance) == 0 {
         return Ok(Outcome::Same);
     }
     if arguments.update {
         return write();
     }
     Ok(Outcome::Different {
-        how: marked::summary(&difference, arguments.tolerance),
-        picture: marked::picture(shown, kept, arguments.tolerance)?,
+        how: marked::summary(&difference, arguments.comparison.tolerance),
+        picture: marked::picture(shown, kept, arguments.comparison.tolerance)?,
     })
 }
 

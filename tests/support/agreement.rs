@@ -1,7 +1,7 @@
 //! Whether the tracer and the oracle's calculation see the same: the same dots hit, depths to nine digits,
 //! the same object, the same normal.
 
-use ray13::frame::{Frame, Studio};
+use ray13::frame::Studio;
 use ray13::math::{DVec3, Size};
 use ray13::plan::StructureChoice;
 use ray13::scene::Camera;
@@ -38,9 +38,10 @@ pub fn compare(studio: &Studio, oracle: &Oracle, camera: &Camera, dots: Size) ->
     });
     let mut comparison = Comparison::default();
     for (structure, frame) in &frames[1..] {
-        let bits = |f: &Frame| f.light.values().iter().map(|x| x.to_bits()).collect::<Vec<_>>();
-        if frame.depth != frames[0].1.depth || bits(frame) != bits(&frames[0].1) {
-            comparison.faults.push(format!("structure {structure:?} shows another picture than none"));
+        let to_none = frame.compare(&frames[0].1).unwrap();
+        if !to_none.is_same() {
+            let fault = format!("structure {structure:?} shows another picture than none: {to_none}");
+            comparison.faults.push(fault);
         }
     }
     for (place, toward) in directions(camera, dots).into_iter().enumerate() {

@@ -8,6 +8,7 @@ mod support {
 }
 
 mod light {
+    mod adaptive;
     mod bound;
     mod errata;
     mod glass;

@@ -7,7 +7,9 @@ use clap_complete::Shell;
 
 use crate::math::{DVec3, Size};
 
-use super::names::{EngineName, Glyphs, PaletteName, PrecisionName, Preset, StructureName, ToneName};
+use super::names::{
+    AntiAliasing, EngineName, Glyphs, PaletteName, PrecisionName, Preset, StructureName, ToneName,
+};
 use super::values;
 
 /// Shows solid models in a terminal: ray traced, in 13 gray levels of block characters.
@@ -202,9 +204,16 @@ pub struct PictureArguments {
     /// Lights are hidden by what stands before them, as they are unless a preset says otherwise
     #[arg(long, overrides_with = "no_shadows")]
     pub shadows: bool,
-    /// Rays per dot along each axis [default: 1]
+    /// Rays per dot along each axis [default: 1; 4 with --aa fixed]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64), allow_hyphen_values = true)]
     pub samples: Option<u32>,
+    /// Which dots get more than one ray: none; each as many; those whose gray level one does not decide
+    /// [default: off, fixed with --samples, adaptive with --error]
+    #[arg(long, value_enum, value_name = "WHICH")]
+    pub aa: Option<AntiAliasing>,
+    /// Error of a dot that is small enough, as a share of a gray level [default: 0.0625]
+    #[arg(long, value_name = "F", value_parser = values::above_zero, allow_hyphen_values = true)]
+    pub error: Option<f64>,
     /// How space is cut into cells [default: auto]
     #[arg(long, value_enum)]
     pub structure: Option<StructureName>,

@@ -6,7 +6,7 @@ use crate::plan::{EngineChoice, Shading};
 
 use super::arguments::{PictureArguments, RawChannel, StillFormat};
 use super::error::CliError;
-use super::names::{PaletteName, PrecisionName};
+use super::names::{AntiAliasing, PaletteName, PrecisionName};
 
 /// What shows a picture.
 #[derive(Clone, Copy, Debug)]
@@ -59,7 +59,7 @@ const fn row(option: &'static str, verdict: Verdict, holds: fn(&Given) -> bool, 
 
 /// The viewer's lines come when it has ended, too late to change anything: what it does not follow is
 /// refused.
-const ROWS: [Row; 28] = [
+const ROWS: [Row; 32] = [
     row("cells", Refused, |g| g.is_viewer() && g.picture.cells.is_some(), FILLS),
     row("dots", Refused, |g| g.is_viewer() && g.picture.dots.is_some(), FILLS),
     row(
@@ -150,6 +150,23 @@ const ROWS: [Row; 28] = [
         "raw values have no tone",
     ),
     row("samples", Said, |g| g.raw() && g.picture.samples.is_some_and(|n| n > 1), OF_THE_MIDDLE),
+    row("aa", Said, |g| g.raw() && g.picture.aa.is_some_and(|aa| aa != AntiAliasing::Off), OF_THE_MIDDLE),
+    row("error", Said, |g| g.raw() && g.picture.error.is_some(), OF_THE_MIDDLE),
+    row(
+        "samples",
+        Said,
+        |g| {
+            let way = g.picture.anti_aliasing();
+            !g.raw() && g.picture.samples.is_some_and(|n| n > 1) && way != AntiAliasing::Fixed
+        },
+        "only --aa fixed takes as many rays for each dot",
+    ),
+    row(
+        "error",
+        Said,
+        |g| !g.raw() && g.picture.error.is_some() && g.picture.anti_aliasing() != AntiAliasing::Adaptive,
+        "only --aa adaptive asks for it",
+    ),
     row("shading", Said, |g| g.raw() && g.picture.shading.is_some(), OF_NO_LIGHT),
     row("no-shadows", Said, |g| g.raw() && g.picture.no_shadows, OF_NO_LIGHT),
     row("shadows", Said, |g| g.raw() && g.picture.shadows, OF_NO_LIGHT),

@@ -150,6 +150,17 @@ impl From<PrecisionName> for PrecisionChoice {
     }
 }
 
+/// The ways of anti-aliasing by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum AntiAliasing {
+    /// One ray through the middle of each dot
+    Off,
+    /// As many rays for each dot: --samples by --samples
+    Fixed,
+    /// As many as the gray level of a dot needs, to within --error
+    Adaptive,
+}
+
 /// The presets by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Preset {

@@ -5,13 +5,13 @@ use crate::frame::{Request, Studio, Wants, pcat};
 use crate::glyph::{CELL_ASPECT, FourGrays, GlyphMode, Ground, Palette};
 use crate::math::Size;
 use crate::output::Capabilities;
-use crate::plan::{CUTOFF, DEPTH, EngineChoice, Options, Shading, StructureChoice};
+use crate::plan::{CUTOFF, DEPTH, ERROR, EngineChoice, Options, Shading, StructureChoice};
 use crate::scene::{Camera, FieldSpan, Scene};
 use crate::tone::Tone;
 
 use super::arguments::{CameraArguments, PictureArguments};
 use super::error::CliError;
-use super::names::{Glyphs, PaletteName, Preset};
+use super::names::{AntiAliasing, Glyphs, PaletteName, Preset};
 use super::terminal::capabilities;
 use super::values::MOST_DOTS;
 
@@ -30,6 +30,10 @@ pub enum Unsized {
     /// [`PIXELS`].
     Pixels,
 }
+
+/// Rays per dot along each axis where only `--aa fixed` is given: 16 in all leave one dot in a hundred with
+/// another level than any number would (docs/performance.md).
+const FIXED_SAMPLES: u32 = 4;
 
 /// How a picture is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,12 +60,30 @@ impl PictureArguments {
             structure: self.structure.map_or(structure, Into::into),
             engine,
             precision: self.precision.into(),
-            samples: self.samples.unwrap_or(1),
+            samples: self.samples_per_axis(),
+            adaptive: (self.anti_aliasing() == AntiAliasing::Adaptive).then(|| self.error.unwrap_or(ERROR)),
             color: false,
             threads: self.threads.map_or(0, usize::from),
         };
         let checked = options.check().map(|()| options);
         checked.map_err(|e| CliError::Input(format!("{e}: leave out --engine or --structure")))
+    }
+
+    /// What is asked for, by name or by what only it takes.
+    pub fn anti_aliasing(&self) -> AntiAliasing {
+        let meant = match (self.samples, self.error) {
+            (_, Some(_)) => AntiAliasing::Adaptive,
+            (Some(_), None) => AntiAliasing::Fixed,
+            (None, None) => AntiAliasing::Off,
+        };
+        self.aa.unwrap_or(meant)
+    }
+
+    fn samples_per_axis(&self) -> u32 {
+        match self.anti_aliasing() {
+            AntiAliasing::Fixed => self.samples.unwrap_or(FIXED_SAMPLES),
+            AntiAliasing::Off | AntiAliasing::Adaptive => 1,
+        }
     }
 
     /// How light becomes a level.

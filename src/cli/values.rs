@@ -79,6 +79,14 @@ pub fn not_negative(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A number above 0.
+pub fn above_zero(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x > 0.0 && x.is_finite() => Ok(x),
+        _ => Err("expected a finite number above 0".into()),
+    }
+}
+
 fn pair<T: FromStr>(text: &str) -> Option<[T; 2]> {
     let (a, b) = text.split_once(['x', '×'])?;
     Some([a.trim().parse().ok()?, b.trim().parse().ok()?])

@@ -2,11 +2,13 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
+use crate::integrate::History;
 use crate::math::{DVec3, Grid, Size};
 use crate::shade::Channel;
 use crate::view::TILE;
 
 use super::finished_tile::FinishedTile;
+use super::refine::RefinedDot;
 use super::{Frame, Request};
 
 /// The dots of a picture; those that nobody wants are absent.
@@ -16,6 +18,8 @@ pub(super) struct PictureDots {
     pub depth: Option<Grid<f64>>,
     pub normal: Option<Grid<DVec3>>,
     pub object: Option<Grid<u32>>,
+    /// What the rays through the middles met.
+    pub history: Option<Grid<History>>,
 }
 
 impl PictureDots {
@@ -33,6 +37,22 @@ impl PictureDots {
             depth: wants.depth.then(|| room(depth, size, f64::INFINITY)),
             normal: wants.normal.then(|| room(normal, size, DVec3::ZERO)),
             object: wants.object.then(|| room(object, size, 0)),
+            history: None,
+        }
+    }
+
+    /// Makes room for histories.
+    pub fn keep_histories(&mut self) {
+        self.history = Some(Grid::filled(self.light.size(), History::MISS));
+    }
+
+    /// Sets the light of some dots.
+    pub fn set<C: Channel>(&mut self, dots: &[RefinedDot<C>]) {
+        for RefinedDot { column, row, light } in dots {
+            self.light[(*column, *row)] = light.gray();
+            if let Some(color) = &mut self.color {
+                color[(*column, *row)] = light.rgb();
+            }
         }
     }
 
@@ -45,6 +65,7 @@ impl PictureDots {
         let mut depth = rows_of_tiles(self.depth.as_mut());
         let mut normal = rows_of_tiles(self.normal.as_mut());
         let mut object = rows_of_tiles(self.object.as_mut());
+        let mut history = rows_of_tiles(self.history.as_mut());
         let next = || {
             Band(Mutex::new(Rows {
                 light: light(),
@@ -52,6 +73,7 @@ impl PictureDots {
                 depth: depth(),
                 normal: normal(),
                 object: object(),
+                history: history(),
             }))
         };
         PictureAssembly { size, bands: std::iter::repeat_with(next).take(rows).collect() }
@@ -103,6 +125,7 @@ struct Rows<'a> {
     depth: Option<&'a mut [f64]>,
     normal: Option<&'a mut [DVec3]>,
     object: Option<&'a mut [u32]>,
+    history: Option<&'a mut [History]>,
 }
 
 impl Band<'_> {
@@ -117,6 +140,7 @@ impl Band<'_> {
         place.copy(rows.depth.as_deref_mut(), dots.depth.as_ref(), |&depth| depth);
         place.copy(rows.normal.as_deref_mut(), dots.normal.as_ref(), |&normal| normal);
         place.copy(rows.object.as_deref_mut(), dots.object.as_ref(), |&object| object);
+        place.copy(rows.history.as_deref_mut(), dots.history.as_ref(), |&history| history);
     }
 }
 

@@ -1,7 +1,7 @@
 //! One picture, through all stages: prepared, rendered tile by tile, and assembled.
 
 use std::ops::Range;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
@@ -15,11 +15,12 @@ use crate::stage::{Counts, Progress, Stage, StageTimes, Task, TileProbe};
 use crate::view::{TILE, Tile, tiles};
 
 use super::assemble::PictureDots;
-use super::finished_tile::FinishedTile;
 use super::frame_cache::Hits;
 use super::prepare::{Prepared, Work};
+use super::refine::{Accuracy, FirstRays, open_dots, refine};
 use super::render::TileRenderer;
 use super::reuse::Reused;
+use super::workers::{Worker, Workers};
 use super::{Frame, NothingInView, Request, Space, Studio, Wants};
 
 /// One tile in this many is timed stage by stage: reading the clock at every change of stage costs about as
@@ -100,7 +101,11 @@ impl Studio {
         }
         let tracing = Instant::now();
         let mut dots = PictureDots::new(request, self.given_up());
-        let whole = Whole { dots: &mut dots, wants: request.wants, progress: &self.progress };
+        let accuracy = (prepared.plan.adaptive).map(|error| {
+            let color = request.wants_color();
+            Accuracy { error, tone: request.tone, color }
+        });
+        let whole = Whole { dots: &mut dots, wants: request.wants, accuracy, progress: &self.progress };
         let (counts, sampled) = match prepared.plan.channels {
             Channels::Gray => prepared.work::<f64, _>(whole),
             Channels::Three => prepared.work::<DVec3, _>(whole),
@@ -139,6 +144,8 @@ impl Studio {
 struct Whole<'a> {
     dots: &'a mut PictureDots,
     wants: Wants,
+    /// How exact dots are to be, where they get as many rays as that needs.
+    accuracy: Option<Accuracy>,
     progress: &'a Progress,
 }
 
@@ -147,35 +154,34 @@ impl<C: Channel> Work<C> for Whole<'_> {
     type Done = (Counts, StageTimes);
 
     fn by<I: TileIntegrator<C>>(self, renderer: &TileRenderer<I>) -> Self::Done {
-        let Self { dots, wants, progress } = self;
+        let Self { dots, wants, accuracy, progress } = self;
+        if accuracy.is_some() {
+            dots.keep_histories();
+        }
         let picture = dots.assembly();
-        // Of workers that have no tile in hand. Taken anew for each tile, since rayon would make more
-        // memories than it has threads.
-        let workers = Mutex::new(Vec::new());
+        let workers = Workers::new(wants, accuracy.is_some());
         let tiles = tiles(picture.size());
         progress.begin(Task::Tracing, tiles.len() as u64);
-        let idle = || workers.lock().unwrap_or_else(PoisonError::into_inner);
         let drawn = tiles.into_par_iter().map(|tile| {
-            let taken = idle().pop();
-            // Behind a pointer: it is large, and handed on with every tile.
-            let mut worker = taken.unwrap_or_else(|| Box::new((renderer.memory(), FinishedTile::new(wants))));
-            let (memory, finished) = &mut *worker;
             let watch = if is_timed(&tile) { TileProbe::timed(Stage::Ray) } else { TileProbe::Silent };
-            renderer.render(&tile, watch, memory, finished);
-            picture.take(finished);
-            let measured = (finished.counts, finished.times);
-            idle().push(worker);
-            progress.advance(1);
-            measured
+            workers.with(renderer, |Worker { memory, finished, .. }| {
+                renderer.render(&tile, watch, memory, finished);
+                picture.take(finished);
+                progress.advance(1);
+                (finished.counts, finished.times)
+            })
         });
-        let all = drawn.reduce(Default::default, |mut all, one| {
+        let mut all = drawn.reduce(Default::default, |mut all: Self::Done, one| {
             all.0 += one.0;
             all.1 += one.1;
             all
         });
-        for worker in idle().drain(..) {
-            renderer.give_back(worker.0);
+        if let (Some(accuracy), Some(first)) = (accuracy, FirstRays::of(dots, renderer)) {
+            let (refined, counts) = refine(open_dots(&first, accuracy), accuracy, renderer, &workers);
+            all.0 += counts;
+            dots.set(&refined);
         }
+        workers.give_back(renderer);
         all
     }
 }

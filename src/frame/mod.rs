@@ -9,12 +9,15 @@ mod frame_cache;
 mod nothing;
 pub mod pcat;
 mod prepare;
+mod refine;
 mod render;
 mod request;
 mod reuse;
 mod sample;
 mod scratch_pool;
+mod small;
 mod studio;
+mod workers;
 
 pub use compare::{Comparison, OtherDots};
 pub use nothing::NothingInView;

@@ -113,10 +113,9 @@ impl<I> TileRenderer<'_, I> {
         }
     }
 
-    /// Sets `light` to that of rays through some points of a tile's dots, at most 16 packets of them.
+    /// Sets `light` to that of rays through some points of the picture, at most 16 packets of them.
     pub fn shade_points<C: Channel>(
         &self,
-        tile: &Tile,
         points: &[PointPacket],
         memory: &mut RenderMemory<I::Memory, C>,
         light: &mut [C],
@@ -124,7 +123,7 @@ impl<I> TileRenderer<'_, I> {
     ) where
         I: TileIntegrator<C>,
     {
-        let camera = self.camera(tile, TileRays::Points(points));
+        let camera = self.camera(&Tile::NONE, TileRays::Points(points));
         let pass = TilePass { camera, kept: None, keeps_histories: false };
         self.integrator.shade(&pass, &mut memory.integrator, light, meter);
     }

@@ -150,9 +150,12 @@ impl Plan {
 
     fn rays(&self, dots: Size) -> String {
         let size = format!("{} × {} dots", dots.width, dots.height);
-        match self.samples {
-            1 => format!("{size}, a ray through the middle of each"),
-            n => format!("{size}, {} rays through each", u64::from(n).pow(2)),
+        match (self.samples, self.adaptive) {
+            (_, Some(error)) => format!(
+                "{size}, a ray through the middle of each, and more where its level is not decided within {error} of a level"
+            ),
+            (1, None) => format!("{size}, a ray through the middle of each"),
+            (n, None) => format!("{size}, {} rays through each", u64::from(n).pow(2)),
         }
     }
 

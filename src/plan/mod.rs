@@ -10,7 +10,7 @@ mod reasons;
 pub use cost::{Cost, Sample};
 pub use explain::{StagePlan, Term};
 pub use options::{
-    CUTOFF, DEPTH, EngineChoice, Options, OptionsError, PrecisionChoice, Shading, StructureChoice,
+    CUTOFF, DEPTH, ERROR, EngineChoice, Options, OptionsError, PrecisionChoice, Shading, StructureChoice,
 };
 pub use precision::Precision;
 pub use reasons::Reasons;
@@ -22,6 +22,9 @@ use crate::view::PinholeCamera;
 
 use precision::PrecisionReason;
 use reasons::{Absent, Cut};
+
+/// The least error of a dot, as a share of a level, that any number of rays is spent on.
+const LEAST_ERROR: f64 = 1e-3;
 
 /// Everything that the later stages need to know.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,6 +56,8 @@ pub struct Plan {
     pub lamps: Vec<Lamp>,
     /// Rays per dot along each axis.
     pub samples: u32,
+    /// The error that dots are left with, as a share of a level, where they get as many rays as that needs.
+    pub adaptive: Option<f64>,
     /// Why each of these is as it is.
     pub reasons: Reasons,
 }
@@ -160,7 +165,8 @@ impl Plan {
             shadows: reasons.shadows.is_ok(),
             channels: if reasons.colored.is_some() { Channels::Three } else { Channels::Gray },
             lamps,
-            samples: options.samples.max(1),
+            samples: if options.adaptive.is_some() { 1 } else { options.samples.max(1) },
+            adaptive: options.adaptive.map(|error| error.max(LEAST_ERROR)),
             reasons,
         }
     }

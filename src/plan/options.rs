@@ -9,6 +9,10 @@ pub const DEPTH: u32 = 5;
 /// decimals.
 pub const CUTOFF: f64 = 0.011;
 
+/// The error that a dot is left with, as a share of a level, where none is asked for: with it as few dots have
+/// a wrong level as with 16 rays for each (docs/performance.md).
+pub const ERROR: f64 = 1.0 / 16.0;
+
 /// Choices that change what is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
@@ -29,6 +33,10 @@ pub struct Options {
     pub precision: PrecisionChoice,
     /// Rays per dot along each axis; 1 or more. The light of a dot is their mean.
     pub samples: u32,
+    /// A dot gets more rays than the one through its middle where its level is not decided, until its error is
+    /// this share of a level at most, above 0; `samples` says nothing then. Absent where each dot gets as
+    /// many.
+    pub adaptive: Option<f64>,
     /// Whether the light of each dot is wanted by its three primaries, and not its luminance only. A `color`
     /// palette wants it by itself.
     pub color: bool,
@@ -47,6 +55,7 @@ impl Default for Options {
             engine: EngineChoice::Auto,
             precision: PrecisionChoice::Auto,
             samples: 1,
+            adaptive: None,
             color: false,
             threads: 0,
         }

@@ -96,6 +96,16 @@ impl Level {
         Self(darkest + u8::from(light >= border))
     }
 
+    /// Where `light` lies among the levels, −½ to 12½: the number of its level, and so far between the borders of
+    /// that as its light lies between theirs; −½ for no light, 12½ for white and above.
+    pub fn position(light: f64) -> f64 {
+        let level = Self::nearest(light);
+        let number = usize::from(level.get());
+        let low = if number == 0 { 0.0 } else { BORDERS[number - 1] };
+        let high = BORDERS.get(number).copied().unwrap_or(LIGHTS[number]);
+        f64::from(level.get()) + (((light - low) / (high - low)).clamp(0.0, 1.0) - 0.5)
+    }
+
     /// The number, 0 to 12.
     #[inline]
     pub const fn get(self) -> u8 {
@@ -170,6 +180,18 @@ mod tests {
             for light in [light.next_down(), light, light.next_up()] {
                 assert_eq!(usize::from(Level::nearest(light).get()), counted(light), "{light}");
             }
+        }
+    }
+
+    #[test]
+    fn the_position_goes_from_border_to_border() {
+        assert_eq!((Level::position(0.0), Level::position(1.0), Level::position(7.0)), (-0.5, 12.5, 12.5));
+        for (k, border) in BORDERS.into_iter().enumerate() {
+            assert!((Level::position(border) - (k as f64 + 0.5)).abs() < 1e-12);
+            assert!((Level::position(border.next_down()) - (k as f64 + 0.5)).abs() < 1e-12);
+        }
+        for level in Level::all() {
+            assert!((Level::position(level.light()) - f64::from(level.get())).abs() <= 0.5);
         }
     }
 

@@ -14,6 +14,6 @@ pub use direction::{all_settled, settled};
 pub use framing::framed;
 pub use pinhole::{Picture, PinholeCamera};
 pub use point_packet::PointPacket;
-pub use sample_points::{edge_error, sample_point};
+pub use sample_points::{edge_error, missed_edge_error, sample_point};
 pub use tile::{TILE, Tile, tiles};
 pub use tile_camera::{TileCamera, TileRays};

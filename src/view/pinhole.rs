@@ -108,6 +108,17 @@ impl PinholeCamera {
         d * (height.same(1.0) / d.length())
     }
 
+    /// Where in the picture a point is seen that lies so far from the eye, in dots from the upper left corner;
+    /// none where it is not in front of the eye. The inverse of [`PinholeCamera::ray`].
+    pub fn seen_at(&self, from_eye: DVec3) -> Option<[f64; 2]> {
+        let depth = from_eye.dot(self.forward);
+        let Size { width, height } = self.dots;
+        let [across, down] = self.tangents;
+        let x = from_eye.dot(self.right) / depth / across;
+        let y = from_eye.dot(self.up) / depth / down;
+        (depth > 0.0).then(|| [0.5 * (1.0 + x) * f64::from(width), 0.5 * (1.0 - y) * f64::from(height)])
+    }
+
     /// How wide or high a dot is at a distance of 1 from the eye at least, whichever is less.
     pub fn least_dot(&self) -> f64 {
         let Size { width, height } = self.dots;
@@ -186,6 +197,17 @@ mod tests {
         let tall = Picture { dots: Size::new(50, 200), dot_aspect: 1.0 };
         let pinhole = PinholeCamera::new(&camera([40.0, 25.0]), &tall);
         assert!((pinhole.field()[0] - 40.0).abs() < 1e-12 && pinhole.field()[1] > 25.0);
+    }
+
+    #[test]
+    fn a_point_is_seen_where_its_ray_passes() {
+        let picture = Picture { dots: Size::new(160, 100), dot_aspect: 0.5 };
+        let pinhole = PinholeCamera::new(&camera([40.0, 25.0]), &picture);
+        for [x, y] in [[80.0, 50.0], [0.0, 0.0], [159.5, 3.25]] {
+            let [i, j] = pinhole.seen_at(pinhole.ray(x, y).d * 7.0).unwrap();
+            assert!((i - x).abs() < 1e-9 && (j - y).abs() < 1e-9, "{i} {j}");
+        }
+        assert_eq!(pinhole.seen_at(-pinhole.forward), None);
     }
 
     #[test]

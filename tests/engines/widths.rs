@@ -102,10 +102,12 @@ fn solids_of_all_kinds_are_the_same_at_any_size_of_the_picture() {
 #[test]
 fn samples_and_colours_are_the_same() {
     let scene = all_kinds();
-    for (samples, color) in [(2, false), (1, true), (3, true)] {
+    for (samples, adaptive, color) in
+        [(2, None, false), (1, None, true), (3, None, true), (1, Some(0.25), false), (1, Some(0.25), true)]
+    {
         same_at_all("all kinds", &scene, |studio| {
             let plain = plain(studio, Size::new(41, 35));
-            Request { options: Options { samples, color, ..plain.options }, ..plain }
+            Request { options: Options { samples, adaptive, color, ..plain.options }, ..plain }
         });
     }
 }

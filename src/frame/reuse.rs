@@ -71,7 +71,10 @@ impl Request {
     }
 
     fn has_dots_of(&self, other: &Self) -> bool {
-        self.has_view_of(other) && self.planned() == other.planned()
+        let planned = self.planned();
+        // How many rays a dot gets depends on where the borders of its levels are.
+        let by_levels = planned.adaptive.is_some() || planned.undersampling;
+        self.has_view_of(other) && planned == other.planned() && (self.tone == other.tone || !by_levels)
     }
 
     fn has_cells_of(&self, other: &Self) -> bool {

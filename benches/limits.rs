@@ -124,7 +124,7 @@ fn measured<S: Simd>(simd: S, form: &WorldShape, packet: &RayPacket) -> f64 {
             }
         };
     }
-    of!(Ball, AxisBox, SkewBox, Round, Facets)
+    of!(Ball, AxisBox, SkewBox, Quadric, Facets)
 }
 
 #[inline(always)]

@@ -179,8 +179,9 @@ pub enum Shape {
     /// `x² + y² + z² ≤ 1`.
     Sphere,
     /// `x² + y² ≤ r(z)²`, `|z| ≤ 1`, with `r` linear from `bottom` at z = −1 to `top` at z = 1.
-    /// Both are in `0..=1` and the larger is exactly 1. Both 1 is a cylinder, one 0 a cone.
-    Frustum {
+    /// Both are in `0..=1` and the larger is exactly 1. Both 1 is a cylinder; one 0 comes to a point; else
+    /// it is a truncated cone.
+    Cone {
         /// Radius at z = −1.
         bottom: f64,
         /// Radius at z = 1.
@@ -199,7 +200,7 @@ pub enum Shape {
     Face(Arc<[DVec3]>),
     /// A surface: a polygon whose normal is interpolated between those of its corners.
     Patch(Arc<[Corner]>),
-    /// A surface: the side of a [`Shape::Frustum`], without its caps.
+    /// A surface: the side of a [`Shape::Cone`], without its caps.
     Tube {
         /// Radius at z = −1.
         bottom: f64,
@@ -217,7 +218,7 @@ impl Shape {
     /// A box around the shape, in its own coordinates.
     pub fn bounds(&self) -> Bounds {
         match self {
-            Self::Sphere | Self::Frustum { .. } | Self::Cube | Self::Tube { .. } => {
+            Self::Sphere | Self::Cone { .. } | Self::Cube | Self::Tube { .. } => {
                 Bounds::new(DVec3::NEG_ONE, DVec3::ONE)
             }
             Self::Facets(facets) => facets.bounds,

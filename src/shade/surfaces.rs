@@ -117,11 +117,11 @@ impl Surfaces {
                     #[inline(always)]
                     |p| ball.normals(p),
                 ),
-                WorldShape::Round(round) => self.face(
+                WorldShape::Quadric(quadric) => self.face(
                     simd,
                     group,
                     #[inline(always)]
-                    |p| round.normals(p, surface),
+                    |p| quadric.normals(p, surface),
                 ),
                 WorldShape::Tube(tube) => self.face(
                     simd,

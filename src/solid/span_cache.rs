@@ -14,7 +14,7 @@ use super::span::{Ends, Spans};
 /// for the SIMD width. Other forms have none.
 macro_rules! with_spans {
     ($simd:expr, $form:expr, $rows:ident, $($arg:expr),* $(,)?) => {
-        with_spans!(@each $simd, $form, $rows, ($($arg),*), Ball, AxisBox, SkewBox, Round, Facets)
+        with_spans!(@each $simd, $form, $rows, ($($arg),*), Ball, AxisBox, SkewBox, Quadric, Facets)
     };
     (@each $simd:expr, $form:expr, $rows:ident, $args:tt, $($kind:ident),*) => {
         match $form {

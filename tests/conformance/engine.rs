@@ -189,7 +189,7 @@ impl Subject for ExactEngine {
     /// multiplied by the length of the inverse map's row.
     ///
     /// A chord that such an error could have made counts as none: on a sphere where the ray passes within
-    /// once the error of the silhouette, on the side of a frustum within three times, one for each axis. At
+    /// once the error of the silhouette, on the side of a truncated cone within three times, one for each axis. At
     /// an apex a chord through a circle of radius ρ counts as none for ρ² ≤ 3·off·(2ρ + off), up to 6.5
     /// times; rounded up to 7.
     fn rim(&self, primitive: &Primitive, ray: &Ray) -> DVec3 {

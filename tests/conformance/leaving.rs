@@ -9,13 +9,13 @@ use crate::conformance::engine::{Cut, Found, Start, Subject};
 use crate::conformance::expressions::random::any_solid;
 use crate::conformance::faults::assert_none;
 use crate::conformance::long::{cases, report};
-use crate::conformance::solids::{CONE, CYLINDER, FRUSTUM, placed, primitive, prism, scene};
+use crate::conformance::solids::{CONE, CYLINDER, TRUNCATED_CONE, placed, primitive, prism, scene};
 use crate::conformance::tally::{said, ulp};
 use crate::support::oracle::{Big, Verdict, verdict};
 
 /// All shapes of convex solids, turned and not.
 fn any_convex(chance: &mut Chance) -> (Shape, DMat3) {
-    let shape = chance.one_of(&[Shape::Sphere, Shape::Cube, CYLINDER, CONE, FRUSTUM, prism()]);
+    let shape = chance.one_of(&[Shape::Sphere, Shape::Cube, CYLINDER, CONE, TRUNCATED_CONE, prism()]);
     let half = if chance.below(2) == 0 {
         DVec3::ONE
     } else {

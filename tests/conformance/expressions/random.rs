@@ -10,7 +10,7 @@ use crate::conformance::chance::Chance;
 use crate::conformance::engine::{Cut, Found, Subject};
 use crate::conformance::faults::assert_none;
 use crate::conformance::long::{cases, report};
-use crate::conformance::solids::{CONE, CYLINDER, FRUSTUM, mesh, moved, prism, scene, solid};
+use crate::conformance::solids::{CONE, CYLINDER, TRUNCATED_CONE, mesh, moved, prism, scene, solid};
 use crate::conformance::tally::ulp;
 use crate::support::oracle::{Big, Hit, Oracle};
 
@@ -36,7 +36,7 @@ fn any_primitive(chance: &mut Chance) -> Solid {
         CYLINDER,
         CYLINDER,
         CONE,
-        FRUSTUM,
+        TRUNCATED_CONE,
         prism(),
         mesh(),
     ]);

@@ -13,7 +13,7 @@ const TOP: u32 = 2;
 
 /// A unit sphere or truncated cone under an affine map.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Round {
+pub struct Quadric {
     space: UnitSpace,
     /// From unit directions to world directions.
     linear: DMat3,
@@ -27,7 +27,7 @@ enum Profile {
     Cone(Taper),
 }
 
-impl Round {
+impl Quadric {
     /// The unit sphere at `place`, which may be off by `map_error`.
     pub fn ellipsoid(place: &Placement, map_error: DVec3) -> Self {
         Self { space: UnitSpace::new(place, map_error), linear: place.linear, profile: Profile::Sphere }

@@ -51,8 +51,8 @@ operators! {
 impl<S: Simd> Number for F32x16<S> {
     type Mask = F32x16Mask<S>;
 
-    const COARSER: f64 = <f32 as Real>::COARSER;
-    const DECIDES: bool = <f32 as Real>::DECIDES;
+    const EPSILON_RATIO: f64 = <f32 as Real>::EPSILON_RATIO;
+    const IS_DOUBLE: bool = <f32 as Real>::IS_DOUBLE;
     const LEAST: f64 = f32::MIN_POSITIVE as f64;
 
     #[inline(always)]
@@ -101,8 +101,8 @@ impl Real for f32 {
     type SimdReal<S: Simd> = F32x16<S>;
 
     const LANES: usize = 2 * LANES;
-    const COARSER: f64 = (Self::EPSILON as f64) / f64::EPSILON;
-    const DECIDES: bool = false;
+    const EPSILON_RATIO: f64 = (Self::EPSILON as f64) / f64::EPSILON;
+    const IS_DOUBLE: bool = false;
     const ZERO: Self = 0.0;
     const INFINITY: Self = Self::INFINITY;
 

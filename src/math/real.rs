@@ -21,11 +21,11 @@ pub trait Real: Copy + Debug + Default + Into<f64> + Send + Sync + 'static {
     const ROWS: usize = PACKET / Self::LANES;
     /// A bit for each ray of the first row.
     const ROW: u64 = (1 << Self::LANES) - 1;
-    /// How many times as much is lost by a rounding as of an `f64`. Maps, starts and directions come rounded
-    /// once from `f64`; the rest of each chain of roundings is the same.
-    const COARSER: f64;
-    /// [`Number::DECIDES`].
-    const DECIDES: bool;
+    /// [`Number::EPSILON_RATIO`]. Maps, starts and directions come rounded once from `f64`; the rest of each
+    /// chain of roundings is the same.
+    const EPSILON_RATIO: f64;
+    /// [`Number::IS_DOUBLE`].
+    const IS_DOUBLE: bool;
     /// 0.
     const ZERO: Self;
     /// What is beyond all numbers.
@@ -109,8 +109,8 @@ impl Real for f64 {
     type SimdReal<S: Simd> = f64x8<S>;
 
     const LANES: usize = LANES;
-    const COARSER: f64 = 1.0;
-    const DECIDES: bool = true;
+    const EPSILON_RATIO: f64 = 1.0;
+    const IS_DOUBLE: bool = true;
     const ZERO: Self = 0.0;
     const INFINITY: Self = Self::INFINITY;
 

@@ -1,9 +1,9 @@
 //! In which precision rays from the eye are asked what they meet.
 //!
 //! Of solids that are cut, and of convex ones but balls, numbers of 24 bits say it in less time than those of
-//! 53. Which surface is met stays certain: where single precision leave a doubt, at silhouettes and edges and
+//! 53. Which surface is met stays certain: where single precision is uncertain, at silhouettes and edges and
 //!     where two surfaces are near each other, all are asked. But where it is met is off by up to
-//!     [`Real::COARSER`] times as much, some 2·10⁻⁵ in the unit in which the world reaches to ±2. That is
+//!     [`Real::EPSILON_RATIO`] times as much, some 2·10⁻⁵ in the unit in which the world reaches to ±2. That is
 //!     allowed where it is so small a part of a dot, of what is nearest to the eye, that light is off by less
 //!     than a quarter of a level.
 //!
@@ -19,7 +19,7 @@ use super::{EngineChoice, Options, PrecisionChoice};
 /// In which precision rays from the eye are asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Precision {
-    /// Those of `f32`; of `f64` where these leave a doubt.
+    /// Those of `f32`; of `f64` where these are uncertain.
     Single,
     /// Those of `f64`.
     Double,
@@ -115,7 +115,7 @@ impl PrecisionReason {
         if stats.surfaces > 0 || stats.balls == assembly.objects.len() {
             return Self::NoGain;
         }
-        let off = assembly.off * f32::COARSER;
+        let off = assembly.off * f32::EPSILON_RATIO;
         if stats.thinnest < THICK * off {
             return Self::Thin;
         }

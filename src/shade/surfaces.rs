@@ -49,7 +49,7 @@ impl Surfaces {
         level: Level,
     ) {
         dispatch!(level, simd => self.set_all_points(simd, packet, before, nearest));
-        self.hits &= packet.live & !nearest.unsure;
+        self.hits &= packet.live & !nearest.uncertain;
     }
 
     #[inline(always)]

@@ -57,7 +57,7 @@ impl<N: Number> Balls<N> {
         let second = -near.dot(rays.d);
         let near = near + rays.d * second;
         let l_squared = near.length_squared();
-        let near_enough = l_squared.is_at_most(if N::DECIDES {
+        let near_enough = l_squared.is_at_most(if N::IS_DOUBLE {
             radius * radius
         } else {
             radius * radius + grazing + off * off
@@ -68,7 +68,7 @@ impl<N: Number> Balls<N> {
         let l = l_squared.root();
         let half_squared = (-l + radius) * (l + radius);
         // Moving the ray sideways changes the square of the half-chord by 2·l times as much.
-        let least = if N::DECIDES { radius * 2.0 * SEEN } else { grazing };
+        let least = if N::IS_DOUBLE { radius * 2.0 * SEEN } else { grazing };
         let any = near_enough & half_squared.is_above(least);
         let half = half_squared.root();
         // Half a chord that the map's own error could have made is off by no more than all of that.
@@ -80,7 +80,7 @@ impl<N: Number> Balls<N> {
             enter: Ends { t: middle - half, error, surface },
             leave: Ends { t: middle + half, error, surface },
             any,
-            may: if N::DECIDES { any } else { near_enough },
+            may: if N::IS_DOUBLE { any } else { near_enough },
         }
     }
 }
@@ -102,7 +102,7 @@ impl Ball {
     #[inline(always)]
     fn for_all<N: Number>(&self, like: N) -> Balls<N> {
         let Self { center, radius, off } = *self;
-        let off = off * N::COARSER;
+        let off = off * N::EPSILON_RATIO;
         let grazing = 2.0 * radius * off;
         let Vector { x, y, z } = Vector::from(center);
         Balls {
@@ -127,7 +127,7 @@ impl Ball {
     /// The most that the `error` of any of its ends can be: half a chord whose square is below `2·r·off` is
     /// off by no more than the root of that, and one above it by less than half of that root.
     pub fn most_error<T: Real>(&self) -> f64 {
-        let off = self.off * T::COARSER;
+        let off = self.off * T::EPSILON_RATIO;
         off + (2.0 * self.radius * off).sqrt()
     }
 

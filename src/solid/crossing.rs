@@ -128,7 +128,7 @@ impl<N: Number> RayStarts<N> {
         end.t.is_at_most(self.reach(end, form))
     }
 
-    /// Whether numbers that do not decide leave a doubt which of these they do.
+    /// Whether it is uncertain in single precision which of these they do.
     #[inline(always)]
     pub fn near(&self, end: &Ends<N>, form: &WorldShape) -> N::Mask {
         end.t.magnitude().is_at_most(self.reach(end, form))
@@ -138,7 +138,7 @@ impl<N: Number> RayStarts<N> {
     fn reach(&self, end: &Ends<N>, form: &WorldShape) -> N {
         start_of(
             end.error,
-            PlaceError { off: form.off() * N::COARSER, rounding_share: form.rounding_share() },
+            PlaceError { off: form.off() * N::EPSILON_RATIO, rounding_share: form.rounding_share() },
             self.off,
         )
     }

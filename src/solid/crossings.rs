@@ -41,7 +41,7 @@ impl<T: Real> PacketScratch<T> {
 
 /// The first crossings of an expression of convex primitives.
 ///
-/// Rays whose expression has a primitive that is not convex are unsure, all of them.
+/// Rays whose expression has a primitive that is not convex are uncertain, all of them.
 pub fn first_of_expressions<S: Simd, T: Real>(
     simd: S,
     asked: &CsgQuery<T>,
@@ -51,23 +51,23 @@ pub fn first_of_expressions<S: Simd, T: Real>(
     found: &mut PacketCrossings<T>,
 ) {
     let wanted = asked.wanted;
-    (found.any, found.unsure, found.entering) = (0, 0, 0);
+    (found.any, found.uncertain, found.entering) = (0, 0, 0);
     let form = |leaf: usize| &primitives[expression.leaves[leaf].primitive as usize].form;
     let leaves = expression.leaves.len();
     if (0..leaves).any(|leaf| !form(leaf).is_convex()) {
-        found.unsure = wanted;
+        found.uncertain = wanted;
         return;
     }
-    let (mut some, mut doubtful) = (0, 0);
+    let (mut some, mut uncertain) = (0, 0);
     scratch.places.clear();
     for (leaf, place) in expression.leaves.iter().enumerate() {
         let (place, [ahead, may]) = scratch.known.look(simd, asked, place.primitive, form(leaf));
         scratch.places.push(place);
         some |= ahead;
-        doubtful |= may;
+        uncertain |= may;
     }
-    found.unsure = doubtful;
-    some &= !doubtful;
+    found.uncertain = uncertain;
+    some &= !uncertain;
     if some == 0 {
         return;
     }
@@ -126,10 +126,10 @@ fn decide<S: Simd, T: Real>(
         let mut early = 0;
         for row in 0..T::ROWS {
             if T::has_any(open, row) {
-                let [ended, earlier, doubtful] = next_place(simd, row, open, &mut sides, departures, reach);
-                done |= ended | doubtful;
+                let [ended, earlier, uncertain] = next_place(simd, row, open, &mut sides, departures, reach);
+                done |= ended | uncertain;
                 early |= earlier;
-                found.unsure |= doubtful;
+                found.uncertain |= uncertain;
             }
         }
         open &= !done;
@@ -158,7 +158,7 @@ fn decide<S: Simd, T: Real>(
                     }
                 }
             }
-            found.unsure |= left;
+            found.uncertain |= left;
             found.any |= shown & !left;
             found.entering |= shown & now;
             open &= !shown;
@@ -217,10 +217,10 @@ fn next_place<S: Simd, T: Real>(
             side.crossing = side.crossing & !(T::ROW << shift) | reaches.bits() << shift;
         }
     }
-    let mut doubtful = 0;
-    let all_before = if !T::DECIDES {
+    let mut uncertain = 0;
+    let all_before = if !T::IS_DOUBLE {
         let at_start = asking & t.magnitude().is_at_most(start);
-        doubtful = T::bits_of(simd, more | at_start, row);
+        uncertain = T::bits_of(simd, more | at_start, row);
         t.is_below(T::all(simd, reach.from))
     } else if more.any() {
         one_place(simd, row, asking, sides, FirstEnds { t, error, off }, reach)
@@ -228,7 +228,7 @@ fn next_place<S: Simd, T: Real>(
         t.is_below(T::all(simd, reach.from))
     };
     let early = asking & (t.is_at_most(start) | all_before);
-    [T::bits_of(simd, ended, row), T::bits_of(simd, early, row), doubtful]
+    [T::bits_of(simd, ended, row), T::bits_of(simd, early, row), uncertain]
 }
 
 /// The first crossing that is yet to come on each ray of a row: where, how far that may be off, and how far

@@ -83,7 +83,7 @@ pub struct PacketCrossings<T = f64> {
     pub any: u64,
     /// Which rays are to be asked one by one: theirs is a place where no primitive alone makes the change; or
     /// by double precision.
-    pub unsure: u64,
+    pub uncertain: u64,
     /// Which rays go into the solid there.
     pub entering: u64,
     /// Where, and how far that may be off.
@@ -100,7 +100,7 @@ impl<T: Real> PacketCrossings<T> {
     /// None.
     pub const NONE: Self = Self {
         any: 0,
-        unsure: 0,
+        uncertain: 0,
         entering: 0,
         t: Lanes::filled(T::INFINITY),
         error: Lanes::filled(T::ZERO),

@@ -80,13 +80,16 @@ impl ConvexPolyhedron {
         let from_center = rays.o - self.center;
         let mut spans = Spans::line(like);
         let (before, behind) = (like.same(f64::NEG_INFINITY), like.same(f64::INFINITY));
-        let still = STILL * N::COARSER;
+        let still = STILL * N::EPSILON_RATIO;
         for (surface, (face, off)) in self.faces.iter().zip(&self.off).enumerate() {
             let above = from_center.dot_one(face.normal) - face.offset;
             let d = rays.d.dot_one(face.normal);
             let inverse = like.same(1.0) / d;
-            let (t, error, surface) =
-                (-above * inverse, inverse.magnitude() * (*off * N::COARSER), like.same(surface as f64));
+            let (t, error, surface) = (
+                -above * inverse,
+                inverse.magnitude() * (*off * N::EPSILON_RATIO),
+                like.same(surface as f64),
+            );
             let (against, along) = (d.is_below(like.same(-still)), d.is_above(like.same(still)));
             let enter = Ends { t: against.choose(t, before), error, surface };
             let leave = Ends { t: along.choose(t, behind), error, surface };
@@ -97,7 +100,7 @@ impl ConvexPolyhedron {
             spans.keep(
                 against | along | !outside,
                 #[inline(always)]
-                || !(against | along) & above.magnitude().is_at_most(like.same(*off * N::COARSER)),
+                || !(against | along) & above.magnitude().is_at_most(like.same(*off * N::EPSILON_RATIO)),
             );
         }
         spans.if_any(

@@ -35,7 +35,7 @@ pub(super) struct Around<S: Simd> {
     /// Which rays it goes around an odd number of times.
     pub odd: mask64x8<S>,
     /// Which are to be asked one by one.
-    pub unsure: mask64x8<S>,
+    pub uncertain: mask64x8<S>,
 }
 
 impl PacketShear {
@@ -119,7 +119,7 @@ impl<S: Simd, const MAIN: usize> Row<S, MAIN> {
                 let bound = (left + right).magnitude() * ROUNDED;
                 // From above to below it is the area's negative that has to be above 0.
                 around.odd ^= crosses & (area.is_above(zero) ^ p_above);
-                around.unsure |= crosses & !area.magnitude().is_above(bound);
+                around.uncertain |= crosses & !area.magnitude().is_above(bound);
             }
             (p, p_above) = (q, q_above);
         }
@@ -144,6 +144,6 @@ impl<S: Simd> Around<S> {
     #[inline(always)]
     pub fn nothing(simd: S) -> Self {
         let no = mask64x8::splat(simd, false);
-        Self { odd: no, unsure: no }
+        Self { odd: no, uncertain: no }
     }
 }

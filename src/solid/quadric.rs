@@ -120,15 +120,15 @@ fn sphere_spans<N: Number>(rays: &Centred<N>) -> Spans<N> {
     // Moving the ray by at most `off` changes the square of the half-chord by 2·o·off.
     let across = rays.o.magnitude().dot_one(rays.off);
     let one = rays.t.same(1.0);
-    // Of numbers that do not decide what is lost is no longer so small that its square can be left out.
-    let grazing = if N::DECIDES { across * 2.0 } else { across * 2.0 + rays.off.length_squared() };
-    let near_enough = l_squared.is_at_most(if N::DECIDES { one } else { one + grazing });
+    // Of single precision what is lost is no longer so small that its square can be left out.
+    let grazing = if N::IS_DOUBLE { across * 2.0 } else { across * 2.0 + rays.off.length_squared() };
+    let near_enough = l_squared.is_at_most(if N::IS_DOUBLE { one } else { one + grazing });
     if !near_enough.any() {
         return Spans::none(rays.t);
     }
     let l = l_squared.root();
     let half_squared = (-l + 1.0) * (l + 1.0);
-    let least = if N::DECIDES { across * 2.0 * rays.rounding_share } else { grazing };
+    let least = if N::IS_DOUBLE { across * 2.0 * rays.rounding_share } else { grazing };
     let any = near_enough & half_squared.is_above(least);
     let root = half_squared.root();
     let slowness = rays.t.same(1.0) / rays.d_squared.root();
@@ -142,7 +142,7 @@ fn sphere_spans<N: Number>(rays: &Centred<N>) -> Spans<N> {
         enter: Ends { t: rays.t - half, error, surface },
         leave: Ends { t: rays.t + half, error, surface },
         any,
-        may: if N::DECIDES { any } else { near_enough },
+        may: if N::IS_DOUBLE { any } else { near_enough },
     }
 }
 

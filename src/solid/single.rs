@@ -34,8 +34,8 @@ pub(super) fn decide_single<S: Simd, T: Real>(
         let (enter, leave) = (known.enter.row(simd, row), known.leave.row(simd, row));
         let mut open = T::row_of(simd, open, row) & !enter.t.is_above(to);
         let one_place = open & (leave.t - leave.error).is_at_most(enter.t + enter.error);
-        if one_place.any() && !T::DECIDES {
-            found.unsure |= T::bits_of(simd, one_place, row);
+        if one_place.any() && !T::IS_DOUBLE {
+            found.uncertain |= T::bits_of(simd, one_place, row);
             open = open & !one_place;
         } else if one_place.any() {
             let off = T::all(simd, known.off);
@@ -48,9 +48,9 @@ pub(super) fn decide_single<S: Simd, T: Real>(
         );
         let own = PlaceError { off: known.off, rounding_share: known.rounding_share };
         let starts = [start_of(enter.error, own, offs), start_of(leave.error, own, offs)];
-        if !T::DECIDES {
+        if !T::IS_DOUBLE {
             let near = enter.t.magnitude().is_at_most(starts[0]) | leave.t.magnitude().is_at_most(starts[1]);
-            found.unsure |= T::bits_of(simd, open & near, row);
+            found.uncertain |= T::bits_of(simd, open & near, row);
             open = open & !near;
         }
         let goes_in = open & !(enter.t.is_at_most(starts[0]) | enter.t.is_below(from));

@@ -210,13 +210,13 @@ impl Slab {
     /// surface until [`with_sides`] says which of the two it is.
     #[inline(always)]
     fn clip<N: Number>(&self, spans: &mut Spans<N>, o: N, d: N, axis: usize) {
-        let still = d.magnitude().is_below(o.same((self.still * N::COARSER).max(STILL * N::LEAST)));
+        let still = d.magnitude().is_below(o.same((self.still * N::EPSILON_RATIO).max(STILL * N::LEAST)));
         let inside = o.is_at_least(o.same(self.lo)) & o.is_below(o.same(self.hi));
         spans.keep(
             !still | inside,
             #[inline(always)]
             || {
-                let off = o.same(self.off * N::COARSER);
+                let off = o.same(self.off * N::EPSILON_RATIO);
                 still
                     & ((o - self.lo).magnitude().is_at_most(off) | (o - self.hi).magnitude().is_at_most(off))
             },
@@ -227,7 +227,7 @@ impl Slab {
         // A ray along the slab crosses neither face.
         let enter = still.choose(o.same(f64::NEG_INFINITY), forward.choose(low, high));
         let leave = still.choose(o.same(f64::INFINITY), forward.choose(high, low));
-        let (error, surface) = (inverse.magnitude() * (self.off * N::COARSER), o.same(axis as f64));
+        let (error, surface) = (inverse.magnitude() * (self.off * N::EPSILON_RATIO), o.same(axis as f64));
         spans.clip(Ends { t: enter, error, surface }, Ends { t: leave, error, surface });
     }
 }

@@ -73,7 +73,7 @@ pub struct Spans<N: Number> {
     pub leave: Ends<N>,
     /// Which have a span at all: of the others the numbers mean nothing.
     pub any: N::Mask,
-    /// Which may have one: these, and where numbers do not [decide](Number::DECIDES) also those of which
+    /// Which may have one: these, and in single precision also those of which
     /// double precision might say otherwise.
     pub may: N::Mask,
 }
@@ -123,10 +123,10 @@ impl<N: Number> Spans<N> {
     }
 
     /// Cuts each span to `enter..leave`. Of two faces crossed at the same `t` the one clipped first stays;
-    /// numbers that do not decide leave a doubt which of them it is.
+    /// in single precision it is uncertain which of them it is.
     #[inline(always)]
     pub(super) fn clip(&mut self, enter: Ends<N>, leave: Ends<N>) {
-        if !N::DECIDES {
+        if !N::IS_DOUBLE {
             self.any = self.any & !(self.enter.may_be(&enter) | self.leave.may_be(&leave));
         }
         self.enter = Ends::choose(enter.t.is_above(self.enter.t), enter, self.enter);
@@ -141,9 +141,9 @@ impl<N: Number> Spans<N> {
         let length = self.leave.t - self.enter.t;
         let same_pair = pair(self.enter.surface).is_equal(pair(self.leave.surface));
         let off = self.enter.error + self.leave.error;
-        let long = length.is_above(if N::DECIDES { off * rounding_share } else { off });
+        let long = length.is_above(if N::IS_DOUBLE { off * rounding_share } else { off });
         self.any = self.any & length.is_above(length.same(0.0)) & (same_pair | long);
-        self.may = if N::DECIDES { self.any } else { self.may & length.is_above(-off) };
+        self.may = if N::IS_DOUBLE { self.any } else { self.may & length.is_above(-off) };
         self
     }
 
@@ -151,7 +151,7 @@ impl<N: Number> Spans<N> {
     /// keep only `may`: double precision decides.
     #[inline(always)]
     pub(super) fn keep(&mut self, inside: N::Mask, near: impl FnOnce() -> N::Mask) {
-        if N::DECIDES {
+        if N::IS_DOUBLE {
             self.any = self.any & inside;
             self.may = self.any;
         } else {

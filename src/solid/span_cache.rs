@@ -53,7 +53,7 @@ pub(super) struct CachedSpans<T> {
     pub rounding_share: f64,
     /// Which rays have one; and which may have one, as far as double precision might say.
     any: u64,
-    doubtful: u64,
+    uncertain: u64,
     pub enter: SpanEnds<T>,
     pub leave: SpanEnds<T>,
 }
@@ -84,7 +84,7 @@ impl<T: Real> CachedSpans<T> {
         off: 0.0,
         rounding_share: 0.0,
         any: 0,
-        doubtful: 0,
+        uncertain: 0,
         enter: SpanEnds::NONE,
         leave: SpanEnds::NONE,
     };
@@ -161,8 +161,8 @@ impl<T: Real> SpanCache<T> {
             }
             self.count += 1;
             let known = &mut self.spans[self.count - 1];
-            (known.primitive, known.any, known.doubtful) = (primitive, 0, 0);
-            (known.off, known.rounding_share) = (form.off() * T::COARSER, form.rounding_share());
+            (known.primitive, known.any, known.uncertain) = (primitive, 0, 0);
+            (known.off, known.rounding_share) = (form.off() * T::EPSILON_RATIO, form.rounding_share());
             let (here, inward) = departures.map_or((0, 0), |d| d.here(simd, primitive));
             with_spans!(simd, form, learn, packet, wanted, here, inward, known);
             self.count - 1
@@ -172,7 +172,7 @@ impl<T: Real> SpanCache<T> {
             #[inline(always)]
             || spans.look(simd, wanted, reach),
         );
-        (place as u32, [ahead, spans.doubtful & wanted])
+        (place as u32, [ahead, spans.uncertain & wanted])
     }
 }
 
@@ -192,8 +192,8 @@ fn learn<S: Simd, T: Real>(
         }
         let mut spans = spans(&packet.load(simd, row));
         let any = spans.any & !T::row_of(simd, here & !inward, row);
-        if !T::DECIDES {
-            known.doubtful |= T::bits_of(simd, spans.may & !spans.any, row);
+        if !T::IS_DOUBLE {
+            known.uncertain |= T::bits_of(simd, spans.may & !spans.any, row);
         }
         if !any.any() {
             continue;

@@ -40,7 +40,7 @@ pub fn firsts_of_surface<S: Simd>(
     found: &mut PacketCrossings,
 ) {
     let SurfaceQuery { packet, wanted, departures } = *asked;
-    (found.any, found.unsure, found.entering) = (0, 0, 0);
+    (found.any, found.uncertain, found.entering) = (0, 0, 0);
     simd.vectorize(
         #[inline(always)]
         || {
@@ -54,7 +54,7 @@ pub fn firsts_of_surface<S: Simd>(
             }
         },
     );
-    let mut rest = std::mem::take(&mut found.unsure);
+    let mut rest = std::mem::take(&mut found.uncertain);
     while rest != 0 {
         let lane = rest.trailing_zeros() as usize;
         rest &= rest - 1;
@@ -127,18 +127,18 @@ impl SurfaceRays<'_> {
                     across.add(&mut around, corners);
                 }
             }
-            let mut unsure = around.unsure & asking;
-            let odd = around.odd & asking & !unsure;
+            let mut uncertain = around.uncertain & asking;
+            let odd = around.odd & asking & !uncertain;
             if odd.any_true() {
                 let SteepCrossings { end, against, steep } =
                     face.steep_crossings(&self.packet.load(simd, row));
-                unsure |= odd & !steep;
+                uncertain |= odd & !steep;
                 let before =
                     end.t.is_at_most(start_of(end.error, PlaceError::of(self.form), self.off(simd, row)));
                 let any = odd & steep & !before;
                 self.put(simd, row, &FirstCrossings { end, entering: against, any }, found);
             }
-            found.unsure |= unsure.bits() << (row * LANES);
+            found.uncertain |= uncertain.bits() << (row * LANES);
         }
     }
 
@@ -265,7 +265,7 @@ mod tests {
             dispatch!(level, simd => firsts_of_surface(
                 simd, &SurfaceQuery { packet: &packet, wanted, departures }, primitive, 3, &mut sheared, &mut found,
             ));
-            prop_assert_eq!((found.unsure, found.any & !wanted), (0, 0));
+            prop_assert_eq!((found.uncertain, found.any & !wanted), (0, 0));
             for (lane, ray) in rays.iter().enumerate().filter(|(lane, _)| wanted >> lane & 1 == 1) {
                 let departure = departures.map(|d| d.get(lane));
                 let alone = first_of_surface(ray, primitive, 3, departure, &mut Meter::new(Silent));

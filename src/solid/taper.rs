@@ -132,12 +132,13 @@ impl<N: Number> Tapers<N> {
         let (crosses, steeper) = (a.is_above(still), a.is_below(-still));
         let inverse = zero.same(1.0) / a;
         // A chord is none where the form at its middle, −discriminant / a at t = −b / a, may be 0.
-        let known = if N::DECIDES { off * rounding_share } else { off };
+        let known = if N::IS_DOUBLE { off * rounding_share } else { off };
         let least = a * form.off(-b * inverse, known);
         let is_chord = discriminant.is_above(zero) & discriminant.is_above(least);
         let is_number = discriminant.is_equal(discriminant);
         let met = is_number & (!crosses | is_chord);
-        let may_meet = if N::DECIDES { met } else { is_number & (!crosses | discriminant.is_above(-least)) };
+        let may_meet =
+            if N::IS_DOUBLE { met } else { is_number & (!crosses | discriminant.is_above(-least)) };
         if !may_meet.any() {
             return Spans::none(middle);
         }

@@ -68,7 +68,7 @@ impl UnitSpace {
     #[inline(always)]
     pub fn recentred<N: Number>(&self, rays: &Rays<N>) -> Centred<N> {
         let (Rays { o, d }, d_squared, t) = at_closest(rays);
-        Centred { o, d, d_squared, t, off: self.off * N::COARSER, rounding_share: self.rounding_share }
+        Centred { o, d, d_squared, t, off: self.off * N::EPSILON_RATIO, rounding_share: self.rounding_share }
     }
 
     /// Points of the world there.

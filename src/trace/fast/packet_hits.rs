@@ -9,7 +9,7 @@ use super::super::hit::Hit;
 
 /// How many of their errors may lie between two hits that are one place: as [`slack`](crate::lattice::slack)
 /// is so many times what solids may be off.
-const FLUSH: f64 = 4.0;
+const COINCIDENT_WITHIN: f64 = 4.0;
 
 /// What each ray of a packet met first.
 #[derive(Clone, Debug)]
@@ -18,7 +18,7 @@ pub struct PacketHits<T = f64> {
     pub t: Lanes<T>,
     /// How far that may be off.
     pub error: Lanes<T>,
-    /// The distance of the next object's surface; in a precision that does not decide, a lower bound of it.
+    /// The distance of the next object's surface; in single precision a lower bound of it.
     pub second: Lanes<T>,
     /// The object, by its index in the assembly.
     pub object: Lanes<u32>,
@@ -29,7 +29,7 @@ pub struct PacketHits<T = f64> {
     /// Which rays go into the object there, a bit for each.
     pub entering: u64,
     /// Which rays are left to the exact engine, a bit for each.
-    pub unsure: u64,
+    pub uncertain: u64,
     /// Which rays are incoherent, and left to a stream.
     pub incoherent: u64,
 }
@@ -51,7 +51,7 @@ impl<T: Real> PacketHits<T> {
         primitive: Lanes::filled(0),
         surface: Lanes::filled(0),
         entering: 0,
-        unsure: 0,
+        uncertain: 0,
         incoherent: 0,
     };
 
@@ -63,10 +63,10 @@ impl<T: Real> PacketHits<T> {
         self.clear_ray_bits();
     }
 
-    /// Clears `entering`, `unsure` and `incoherent`; keeps the columns of hits.
+    /// Clears `entering`, `uncertain` and `incoherent`; keeps the columns of hits.
     #[inline]
     pub(super) fn clear_ray_bits(&mut self) {
-        (self.entering, self.unsure, self.incoherent) = (0, 0, 0);
+        (self.entering, self.uncertain, self.incoherent) = (0, 0, 0);
     }
 }
 
@@ -75,7 +75,7 @@ impl PacketHits {
     #[inline]
     pub(super) fn forget(&mut self, lane: usize) {
         (self.t.0[lane], self.second.0[lane]) = (f64::INFINITY, f64::INFINITY);
-        self.unsure &= !(1 << lane);
+        self.uncertain &= !(1 << lane);
     }
 
     /// Takes a crossing of one ray with an object, if nothing nearer was met.
@@ -115,7 +115,8 @@ impl PacketHits {
         self.object = other.object;
         self.primitive = other.primitive;
         self.surface = other.surface;
-        (self.entering, self.unsure, self.incoherent) = (other.entering, other.unsure, other.incoherent);
+        (self.entering, self.uncertain, self.incoherent) =
+            (other.entering, other.uncertain, other.incoherent);
     }
 }
 
@@ -126,10 +127,13 @@ impl<T: Real> PacketHits<T> {
         let (best, second) = (self.t.load(simd, row), self.second.load(simd, row));
         let t = met.any.choose(met.t, T::all(simd, f64::INFINITY));
         let nearer = t.is_below(best);
-        let other = if T::DECIDES {
+        let other = if T::IS_DOUBLE {
             t.larger(best)
         } else {
-            nearer.choose(best - self.error.load(simd, row) * FLUSH, t - met.error * FLUSH)
+            nearer.choose(
+                best - self.error.load(simd, row) * COINCIDENT_WITHIN,
+                t - met.error * COINCIDENT_WITHIN,
+            )
         };
         self.second.store(row, other.smaller(second));
         if !nearer.any() {
@@ -150,24 +154,24 @@ impl<T: Real> PacketHits<T> {
     #[inline(always)]
     fn reach<S: Simd>(&self, simd: S, row: usize) -> T::SimdReal<S> {
         let t = self.t.load(simd, row);
-        if T::DECIDES { t } else { t + self.error.load(simd, row) * FLUSH }
+        if T::IS_DOUBLE { t } else { t + self.error.load(simd, row) * COINCIDENT_WITHIN }
     }
 
     /// The same for one ray.
     #[inline(always)]
     pub(super) fn reach_of(&self, lane: usize) -> f64 {
         let t = self.t.0[lane].into();
-        if T::DECIDES { t } else { t + FLUSH * self.error.0[lane].into() }
+        if T::IS_DOUBLE { t } else { t + COINCIDENT_WITHIN * self.error.0[lane].into() }
     }
 
     /// Leaves the rays that met two objects within `slack` to the exact engine.
     #[inline(always)]
-    pub fn doubt<S: Simd>(&mut self, simd: S, slack: f64) {
+    pub fn mark_ties<S: Simd>(&mut self, simd: S, slack: f64) {
         for row in 0..T::ROWS {
             let t = self.t.load(simd, row);
             let close = self.second.load(simd, row).is_at_most(self.reach(simd, row) + slack)
                 & t.is_below(T::all(simd, f64::INFINITY));
-            self.unsure |= T::bits_of(simd, close, row);
+            self.uncertain |= T::bits_of(simd, close, row);
         }
     }
 

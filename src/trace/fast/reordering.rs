@@ -149,11 +149,11 @@ impl RayReordering {
     /// Gives each ray back what was found for it.
     pub fn scatter(&self, shadow_packets: &mut [ShadowPacket]) {
         for (from, group) in self.shadow_packets.iter().zip(self.order.chunks(PACKET)) {
-            for lane in lanes(from.blocked | from.tint.rays | from.unsure) {
+            for lane in lanes(from.blocked | from.tint.rays | from.uncertain) {
                 let (k, own) = place(group[lane]);
                 let to = &mut shadow_packets[k];
                 to.blocked |= (from.blocked >> lane & 1) << own;
-                to.unsure |= (from.unsure >> lane & 1) << own;
+                to.uncertain |= (from.uncertain >> lane & 1) << own;
                 to.tint.rays |= (from.tint.rays >> lane & 1) << own;
                 to.tint.share.0[own] = from.tint.share.0[lane];
             }
@@ -203,7 +203,7 @@ mod tests {
                 let ray = left.primitive.0[lane] as usize;
                 assert_eq!(shadow_packet.rays.o.get(lane), start(ray / PACKET, ray % PACKET));
                 shadow_packet.blocked |= u64::from(ray.is_multiple_of(2)) << lane;
-                shadow_packet.unsure |= u64::from(ray.is_multiple_of(5)) << lane;
+                shadow_packet.uncertain |= u64::from(ray.is_multiple_of(5)) << lane;
             }
         }
         reordering.scatter(&mut shadow_packets);
@@ -211,7 +211,7 @@ mod tests {
             for lane in 0..PACKET {
                 let (ray, live) = (k * PACKET + lane, shadow_packet.rays.live >> lane & 1 == 1);
                 assert_eq!(shadow_packet.blocked >> lane & 1 == 1, live && ray.is_multiple_of(2));
-                assert_eq!(shadow_packet.unsure >> lane & 1 == 1, live && ray.is_multiple_of(5));
+                assert_eq!(shadow_packet.uncertain >> lane & 1 == 1, live && ray.is_multiple_of(5));
             }
         }
     }

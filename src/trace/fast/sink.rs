@@ -22,7 +22,7 @@ pub(super) trait HitSink<T: Real> {
     fn offer<S: Simd>(&mut self, simd: S, row: usize, met: &HitCandidate<T, S>);
 
     /// Leaves these rays to the exact engine.
-    fn doubt(&mut self, rays: u64);
+    fn mark_uncertain(&mut self, rays: u64);
 }
 
 impl<T: Real> HitSink<T> for PacketHits<T> {
@@ -34,8 +34,8 @@ impl<T: Real> HitSink<T> for PacketHits<T> {
         Self::offer(self, simd, row, met);
     }
 
-    fn doubt(&mut self, rays: u64) {
-        self.unsure |= rays;
+    fn mark_uncertain(&mut self, rays: u64) {
+        self.uncertain |= rays;
     }
 }
 
@@ -104,5 +104,5 @@ pub(super) fn offer_crossings<S: Simd, T: Real, U: Real>(
 /// How far a distance may be off that was rounded to single precision: by half an ulp more.
 #[inline(always)]
 fn loosened<T: Real, S: Simd>(error: T::SimdReal<S>, t: T::SimdReal<S>) -> T::SimdReal<S> {
-    if T::DECIDES { error } else { error + t.magnitude() * (0.5 * f64::EPSILON * T::COARSER) }
+    if T::IS_DOUBLE { error } else { error + t.magnitude() * (0.5 * f64::EPSILON * T::EPSILON_RATIO) }
 }

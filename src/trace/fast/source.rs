@@ -79,7 +79,7 @@ pub(super) struct TracedPackets<'a, T> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TracedTile {
     /// Those that may have met anything, a bit for each. Of the others, if they are still to be made, it is
-    /// only known that none of their rays is unsure or incoherent.
+    /// only known that none of their rays is uncertain or incoherent.
     pub touched: u16,
     /// How many were given up as incoherent.
     pub given_up: usize,

@@ -70,7 +70,7 @@ const ENGINE: f64 = 64.0;
 struct Comparison {
     rays: usize,
     hits: usize,
-    in_doubt: usize,
+    uncertain: usize,
     faults: Vec<String>,
 }
 
@@ -114,7 +114,7 @@ impl Comparison {
                 .map(|factor| Oracle::<Big>::with_tolerance(world, factor).hit(ray.o, ray.d));
             let beside = rays_beside(ray, ENGINE * map_error(world)).map(|ray| oracle.hit(ray.o, ray.d));
             if clusters.into_iter().chain(beside).any(|other| agrees(found, other, ray, ENGINE)) {
-                self.in_doubt += 1;
+                self.uncertain += 1;
             } else {
                 self.faults.push(format!("{case:?}: {found:?}, expected {expected:?}, {ray:?}"));
             }
@@ -123,11 +123,13 @@ impl Comparison {
 
     #[track_caller]
     fn assert_right(&self, what: &str) {
-        let Self { rays, hits, in_doubt, faults } = self;
-        report(|| format!("{what}: {rays} rays, {hits} hits, {in_doubt} in doubt, {} faults", faults.len()));
+        let Self { rays, hits, uncertain, faults } = self;
+        report(|| {
+            format!("{what}: {rays} rays, {hits} hits, {uncertain} uncertain, {} faults", faults.len())
+        });
         assert!(hits * 4 > *rays, "{hits} of {rays}");
         assert_none(faults, *rays);
-        assert!(in_doubt * 200 < *rays, "{in_doubt} of {rays}");
+        assert!(uncertain * 200 < *rays, "{uncertain} of {rays}");
     }
 }
 

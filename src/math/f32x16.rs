@@ -116,8 +116,8 @@ impl<S: Simd> SimdRegister for F32x16<S> {
     type Real = f32;
 
     #[inline(always)]
-    fn put_into(self, row: &mut [f32]) {
-        self.0.store_slice(row);
+    fn put_into(self, lanes: &mut [f32]) {
+        self.0.store_slice(lanes);
     }
     #[inline(always)]
     fn least(self) -> f64 {
@@ -137,8 +137,8 @@ impl<S: Simd> SimdReal<S> for F32x16<S> {
         Self(f32x16::splat(simd, x as f32))
     }
     #[inline(always)]
-    fn of_row(simd: S, row: &[f32]) -> Self {
-        Self(f32x16::from_slice(simd, row))
+    fn from_lanes(simd: S, lanes: &[f32]) -> Self {
+        Self(f32x16::from_slice(simd, lanes))
     }
     #[inline(always)]
     fn answers(simd: S, bits: u64) -> F32x16Mask<S> {

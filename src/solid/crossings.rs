@@ -124,7 +124,7 @@ fn decide<S: Simd, T: Real>(
     while open != 0 {
         let mut done = 0;
         let mut early = 0;
-        for row in 0..T::ROWS {
+        for row in 0..T::REGISTERS {
             if T::has_any(open, row) {
                 let [ended, earlier, uncertain] = next_place(simd, row, open, &mut sides, departures, reach);
                 done |= ended | uncertain;
@@ -189,7 +189,7 @@ fn next_place<S: Simd, T: Real>(
                 continue;
             }
             let their_t = side.t.load(simd, row);
-            let sooner = T::row_of(simd, side.ahead, row) & their_t.is_below(t);
+            let sooner = T::mask_of(simd, side.ahead, row) & their_t.is_below(t);
             t = sooner.choose(their_t, t);
             error = sooner.choose(side.error.load(simd, row), error);
             off = sooner.choose(T::all(simd, known.off), off);
@@ -198,23 +198,23 @@ fn next_place<S: Simd, T: Real>(
     }
     let start =
         start_of(error, PlaceError { off, rounding_share }, departures.map(|d| d.off.load(simd, row)));
-    let open = T::row_of(simd, open, row);
+    let open = T::mask_of(simd, open, row);
     let ended = open & (t.is_equal(infinite) | t.is_above(T::all(simd, reach.to)));
     let (asking, limit) = (open & !ended, t + error);
     // The first itself reaches back to its place; mostly no other does.
-    let none = T::row_of(simd, 0, row);
+    let none = T::mask_of(simd, 0, row);
     let (mut some, mut more) = (none, none);
     for leaf in 0..sides.places.len() {
         for side in sides.of_mut(leaf).sides_mut() {
             if !T::has_any(side.ahead, row) {
-                side.crossing &= !(T::ROW << shift);
+                side.crossing &= !(T::REGISTER_BITS << shift);
                 continue;
             }
             let earliest = side.t.load(simd, row) - side.error.load(simd, row);
-            let reaches = T::row_of(simd, side.ahead, row) & asking & earliest.is_at_most(limit);
+            let reaches = T::mask_of(simd, side.ahead, row) & asking & earliest.is_at_most(limit);
             more = more | (some & reaches);
             some = some | reaches;
-            side.crossing = side.crossing & !(T::ROW << shift) | reaches.bits() << shift;
+            side.crossing = side.crossing & !(T::REGISTER_BITS << shift) | reaches.bits() << shift;
         }
     }
     let mut uncertain = 0;
@@ -261,7 +261,7 @@ fn one_place<S: Simd, T: Real>(
         for side in sides.of(leaf).sides() {
             let their_t = side.t.load(simd, row);
             let apart =
-                T::row_of(simd, side.ahead, row) & (their_t - side.error.load(simd, row)).is_above(limit);
+                T::mask_of(simd, side.ahead, row) & (their_t - side.error.load(simd, row)).is_above(limit);
             end = (apart & their_t.is_below(end)).choose(their_t, end);
         }
     }
@@ -275,11 +275,11 @@ fn one_place<S: Simd, T: Real>(
             }
             let (their_t, their_error) = (side.t.load(simd, row), side.error.load(simd, row));
             let exact = error.is_equal(zero) | their_error.is_equal(zero);
-            let now = T::row_of(simd, side.crossing, row)
+            let now = T::mask_of(simd, side.crossing, row)
                 & their_t.is_below(end)
                 & (have_one_slope(off / error, own / their_error) | exact);
             all_before = all_before & (!now | their_t.is_below(T::all(simd, reach.from)));
-            side.crossing = side.crossing & !(T::ROW << shift) | now.bits() << shift;
+            side.crossing = side.crossing & !(T::REGISTER_BITS << shift) | now.bits() << shift;
         }
     }
     all_before
@@ -345,11 +345,11 @@ fn take<S: Simd, T: Real>(
     if lanes == 0 {
         return;
     }
-    for row in 0..T::ROWS {
+    for row in 0..T::REGISTERS {
         if !T::has_any(lanes, row) {
             continue;
         }
-        let which = T::row_of(simd, lanes, row);
+        let which = T::mask_of(simd, lanes, row);
         found.t.put(simd, row, which, side.t.load(simd, row));
         found.error.put(simd, row, which, side.error.load(simd, row));
         found.surface.put_ids::<T, S>(simd, row, lanes, side.surface.load(simd, row).ids());

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
 
-use crate::math::{DVec3, LaneVector, Number, ROWS, RayPacket, Size};
+use crate::math::{DVec3, LaneVector, Number, REGISTERS, RayPacket, Size};
 
 use super::direction::all_settled;
 use super::pinhole::PinholeCamera;
@@ -69,7 +69,7 @@ impl Block {
         let x = columns + f64::from(self.corner[0]) + 0.5 + off[0];
         let across = pinhole.across(x);
         let start = across.same(eye);
-        for row in 0..ROWS {
+        for row in 0..REGISTERS {
             let y = f64::from(self.corner[1] + row as u32) + 0.5 + off[1];
             let d = all_settled(pinhole.upward(across, x.same(pinhole.height(y))), path);
             packet.o.store(row, start);

@@ -3,7 +3,7 @@
 
 use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
 
-use crate::math::{DVec3, LaneVector, Lanes, ROWS, RayPacket, Size};
+use crate::math::{DVec3, LaneVector, Lanes, REGISTERS, RayPacket, Size};
 
 use super::block::{BLOCK, Block};
 use super::direction::all_settled;
@@ -76,7 +76,7 @@ impl TileCamera<'_> {
         let across = f64x8::load_array(simd, [0.0, last, 0.0, last, 0.0, last, 0.0, last]);
         let down = f64x8::load_array(simd, [0.0, 0.0, last, last, 0.0, 0.0, last, last]);
         let [left, top] = self.tile.corner.map(|corner| f64::from(corner) + 0.5);
-        for row in 0..ROWS.min(self.blocks().div_ceil(2)) {
+        for row in 0..REGISTERS.min(self.blocks().div_ceil(2)) {
             let [[i, j], [k, l]] = [self.place(2 * row), self.place(2 * row + 1)].map(|p| p.map(f64::from));
             let x = f64x8::load_array(simd, [i, i, i, i, k, k, k, k]) + across;
             let y = f64x8::load_array(simd, [j, j, j, j, l, l, l, l]) + down;

@@ -171,9 +171,9 @@ impl HitSink<f64> for Blockers<'_> {
     const FEW_LEAVES: usize = SOME_LEAVES;
 
     #[inline(always)]
-    fn offer<S: Simd>(&mut self, simd: S, row: usize, met: &HitCandidate<f64, S>) {
-        let blocks = met.any & (met.t + met.error).is_below(self.distance.load(simd, row));
-        *self.blocked |= f64::bits_of(simd, blocks, row);
+    fn offer<S: Simd>(&mut self, simd: S, register: usize, met: &HitCandidate<f64, S>) {
+        let blocks = met.any & (met.t + met.error).is_below(self.distance.load(simd, register));
+        *self.blocked |= f64::bits_of(simd, blocks, register);
     }
 
     fn mark_uncertain(&mut self, rays: u64) {

@@ -127,11 +127,11 @@ fn bounds_between<S: Simd, T: Real>(simd: S, packet: &RayPacket<T>, rays: u64, f
         || {
             let infinite = T::all(simd, f64::INFINITY);
             let (mut lo, mut hi) = ([infinite; 3], [-infinite; 3]);
-            for row in 0..T::ROWS {
+            for row in 0..T::REGISTERS {
                 if !T::has_any(rays, row) {
                     continue;
                 }
-                let wanted = T::row_of(simd, rays, row);
+                let wanted = T::mask_of(simd, rays, row);
                 let Rays { o, d } = packet.load(simd, row);
                 for axis in 0..3 {
                     let (o, d) = (o.along(axis), d.along(axis));

@@ -145,22 +145,22 @@ fn ball_of_packet<S: Simd, T: Precision, H: HitSink<T>>(
     sink: &mut H,
 ) {
     let ConvexTest { source, wanted, form, object, primitive } = *test;
-    let yes = T::row_of(simd, u64::MAX, 0);
+    let yes = T::mask_of(simd, u64::MAX, 0);
     let (surface, ids) = (Faces::Ids(RealIds::<T, S>::all(simd, 0)), RealIds::<T, S>::all(simd, primitive));
     let start = T::all(simd, start);
-    for row in 0..T::ROWS {
-        if !T::has_any(wanted, row) {
+    for register in 0..T::REGISTERS {
+        if !T::has_any(wanted, register) {
             continue;
         }
-        let wanted = T::row_of(simd, wanted, row);
-        let mut spans = ball.spans(&source.rays.load(simd, row));
+        let wanted = T::mask_of(simd, wanted, register);
+        let mut spans = ball.spans(&source.rays.load(simd, register));
         if !(spans.may & wanted).any() {
             continue;
         }
         spans.any = spans.any & wanted;
-        let starts = source.starts(simd, row, primitive);
+        let starts = source.starts(simd, register, primitive);
         if !T::IS_DOUBLE {
-            *uncertain |= T::bits_of(simd, take_uncertain(&mut spans, form, &starts), row);
+            *uncertain |= T::bits_of(simd, take_uncertain(&mut spans, form, &starts), register);
         }
         // Mostly the ball is certainly ahead of the start, or behind it.
         let ahead = spans.enter.t.is_above(start) & !starts.here;
@@ -176,7 +176,7 @@ fn ball_of_packet<S: Simd, T: Precision, H: HitSink<T>>(
             let Ends { t, error, .. } = spans.enter;
             HitCandidate { any: spans.any & ahead, t, error, entering: yes, object, primitive: ids, surface }
         };
-        sink.offer(simd, row, &met);
+        sink.offer(simd, register, &met);
     }
 }
 
@@ -191,30 +191,34 @@ fn convex_of_packet<S: Simd, T: Precision, H: HitSink<T>>(
 ) {
     let ConvexTest { source, wanted, form, object, primitive } = *test;
     let ids = RealIds::<T, S>::all(simd, primitive);
-    for row in 0..T::ROWS {
-        if !T::has_any(wanted, row) {
+    for register in 0..T::REGISTERS {
+        if !T::has_any(wanted, register) {
             continue;
         }
-        let wanted = T::row_of(simd, wanted, row);
-        let mut spans = spans(&source.rays.load(simd, row));
+        let wanted = T::mask_of(simd, wanted, register);
+        let mut spans = spans(&source.rays.load(simd, register));
         if !(spans.may & wanted).any() {
             continue;
         }
         spans.any = spans.any & wanted;
-        let starts = source.starts(simd, row, primitive);
+        let starts = source.starts(simd, register, primitive);
         if !T::IS_DOUBLE {
-            *uncertain |= T::bits_of(simd, take_uncertain(&mut spans, form, &starts), row);
+            *uncertain |= T::bits_of(simd, take_uncertain(&mut spans, form, &starts), register);
         }
         let FirstCrossings { end, entering, any } = firsts_of_spans(spans, form, &starts);
         let Ends { t, error, surface } = end;
         let surface = Faces::Numbers(surface);
-        sink.offer(simd, row, &HitCandidate { any, t, error, entering, object, primitive: ids, surface });
+        sink.offer(
+            simd,
+            register,
+            &HitCandidate { any, t, error, entering, object, primitive: ids, surface },
+        );
     }
 }
 
 /// Takes out the rays that may have a span, or start on a surface, and may not; answers which these are.
 #[inline(always)]
-fn doubts<N: Number>(spans: &mut Spans<N>, form: &WorldShape, starts: &RayStarts<N>) -> N::Mask {
+fn take_uncertain<N: Number>(spans: &mut Spans<N>, form: &WorldShape, starts: &RayStarts<N>) -> N::Mask {
     let at_start = starts.near(&spans.enter, form) | starts.near(&spans.leave, form);
     let uncertain = spans.may & (!spans.any | at_start);
     spans.any = spans.any & !uncertain;

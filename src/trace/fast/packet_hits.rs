@@ -121,40 +121,40 @@ impl PacketHits {
 }
 
 impl<T: Real> PacketHits<T> {
-    /// Takes crossings of some rays of a row with an object, where nothing nearer was met.
+    /// Takes crossings of some rays of a register with an object, where nothing nearer was met.
     #[inline(always)]
-    pub fn offer<S: Simd>(&mut self, simd: S, row: usize, met: &HitCandidate<T, S>) {
-        let (best, second) = (self.t.load(simd, row), self.second.load(simd, row));
+    pub fn offer<S: Simd>(&mut self, simd: S, register: usize, met: &HitCandidate<T, S>) {
+        let (best, second) = (self.t.load(simd, register), self.second.load(simd, register));
         let t = met.any.choose(met.t, T::all(simd, f64::INFINITY));
         let nearer = t.is_below(best);
         let other = if T::IS_DOUBLE {
             t.larger(best)
         } else {
             nearer.choose(
-                best - self.error.load(simd, row) * COINCIDENT_WITHIN,
+                best - self.error.load(simd, register) * COINCIDENT_WITHIN,
                 t - met.error * COINCIDENT_WITHIN,
             )
         };
-        self.second.store(row, other.smaller(second));
+        self.second.store(register, other.smaller(second));
         if !nearer.any() {
             return;
         }
-        self.t.put(simd, row, nearer, t);
-        self.error.put(simd, row, nearer, met.error);
-        let bits = T::bits_of(simd, nearer, row);
-        self.object.put_ids::<T, S>(simd, row, bits, RealIds::<T, S>::all(simd, met.object));
-        self.primitive.put_ids::<T, S>(simd, row, bits, met.primitive);
-        self.surface.put_ids::<T, S>(simd, row, bits, met.surface.ids());
-        self.entering = self.entering & !bits | T::bits_of(simd, met.entering, row) & bits;
+        self.t.put(simd, register, nearer, t);
+        self.error.put(simd, register, nearer, met.error);
+        let bits = T::bits_of(simd, nearer, register);
+        self.object.put_ids::<T, S>(simd, register, bits, RealIds::<T, S>::all(simd, met.object));
+        self.primitive.put_ids::<T, S>(simd, register, bits, met.primitive);
+        self.surface.put_ids::<T, S>(simd, register, bits, met.surface.ids());
+        self.entering = self.entering & !bits | T::bits_of(simd, met.entering, register) & bits;
     }
 
-    /// Up to where something may be in one place with what the rays of a row met first. In double precision
-    /// that is said by how far solids may be off; in single also by the slope at which it was met, as what is
-    /// flush with it is.
+    /// Up to where something may be in one place with what the rays of a register met first. In double
+    /// precision that is said by how far solids may be off; in single also by the slope at which it was met, as
+    /// what is flush with it is.
     #[inline(always)]
-    fn reach<S: Simd>(&self, simd: S, row: usize) -> T::SimdReal<S> {
-        let t = self.t.load(simd, row);
-        if T::IS_DOUBLE { t } else { t + self.error.load(simd, row) * COINCIDENT_WITHIN }
+    fn reach<S: Simd>(&self, simd: S, register: usize) -> T::SimdReal<S> {
+        let t = self.t.load(simd, register);
+        if T::IS_DOUBLE { t } else { t + self.error.load(simd, register) * COINCIDENT_WITHIN }
     }
 
     /// The same for one ray.
@@ -167,11 +167,11 @@ impl<T: Real> PacketHits<T> {
     /// Leaves the rays that met two objects within `slack` to the exact engine.
     #[inline(always)]
     pub fn mark_ties<S: Simd>(&mut self, simd: S, slack: f64) {
-        for row in 0..T::ROWS {
-            let t = self.t.load(simd, row);
-            let close = self.second.load(simd, row).is_at_most(self.reach(simd, row) + slack)
+        for register in 0..T::REGISTERS {
+            let t = self.t.load(simd, register);
+            let close = self.second.load(simd, register).is_at_most(self.reach(simd, register) + slack)
                 & t.is_below(T::all(simd, f64::INFINITY));
-            self.uncertain |= T::bits_of(simd, close, row);
+            self.uncertain |= T::bits_of(simd, close, register);
         }
     }
 
@@ -181,9 +181,9 @@ impl<T: Real> PacketHits<T> {
         // What lanes met that are not live means nothing: the surfaces that they leave are not set.
         let nowhere = T::all(simd, f64::NEG_INFINITY);
         let mut most = nowhere;
-        for row in 0..T::ROWS {
-            if packet.has_live(row) {
-                let t = T::row_of(simd, packet.live, row).choose(self.reach(simd, row), nowhere);
+        for register in 0..T::REGISTERS {
+            if packet.has_live(register) {
+                let t = T::mask_of(simd, packet.live, register).choose(self.reach(simd, register), nowhere);
                 most = t.larger(most);
             }
         }
@@ -191,7 +191,7 @@ impl<T: Real> PacketHits<T> {
     }
 }
 
-/// Crossings of a row with one object.
+/// Crossings of a register with one object.
 #[derive(Clone, Copy)]
 pub struct HitCandidate<T: Real, S: Simd> {
     /// Which rays have one.
@@ -210,7 +210,7 @@ pub struct HitCandidate<T: Real, S: Simd> {
     pub surface: Faces<T, S>,
 }
 
-/// The faces of a primitive that the rays of a row cross.
+/// The faces of a primitive that the rays of a register cross.
 #[derive(Clone, Copy)]
 pub enum Faces<T: Real, S: Simd> {
     /// By their ids.

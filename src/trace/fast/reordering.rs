@@ -7,7 +7,7 @@
 use fearless_simd::{Simd, SimdBase, f64x8};
 
 use crate::lattice::LONGEST_PATH;
-use crate::math::{DVec3, LaneVector, Lanes, Number, PACKET, ROWS, lanes};
+use crate::math::{DVec3, LaneVector, Lanes, Number, PACKET, REGISTERS, lanes};
 use crate::solid::Departures;
 
 use super::shadow_packet::ShadowPacket;
@@ -59,15 +59,15 @@ impl RayReordering {
             }
             count += 1.0;
             let (mut low, mut high) = ([infinite; 2], [-infinite; 2]);
-            for row in 0..ROWS {
+            for register in 0..REGISTERS {
                 let p = if near {
-                    shadow_packet.rays.d.load(simd, row)
+                    shadow_packet.rays.d.load(simd, register)
                 } else {
-                    shadow_packet.rays.o.load(simd, row)
+                    shadow_packet.rays.o.load(simd, register)
                 };
                 let at = [p.dot_one(u), p.dot_one(v)];
                 for k in 0..2 {
-                    seen[k].store(row, at[k]);
+                    seen[k].store(register, at[k]);
                     (low[k], high[k]) = (at[k].smaller(low[k]), at[k].larger(high[k]));
                 }
             }

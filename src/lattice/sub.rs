@@ -140,8 +140,8 @@ impl SubLattice {
             return None;
         }
         let cells = vec![NOTHING; planes.cells() as usize];
-        let off = leaves.iter().map(|leaf| form(leaf).off()).fold(0.0, f64::max);
-        let (parts, pruning, slack) = (HashMap::new(), Pruning::default(), slack(off));
+        let place_error = leaves.iter().map(|leaf| form(leaf).place_error()).fold(0.0, f64::max);
+        let (parts, pruning, slack) = (HashMap::new(), Pruning::default(), slack(place_error));
         let mut building = Building { primitives, planes: &planes, slack, cells, parts, pruning };
         let [nx, ny, nz] = planes.dimensions();
         building.fill(ExprView::from(whole), [(0, nx - 1), (0, ny - 1), (0, nz - 1)], budget.leaves);

@@ -45,8 +45,8 @@ pub trait Number:
 
     /// How many times as much is lost by a rounding as of an `f64`: the ratio of their machine epsilons.
     const EPSILON_RATIO: f64 = 1.0;
-    /// Whether these are double precision. Single precision is a filter: where its answer is uncertain, double
-    /// precision decides.
+    /// Whether these are double precision. Single precision is a filter: where its answer is uncertain,
+    /// double precision decides.
     const IS_DOUBLE: bool = true;
     /// Below this numbers lose digits.
     const LEAST: f64 = f64::MIN_POSITIVE;

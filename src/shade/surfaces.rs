@@ -107,9 +107,9 @@ impl Surfaces {
             rest &= !group;
             let own = &assembly.primitives[primitive as usize];
             self.made_of(own.material.0, group);
-            let off = f64x8::splat(simd, own.form.off());
+            let place_error = f64x8::splat(simd, own.form.place_error());
             for register in lane / LANES..REGISTERS {
-                departures.off.put(simd, register, mask_of(simd, group, register), off);
+                departures.place_error.put(simd, register, mask_of(simd, group, register), place_error);
             }
             match &own.form {
                 WorldShape::Ball(ball) => self.face(

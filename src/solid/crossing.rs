@@ -73,19 +73,19 @@ impl TRange {
 }
 
 /// Whether a crossing of `form` lies at the start of a ray. For a ray that leaves a surface it counts how far
-/// either may be off its place: where they are one place they have one slope, so that `error` is to `off` as
-/// the start's to its own. The eye is where it is: for a ray from there only rounding counts, not how far the
-/// map of the primitive may be off.
+/// either may be off its place: where they are one place they have one slope, so that `error` is to
+/// `place_error` as the start's to its own. The eye is where it is: for a ray from there only rounding
+/// counts, not how far the map of the primitive may be off.
 #[inline]
 pub fn at_start(end: &End, form: &WorldShape, departure: Option<Departure>) -> bool {
-    end.t <= start_of(end.error, PlaceError::of(form), departure.map(|d| d.off))
+    end.t <= start_of(end.error, PlaceError::of(form), departure.map(|d| d.place_error))
 }
 
 /// How far a primitive may be off its place, in the world's unit, and which share of that our own rounding
 /// may have made.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PlaceError<N> {
-    pub off: N,
+    pub bound: N,
     pub rounding_share: N,
 }
 
@@ -93,19 +93,19 @@ impl PlaceError<f64> {
     /// That of a primitive.
     #[inline(always)]
     pub fn of(form: &WorldShape) -> Self {
-        Self { off: form.off(), rounding_share: form.rounding_share() }
+        Self { bound: form.place_error(), rounding_share: form.rounding_share() }
     }
 }
 
 /// Up to which distance a crossing with this error lies at the start of its ray, given how far its primitive
 /// is off, and rounding's share of that.
 #[inline(always)]
-pub(super) fn start_of<N, M>(error: N, own: PlaceError<M>, departure_off: Option<N>) -> N
+pub(super) fn start_of<N, M>(error: N, own: PlaceError<M>, departure_error: Option<N>) -> N
 where
     N: Number + Div<M, Output = N> + Mul<M, Output = N>,
 {
-    match departure_off {
-        Some(off) => error * (off / own.off + 1.0),
+    match departure_error {
+        Some(theirs) => error * (theirs / own.bound + 1.0),
         None => error * 2.0 * own.rounding_share,
     }
 }
@@ -117,8 +117,8 @@ pub struct RayStarts<N: Number> {
     pub here: N::Mask,
     /// Which of these go to its inside.
     pub inward: N::Mask,
-    /// [`Departure::off`] of each; `None` for rays from the eye.
-    pub off: Option<N>,
+    /// [`Departure::place_error`] of each; `None` for rays from the eye.
+    pub place_error: Option<N>,
 }
 
 impl<N: Number> RayStarts<N> {
@@ -138,8 +138,11 @@ impl<N: Number> RayStarts<N> {
     fn reach(&self, end: &Ends<N>, form: &WorldShape) -> N {
         start_of(
             end.error,
-            PlaceError { off: form.off() * N::EPSILON_RATIO, rounding_share: form.rounding_share() },
-            self.off,
+            PlaceError {
+                bound: form.place_error() * N::EPSILON_RATIO,
+                rounding_share: form.rounding_share(),
+            },
+            self.place_error,
         )
     }
 }
@@ -187,7 +190,11 @@ pub fn first_of_span(
         return None;
     }
     let spans = primitive.form.spans(&Rays::from(ray)).filter(|spans| spans.any)?;
-    let starts = RayStarts { here: here.is_some(), inward: here.is_some(), off: departure.map(|d| d.off) };
+    let starts = RayStarts {
+        here: here.is_some(),
+        inward: here.is_some(),
+        place_error: departure.map(|d| d.place_error),
+    };
     let first = firsts_of_spans(spans, &primitive.form, &starts);
     let End { t, error, surface } = first.end.one();
     first.any.then_some(Crossing { t, error, primitive: index, surface, entering: first.entering })
@@ -218,7 +225,7 @@ pub fn first_of_expression(
     let form = |event: &Event| &primitives[expression.leaves[event.leaf as usize].primitive as usize].form;
     let mut rest = &mut events[..];
     while let Some(first) = rest.first().copied() {
-        let length = gather_cluster(rest, |event| form(event).off());
+        let length = gather_cluster(rest, |event| form(event).place_error());
         let (cluster, behind) = rest.split_at_mut(length);
         rest = behind;
         if first.end.t > reach.to {
@@ -251,7 +258,7 @@ pub fn first_of_expression(
 ///
 /// Where surfaces coincide they have one slope, but for what their maps lost, which counts where a ray all
 /// but skims them. What is crossed steeply on a way that skims a face has a sine farther from the face's than
-/// this, unless the face's crossing is known within 256 times `off`, too little to be seen.
+/// this, unless the face's crossing is known within 256 times `place_error`, too little to be seen.
 const SAME_SLOPE: f64 = 256.0;
 
 /// Whether the sines of the angles at which rays meet two surfaces are as near as those of one place are.
@@ -262,11 +269,11 @@ pub(super) fn have_one_slope<N: Number>(a: N, b: N) -> N::Mask {
 
 /// Brings those of the sorted events that are one place with the first of them to the front, and counts them;
 /// the others keep their order.
-fn gather_cluster(events: &mut [Event], off: impl Fn(&Event) -> f64) -> usize {
+fn gather_cluster(events: &mut [Event], place_error: impl Fn(&Event) -> f64) -> usize {
     let first = events[0].end;
     let limit = first.t + first.error;
-    // An error is `off` over the sine of the angle between ray and surface.
-    let sine = |event: &Event| off(event) / event.end.error;
+    // An error is `place_error` over the sine of the angle between ray and surface.
+    let sine = |event: &Event| place_error(event) / event.end.error;
     let mut length = 1;
     for i in 1..events.len() {
         let end = events[i].end;

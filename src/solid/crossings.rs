@@ -181,7 +181,7 @@ fn next_place<S: Simd, T: Real>(
 ) -> [u64; 3] {
     let shift = row * T::LANES;
     let (infinite, zero) = (T::all(simd, f64::INFINITY), T::all(simd, 0.0));
-    let (mut t, mut error, mut off, mut rounding_share) = (infinite, zero, zero, zero);
+    let (mut t, mut error, mut place_error, mut rounding_share) = (infinite, zero, zero, zero);
     for leaf in 0..sides.places.len() {
         let known = sides.of(leaf);
         for side in known.sides() {
@@ -192,12 +192,15 @@ fn next_place<S: Simd, T: Real>(
             let sooner = T::mask_of(simd, side.ahead, row) & their_t.is_below(t);
             t = sooner.choose(their_t, t);
             error = sooner.choose(side.error.load(simd, row), error);
-            off = sooner.choose(T::all(simd, known.off), off);
+            place_error = sooner.choose(T::all(simd, known.place_error), place_error);
             rounding_share = sooner.choose(T::all(simd, known.rounding_share), rounding_share);
         }
     }
-    let start =
-        start_of(error, PlaceError { off, rounding_share }, departures.map(|d| d.off.load(simd, row)));
+    let start = start_of(
+        error,
+        PlaceError { bound: place_error, rounding_share },
+        departures.map(|d| d.place_error.load(simd, row)),
+    );
     let open = T::mask_of(simd, open, row);
     let ended = open & (t.is_equal(infinite) | t.is_above(T::all(simd, reach.to)));
     let (asking, limit) = (open & !ended, t + error);
@@ -223,7 +226,7 @@ fn next_place<S: Simd, T: Real>(
         uncertain = T::bits_of(simd, more | at_start, row);
         t.is_below(T::all(simd, reach.from))
     } else if more.any() {
-        one_place(simd, row, asking, sides, FirstEnds { t, error, off }, reach)
+        one_place(simd, row, asking, sides, FirstEnds { t, error, place_error }, reach)
     } else {
         t.is_below(T::all(simd, reach.from))
     };
@@ -237,7 +240,7 @@ fn next_place<S: Simd, T: Real>(
 struct FirstEnds<N> {
     t: N,
     error: N,
-    off: N,
+    place_error: N,
 }
 
 /// Which crossings of those that reach back to the first of a row, where several do, are one place with it.
@@ -251,7 +254,7 @@ fn one_place<S: Simd, T: Real>(
     first: FirstEnds<T::SimdReal<S>>,
     reach: TRange,
 ) -> RealMask<T, S> {
-    let FirstEnds { t, error, off } = first;
+    let FirstEnds { t, error, place_error } = first;
     let shift = row * T::LANES;
     let (infinite, zero) = (T::all(simd, f64::INFINITY), T::all(simd, 0.0));
     let limit = t + error;
@@ -268,7 +271,7 @@ fn one_place<S: Simd, T: Real>(
     let mut all_before = asking;
     for leaf in 0..sides.places.len() {
         let known = sides.of_mut(leaf);
-        let own = T::all(simd, known.off);
+        let own = T::all(simd, known.place_error);
         for side in known.sides_mut() {
             if !T::has_any(side.crossing, row) {
                 continue;
@@ -277,7 +280,7 @@ fn one_place<S: Simd, T: Real>(
             let exact = error.is_equal(zero) | their_error.is_equal(zero);
             let now = T::mask_of(simd, side.crossing, row)
                 & their_t.is_below(end)
-                & (have_one_slope(off / error, own / their_error) | exact);
+                & (have_one_slope(place_error / error, own / their_error) | exact);
             all_before = all_before & (!now | their_t.is_below(T::all(simd, reach.from)));
             side.crossing = side.crossing & !(T::REGISTER_BITS << shift) | now.bits() << shift;
         }

@@ -28,7 +28,7 @@ pub struct Departures<T = f64> {
     /// Which rays go to the inside of it, a bit for each.
     pub inward: u64,
     /// How far it may be off its place.
-    pub off: Lanes<T>,
+    pub place_error: Lanes<T>,
 }
 
 impl Departures {
@@ -37,12 +37,12 @@ impl Departures {
 
     /// No ray leaves a surface.
     pub const NONE: Self =
-        Self { primitive: Lanes::filled(Self::NOWHERE), inward: 0, off: Lanes::filled(0.0) };
+        Self { primitive: Lanes::filled(Self::NOWHERE), inward: 0, place_error: Lanes::filled(0.0) };
 
     /// Sets the surface that one ray starts on, and whether it goes inward.
     pub fn set(&mut self, lane: usize, departure: &Departure) {
         self.primitive.0[lane] = departure.primitive;
-        self.off.0[lane] = departure.off;
+        self.place_error.0[lane] = departure.place_error;
         self.inward = self.inward & !(1 << lane) | u64::from(departure.inward) << lane;
     }
 
@@ -52,7 +52,7 @@ impl Departures {
             primitive: self.primitive.0[lane],
             surface: 0,
             inward: self.inward >> lane & 1 == 1,
-            off: self.off.0[lane],
+            place_error: self.place_error.0[lane],
         }
     }
 }

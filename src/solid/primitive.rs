@@ -110,17 +110,17 @@ impl WorldShape {
 
     /// How far a point of it may be off its place, by its map and by our own rounding.
     #[inline]
-    pub fn off(&self) -> f64 {
+    pub fn place_error(&self) -> f64 {
         match self {
-            Self::Ball(ball) => ball.off(),
-            Self::AxisBox(slabs) => slabs.off(),
-            Self::SkewBox(slabs) => slabs.off(),
-            Self::Quadric(quadric) => quadric.off(),
-            Self::Facets(facets) => facets.off(),
-            Self::Mesh(mesh) => mesh.off(),
-            Self::Face(face) => face.off(),
-            Self::Patch(patch) => patch.face.off(),
-            Self::Tube(tube) => tube.off(),
+            Self::Ball(ball) => ball.place_error(),
+            Self::AxisBox(slabs) => slabs.place_error(),
+            Self::SkewBox(slabs) => slabs.place_error(),
+            Self::Quadric(quadric) => quadric.place_error(),
+            Self::Facets(facets) => facets.place_error(),
+            Self::Mesh(mesh) => mesh.place_error(),
+            Self::Face(face) => face.place_error(),
+            Self::Patch(patch) => patch.face.place_error(),
+            Self::Tube(tube) => tube.place_error(),
         }
     }
 
@@ -274,10 +274,11 @@ fn similarity(linear: &DMat3) -> Option<f64> {
     let even = columns.map(|c| c / longest);
     let radius = even[0].length();
     // A column of three rounded numbers: its length and its products are off by 4 roundings at most.
-    let off = 4.0 * f64::EPSILON;
-    let same_length = even.iter().all(|c| (c.length() - radius).abs() <= off * radius);
-    let right_angles =
-        [(0, 1), (1, 2), (2, 0)].iter().all(|&(i, j)| even[i].dot(even[j]).abs() <= off * radius * radius);
+    let tolerance = 4.0 * f64::EPSILON;
+    let same_length = even.iter().all(|c| (c.length() - radius).abs() <= tolerance * radius);
+    let right_angles = [(0, 1), (1, 2), (2, 0)]
+        .iter()
+        .all(|&(i, j)| even[i].dot(even[j]).abs() <= tolerance * radius * radius);
     (same_length && right_angles).then_some(radius * longest)
 }
 

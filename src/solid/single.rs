@@ -38,16 +38,18 @@ pub(super) fn decide_single<S: Simd, T: Real>(
             found.uncertain |= T::bits_of(simd, one_place, register);
             open = open & !one_place;
         } else if one_place.any() {
-            let off = T::all(simd, known.off);
+            let place_error = T::all(simd, known.place_error);
             let exact = enter.error.is_equal(zero) | leave.error.is_equal(zero);
-            open = open & !(one_place & (have_one_slope(off / enter.error, off / leave.error) | exact));
+            open = open
+                & !(one_place
+                    & (have_one_slope(place_error / enter.error, place_error / leave.error) | exact));
         }
-        let offs = departures.map(
+        let errors = departures.map(
             #[inline(always)]
-            |d| d.off.load(simd, register),
+            |d| d.place_error.load(simd, register),
         );
-        let own = PlaceError { off: known.off, rounding_share: known.rounding_share };
-        let starts = [start_of(enter.error, own, offs), start_of(leave.error, own, offs)];
+        let own = PlaceError { bound: known.place_error, rounding_share: known.rounding_share };
+        let starts = [start_of(enter.error, own, errors), start_of(leave.error, own, errors)];
         if !T::IS_DOUBLE {
             let near = enter.t.magnitude().is_at_most(starts[0]) | leave.t.magnitude().is_at_most(starts[1]);
             found.uncertain |= T::bits_of(simd, open & near, register);

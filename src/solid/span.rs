@@ -9,7 +9,7 @@ use crate::math::{Mask, Number};
 /// (8), moving the ray into the unit space (a difference and a dot product of three terms, 4, for the start
 /// and again for the direction), and re-centring it twice (5 each): 30, rounded up to 32 half-ulps of
 /// `f64::EPSILON / 2`. What composing the map took is
-/// [`scene::Primitive::displacement`](crate::scene::Primitive::displacement).
+/// [`scene::Primitive::map_error`](crate::scene::Primitive::map_error).
 pub const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// How far from the assembly's origin everything lies that is computed with, in the assembly's unit: the
@@ -23,7 +23,7 @@ pub const LIMIT: f64 = 3.5;
 /// How far from its place our own rounding may make a point of a solid seem to a ray, where the solid's own
 /// origin lies `from_origin` away from the assembly's. A ray that passes no deeper than that below a surface
 /// misses it: rounding alone could have made the chord. How far the solid's map is off comes on top
-/// ([`scene::Primitive::displacement`](crate::scene::Primitive::displacement)).
+/// ([`scene::Primitive::map_error`](crate::scene::Primitive::map_error)).
 #[inline]
 pub fn rounding_at(from_origin: f64) -> f64 {
     ROUNDING * (WORLD + from_origin)
@@ -140,10 +140,10 @@ impl<N: Number> Spans<N> {
     pub(super) fn if_any(mut self, rounding_share: f64, pair: impl Fn(N) -> N) -> Self {
         let length = self.leave.t - self.enter.t;
         let same_pair = pair(self.enter.surface).is_equal(pair(self.leave.surface));
-        let off = self.enter.error + self.leave.error;
-        let long = length.is_above(if N::IS_DOUBLE { off * rounding_share } else { off });
+        let error = self.enter.error + self.leave.error;
+        let long = length.is_above(if N::IS_DOUBLE { error * rounding_share } else { error });
         self.any = self.any & length.is_above(length.same(0.0)) & (same_pair | long);
-        self.may = if N::IS_DOUBLE { self.any } else { self.may & length.is_above(-off) };
+        self.may = if N::IS_DOUBLE { self.any } else { self.may & length.is_above(-error) };
         self
     }
 
@@ -188,6 +188,6 @@ pub struct Departure {
     /// Whether the ray goes to the inside of the primitive.
     pub inward: bool,
     /// How far the primitive, and with it the start, may be off its place:
-    /// [`WorldShape::off`](super::WorldShape::off).
-    pub off: f64,
+    /// [`WorldShape::place_error`](super::WorldShape::place_error).
+    pub place_error: f64,
 }

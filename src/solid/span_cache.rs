@@ -47,9 +47,9 @@ pub(super) struct SpanEnds<T> {
 #[derive(Clone, Debug)]
 pub(super) struct CachedSpans<T> {
     primitive: u32,
-    /// How far its crossings may be off: [`WorldShape::off`]; and the share of that which is our own
+    /// How far its crossings may be off: [`WorldShape::place_error`]; and the share of that which is our own
     /// rounding.
-    pub off: f64,
+    pub place_error: f64,
     pub rounding_share: f64,
     /// Which rays have one; and which may have one, as far as double precision might say.
     any: u64,
@@ -81,7 +81,7 @@ impl<T: Real> SpanEnds<T> {
 impl<T: Real> CachedSpans<T> {
     const NONE: Self = Self {
         primitive: 0,
-        off: 0.0,
+        place_error: 0.0,
         rounding_share: 0.0,
         any: 0,
         uncertain: 0,
@@ -162,7 +162,8 @@ impl<T: Real> SpanCache<T> {
             self.count += 1;
             let known = &mut self.spans[self.count - 1];
             (known.primitive, known.any, known.uncertain) = (primitive, 0, 0);
-            (known.off, known.rounding_share) = (form.off() * T::EPSILON_RATIO, form.rounding_share());
+            (known.place_error, known.rounding_share) =
+                (form.place_error() * T::EPSILON_RATIO, form.rounding_share());
             let (here, inward) = departures.map_or((0, 0), |d| d.here(simd, primitive));
             with_spans!(simd, form, learn, packet, wanted, here, inward, known);
             self.count - 1

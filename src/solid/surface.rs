@@ -41,7 +41,7 @@ pub fn first_of_surface(
             let starts = RayStarts {
                 here: here.is_some(),
                 inward: here.is_some_and(|d| d.inward),
-                off: departure.map(|d| d.off),
+                place_error: departure.map(|d| d.place_error),
             };
             let first = firsts_of_tube(&Rays::from(ray), tube, &primitive.form, &starts);
             first.any.then(|| crossing(first.end.one(), first.entering))
@@ -105,7 +105,7 @@ mod tests {
     fn first(shape: Shape, o: [f64; 3], d: [f64; 3], inward: Option<bool>) -> Option<(f64, bool)> {
         let assembly = Assembly::new(&scene(part(shape))).unwrap();
         let ray = assembly.ray(&Ray::new(o.into(), DVec3::from(d).normalize()));
-        let departure = inward.map(|inward| Departure { primitive: 0, surface: 0, inward, off: 0.0 });
+        let departure = inward.map(|inward| Departure { primitive: 0, surface: 0, inward, place_error: 0.0 });
         let mut meter = Meter::new(Silent);
         let found = first_of_surface(&ray, &assembly.primitives[0], 0, departure, &mut meter)?;
         Some((found.t * assembly.scene_frame.unit, found.entering))

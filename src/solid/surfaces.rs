@@ -136,7 +136,7 @@ impl SurfaceRays<'_> {
                 let before = end.t.is_at_most(start_of(
                     end.error,
                     PlaceError::of(self.form),
-                    self.off(simd, register),
+                    self.place_error(simd, register),
                 ));
                 let any = odd & steep & !before;
                 self.put(simd, register, &FirstCrossings { end, entering: against, any }, found);
@@ -152,19 +152,19 @@ impl SurfaceRays<'_> {
             if asking.any_true() {
                 let (here, inward) =
                     (rays_of_row(simd, register, self.here), rays_of_row(simd, register, self.inward));
-                let starts = RayStarts { here, inward, off: self.off(simd, register) };
+                let starts = RayStarts { here, inward, place_error: self.place_error(simd, register) };
                 let firsts = firsts_of_tube(&self.packet.load(simd, register), tube, self.form, &starts);
                 self.put(simd, register, &FirstCrossings { any: firsts.any & asking, ..firsts }, found);
             }
         }
     }
 
-    /// [`super::Departure::off`] of eight.
+    /// [`super::Departure::place_error`] of eight.
     #[inline(always)]
-    fn off<S: Simd>(&self, simd: S, register: usize) -> Option<f64x8<S>> {
+    fn place_error<S: Simd>(&self, simd: S, register: usize) -> Option<f64x8<S>> {
         self.departures.map(
             #[inline(always)]
-            |departures| departures.off.load(simd, register),
+            |departures| departures.place_error.load(simd, register),
         )
     }
 
@@ -299,7 +299,7 @@ mod tests {
             turn in (point(), -3.0..3.0_f64),
             aims in prop::collection::vec((point(), (0..48_usize, 0.0..1.0_f64), point()), PACKET),
             wanted in any::<u64>(),
-            (here, inward, off) in (any::<u64>(), any::<u64>(), 0.0..1e-12_f64),
+            (here, inward, place_error) in (any::<u64>(), any::<u64>(), 0.0..1e-12_f64),
         ) {
             let map = DAffine3::from_axis_angle(turn.0.normalize_or(DVec3::Z), turn.1);
             let map = if turn.1 > 0.0 { map } else { DAffine3::IDENTITY };
@@ -313,7 +313,7 @@ mod tests {
             let mut departures = Departures::NONE;
             for lane in 0..PACKET {
                 let (primitive, inward) = (2 + (here >> lane & 1) as u32, inward >> lane & 1 == 1);
-                departures.set(lane, &Departure { primitive, surface: 0, inward, off });
+                departures.set(lane, &Departure { primitive, surface: 0, inward, place_error });
             }
             assert_like_alone(&primitive, &rays, wanted, Some(&departures))?;
         }

@@ -100,7 +100,7 @@ impl<'a> Exact<'a> {
     pub fn new(assembly: &'a Assembly, structure: Structure<'a>) -> Self {
         // Moved outward by what rounding may take from a hit at the limit.
         let limit = assembly.limit.padded(DVec3::splat(SLACK));
-        Self { assembly, structure, limit, slack: slack(assembly.off) }
+        Self { assembly, structure, limit, slack: slack(assembly.place_error) }
     }
 
     /// The first crossing of one object, if it lies before `to`.

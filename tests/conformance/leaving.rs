@@ -85,7 +85,7 @@ fn starts_at_rim(subject: &impl Subject, solid: &Primitive, start: &Start) -> bo
     let inverse = solid.map.matrix3.inverse();
     // Here the start is a point of the scene, each of its coordinates rounded, on a solid that may be off by
     // its map.
-    let off = 4.0 * (f64::EPSILON * from.o.length() + solid.displacement().length());
+    let off = 4.0 * (f64::EPSILON * from.o.length() + solid.map_error().length());
     let rounded = DVec3::from_array([0, 1, 2].map(|i| inverse.row(i).length())) * off;
     verdict::<Big>(solid, &from, subject.rim(solid, &start.ray) + rounded) != Verdict::Hit
 }

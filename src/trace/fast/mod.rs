@@ -65,7 +65,15 @@ impl<'a> Fast<'a> {
     /// An engine over an assembly, at the SIMD width of this processor.
     pub fn new(assembly: &'a Assembly, boxes: &'a Bvh8, subs: &'a SubLattices) -> Self {
         let exact = Exact::new(assembly, Structure::Boxes(boxes, subs));
-        Self { exact, assembly, boxes, subs, slack: slack(assembly.off), level: Level::new(), singles: false }
+        Self {
+            exact,
+            assembly,
+            boxes,
+            subs,
+            slack: slack(assembly.place_error),
+            level: Level::new(),
+            singles: false,
+        }
     }
 
     /// The same engine at another SIMD width. It finds the same bits.
@@ -172,8 +180,8 @@ impl<'a> Fast<'a> {
     }
 
     /// Which rays towards one light are blocked, and what glass leaves of the light of the others. Those that
-    /// are uncertain are left to [`super::RayEngine::blocked`], one by one. Answers whether most shadow packets
-    /// had so many objects between their rays that they were given up.
+    /// are uncertain are left to [`super::RayEngine::blocked`], one by one. Answers whether most shadow
+    /// packets had so many objects between their rays that they were given up.
     pub fn blocked_of(
         &self,
         shadow_packets: &mut [ShadowPacket],

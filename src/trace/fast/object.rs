@@ -121,7 +121,9 @@ impl Fast<'_> {
                 || {
                     let start = match test.source.departures {
                         None => 2.0 * ball.most_error::<T>(),
-                        Some(_) => ball.most_error::<T>() * (1.0 + self.assembly.off / ball.off()),
+                        Some(_) => {
+                            ball.most_error::<T>() * (1.0 + self.assembly.place_error / ball.place_error())
+                        }
                     };
                     ball_of_packet(simd, test, ball, start, &mut uncertain, sink);
                 },

@@ -149,8 +149,8 @@ impl<T: Real> PacketHits<T> {
     }
 
     /// Up to where something may be in one place with what the rays of a register met first. In double
-    /// precision that is said by how far solids may be off; in single also by the slope at which it was met, as
-    /// what is flush with it is.
+    /// precision that is said by how far solids may be off; in single also by the slope at which it was met,
+    /// as what is flush with it is.
     #[inline(always)]
     fn reach<S: Simd>(&self, simd: S, register: usize) -> T::SimdReal<S> {
         let t = self.t.load(simd, register);

@@ -46,7 +46,9 @@ impl<'a, T: Real> PacketSource<'a, T> {
     #[inline(always)]
     pub fn starts<S: Simd>(&self, simd: S, register: usize, primitive: u32) -> RayStarts<T::SimdReal<S>> {
         let no = T::mask_of(simd, 0, register);
-        let Some(departures) = self.departures else { return RayStarts { here: no, inward: no, off: None } };
+        let Some(departures) = self.departures else {
+            return RayStarts { here: no, inward: no, place_error: None };
+        };
         let primitive = RealIds::<T, S>::all(simd, primitive);
         RayStarts {
             here: T::SimdReal::<S>::answers(
@@ -54,7 +56,7 @@ impl<'a, T: Real> PacketSource<'a, T> {
                 departures.primitive.ids::<T, S>(simd, register).equal_bits(primitive),
             ),
             inward: T::mask_of(simd, departures.inward, register),
-            off: Some(departures.off.load(simd, register)),
+            place_error: Some(departures.place_error.load(simd, register)),
         }
     }
 }

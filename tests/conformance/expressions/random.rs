@@ -209,7 +209,7 @@ fn any_ray(by: &DAffine3, chance: &mut Chance) -> Ray {
 fn map_error(scene: &Scene) -> f64 {
     let mut most = 0.0_f64;
     for object in &scene.objects {
-        object.solid.visit(&mut |p| most = most.max(p.displacement().length()));
+        object.solid.visit(&mut |p| most = most.max(p.map_error().length()));
     }
     most
 }

@@ -59,7 +59,7 @@ impl Builder {
             return Err(refuse(error.label("too small, or too flat"), sink));
         }
         let material = self.surfaces.id(context.surface);
-        let displacement = maps.error(&shape.bounds());
+        let error = maps.error(&shape.bounds());
         let own = match &shape {
             Shape::Mesh(mesh) => {
                 let bytes = size_of_val(mesh.points.as_slice()) + size_of_val(mesh.triangles.as_slice());
@@ -73,7 +73,7 @@ impl Builder {
             return Err(self.no_room(bytes, call));
         }
         self.memory.take(bytes);
-        Ok(Solid::Primitive(Primitive::new(shape, map, material).displaced(displacement)))
+        Ok(Solid::Primitive(Primitive::new(shape, map, material).with_map_error(error)))
     }
 
     /// The error of what there is no memory for: it is the last that is read.

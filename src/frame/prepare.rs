@@ -80,7 +80,7 @@ impl Prepared<'_> {
             assembly,
             pinhole: &self.pinhole,
             eye,
-            way: farthest(eye, &assembly.limit),
+            longest_path: farthest(eye, &assembly.limit),
             samples: self.plan.samples,
             hits: self.hits,
             spare: &self.studio.spare,

@@ -23,7 +23,7 @@ pub(super) struct TileRenderer<'a, I> {
     /// Where rays start, in the assembly's coordinates.
     pub eye: DVec3,
     /// To the farthest point of the world, in the assembly's unit.
-    pub way: f64,
+    pub longest_path: f64,
     /// Rays for the light of a dot along each of its sides, 1 or more.
     pub samples: u32,
     /// By tile: what the rays through the middles of its dots meet, where that is kept.
@@ -116,8 +116,8 @@ impl<I> TileRenderer<'_, I> {
 
     /// A ray through each dot, so many dots from its middle.
     fn pass(&self, tile: &Tile, off: [f64; 2]) -> TilePass<'_> {
-        let Self { pinhole, eye, way, .. } = *self;
-        let camera = TileCamera { pinhole, tile: *tile, off, eye, path: way };
+        let Self { pinhole, eye, longest_path, .. } = *self;
+        let camera = TileCamera { pinhole, tile: *tile, off, eye, longest_path };
         let hits = self.hits.filter(|_| off == MIDDLE);
         TilePass { camera, kept: hits.map(|tiles| &tiles[tile.number as usize]) }
     }

@@ -30,7 +30,7 @@ where
         camera.tile.dots().map(move |(i, j)| {
             let (x, y) = (f64::from(i) + 0.5 + camera.off[0], f64::from(j) + 0.5 + camera.off[1]);
             let ray = assembly.ray(&camera.pinhole.ray(x, y));
-            Ray::new(ray.o, settled(ray.d, camera.path))
+            Ray::new(ray.o, settled(ray.d, camera.longest_path))
         })
     }
 }

@@ -2,10 +2,10 @@
 //!
 //! Of solids that are cut, and of convex ones but balls, numbers of 24 bits say it in less time than those of
 //! 53. Which surface is met stays certain: where single precision is uncertain, at silhouettes and edges and
-//!     where two surfaces are near each other, all are asked. But where it is met is off by up to
-//!     [`Real::EPSILON_RATIO`] times as much, some 2·10⁻⁵ in the unit in which the world reaches to ±2. That
-//!     is allowed where it is so small a part of a dot, of what is nearest to the eye, that light is off by less
-//!     than a quarter of a level.
+//! where two surfaces are near each other, all are asked. But where it is met is off by up to
+//! [`Real::EPSILON_RATIO`] times as much, some 2·10⁻⁵ in the unit in which the world reaches to ±2. That is
+//! allowed where it is so small a part of a dot, of what is nearest to the eye, that light is off by less
+//! than a quarter of a level.
 //!
 //! Rays that start on surfaces need double precision: between two curved mirrors what is off grows with each
 //! generation, and the edge of a shadow shows where a point is.

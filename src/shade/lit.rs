@@ -29,7 +29,7 @@ pub(crate) struct LitQuery {
 pub(crate) struct Lit {
     /// `L·N`.
     facing: Lanes,
-    /// The cosine of the angle between the mirrored light and the way to the eye, at most 1.
+    /// The cosine of the angle between the mirrored light and the direction to the eye, at most 1.
     cosine: Lanes,
     /// V, where anything lets light through.
     pub visible: Lanes,
@@ -39,7 +39,7 @@ impl Lit {
     pub const NONE: Self =
         Self { facing: Lanes::filled(0.0), cosine: Lanes::filled(0.0), visible: Lanes::filled(1.0) };
 
-    /// Finds the ways from the surfaces to a lamp. Those that it shines on become the rays of
+    /// Finds the directions from the surfaces to a lamp. Those that it shines on become the rays of
     /// `shadow_packet`.
     pub fn light(
         &mut self,

@@ -44,9 +44,9 @@ impl<N: Number> Balls<N> {
     /// Where each ray is inside its ball.
     ///
     /// The origin is moved to the point of the ray closest to the centre, twice: the first move leaves an
-    /// error in proportion to the way, the second removes it along the ray. The half-chord then comes from
-    /// `(r − l)(r + l)`, which does not cancel as `b² − 4ac` does (Haines, Günther, Akenine-Möller: Precision
-    /// improvements for ray/sphere intersection, Ray Tracing Gems, 2019).
+    /// error in proportion to the distance, the second removes it along the ray. The half-chord then comes
+    /// from `(r − l)(r + l)`, which does not cancel as `b² − 4ac` does (Haines, Günther, Akenine-Möller:
+    /// Precision improvements for ray/sphere intersection, Ray Tracing Gems, 2019).
     #[inline(always)]
     pub fn spans(&self, rays: &Rays<N>) -> Spans<N> {
         let Self { center, radius, place_error, grazing: [grazing, grazing_root] } = *self;

@@ -73,7 +73,7 @@ impl Quadric {
     }
 
     /// How far two parallel planes around it are apart at least, or less: every profile holds a ball of
-    /// diameter 1, and a map shrinks no way by more than the norm of its inverse.
+    /// diameter 1, and a map shrinks no vector by more than the norm of its inverse.
     pub fn thickness(&self) -> f64 {
         1.0 / self.space.norm()
     }

@@ -4,7 +4,7 @@ use crate::math::{Bounds, DMat3, DVec3, Number, Placement, Rays, Vector};
 
 use super::span::rounding_at;
 
-/// The way from the world into the unit space of a shape, and how far off that may lead.
+/// The map from the world into the unit space of a shape, and how far it may be off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct UnitSpace {
     /// The world place of the unit origin.
@@ -46,7 +46,7 @@ impl UnitSpace {
         Self { center, inverse, unit_error: DVec3::from_array(unit_error), place_error, rounding_share }
     }
 
-    /// The inverse map makes no way longer by more than this: the root of the sum of its squares.
+    /// The inverse map makes no vector longer by more than this: the root of the sum of its squares.
     pub fn norm(&self) -> f64 {
         norm(&self.inverse)
     }
@@ -135,7 +135,7 @@ pub(super) fn pass_by<N: Number>(o: Vector<N>, error: N) -> N::Mask {
     o.length_squared().is_above(error * (error + 4.0) + 2.0)
 }
 
-/// No way becomes longer by more than this under a linear map.
+/// No vector becomes longer by more than this under a linear map.
 pub(super) fn norm(map: &DMat3) -> f64 {
     let columns = [map.x_axis, map.y_axis, map.z_axis];
     columns.iter().map(|column| column.length_squared()).sum::<f64>().sqrt()

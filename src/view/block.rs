@@ -41,18 +41,19 @@ impl Block {
     }
 
     /// Sets a packet's rays to those through a point of each dot, `off` from its middle in dots. `eye` is
-    /// where they start, and `path` how far they may go, in the assembly's coordinates ([`super::settled`]).
+    /// where they start, and `longest_path` how far they go at most, in the assembly's coordinates
+    /// ([`super::settled`]).
     pub fn rays(
         &self,
         pinhole: &PinholeCamera,
         off: [f64; 2],
         eye: DVec3,
-        path: f64,
+        longest_path: f64,
         level: Level,
         packet: &mut RayPacket,
     ) {
         packet.live = self.live();
-        dispatch!(level, simd => self.fill(simd, pinhole, off, eye, path, packet));
+        dispatch!(level, simd => self.fill(simd, pinhole, off, eye, longest_path, packet));
     }
 
     #[inline(always)]
@@ -62,7 +63,7 @@ impl Block {
         pinhole: &PinholeCamera,
         off: [f64; 2],
         eye: DVec3,
-        path: f64,
+        longest_path: f64,
         packet: &mut RayPacket,
     ) {
         let columns = f64x8::load_array(simd, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
@@ -71,7 +72,7 @@ impl Block {
         let start = across.same(eye);
         for row in 0..REGISTERS {
             let y = f64::from(self.corner[1] + row as u32) + 0.5 + off[1];
-            let d = all_settled(pinhole.upward(across, x.same(pinhole.height(y))), path);
+            let d = all_settled(pinhole.upward(across, x.same(pinhole.height(y))), longest_path);
             packet.o.store(row, start);
             packet.d.store(row, d);
         }

@@ -24,8 +24,8 @@ pub struct TileCamera<'a> {
     pub off: [f64; 2],
     /// Where they start, in the assembly's coordinates.
     pub eye: DVec3,
-    /// How far they may go, in the assembly's unit ([`super::settled`]).
-    pub path: f64,
+    /// How far they go at most, in the assembly's unit ([`super::settled`]).
+    pub longest_path: f64,
 }
 
 impl TileCamera<'_> {
@@ -47,7 +47,7 @@ impl TileCamera<'_> {
         let [left, top] = self.tile.corner;
         let Block { corner: [i, j], size } = self.block(number);
         let block = Block { corner: [left + i, top + j], size };
-        block.rays(self.pinhole, self.off, self.eye, self.path, level, packet);
+        block.rays(self.pinhole, self.off, self.eye, self.longest_path, level, packet);
     }
 
     /// The directions at the corners of the whole tile: the first two are neighbours. All rays lie between
@@ -59,7 +59,7 @@ impl TileCamera<'_> {
         let [left, top] = self.tile.corner.map(|corner| f64::from(corner) + 0.5);
         [[0.0, 0.0], [x, 0.0], [0.0, y], [x, y]].map(|[i, j]| {
             let d = self.pinhole.directions(left + i + self.off[0], top + j + self.off[1]);
-            let d = all_settled(d, self.path);
+            let d = all_settled(d, self.longest_path);
             DVec3::new(d.x, d.y, d.z)
         })
     }
@@ -81,7 +81,7 @@ impl TileCamera<'_> {
             let x = f64x8::load_array(simd, [i, i, i, i, k, k, k, k]) + across;
             let y = f64x8::load_array(simd, [j, j, j, j, l, l, l, l]) + down;
             let d = self.pinhole.directions(x + left + self.off[0], y + top + self.off[1]);
-            corners.store(row, all_settled(d, self.path));
+            corners.store(row, all_settled(d, self.longest_path));
         }
     }
 
@@ -113,7 +113,8 @@ mod tests {
         let dots = Size::new(75, 43);
         let pinhole = PinholeCamera::new(&camera, &Picture { dots, dot_aspect: 1.0 });
         for tile in tiles(dots) {
-            let sight = TileCamera { pinhole: &pinhole, tile, off: [0.2, -0.3], eye: camera.eye, path: 10.0 };
+            let sight =
+                TileCamera { pinhole: &pinhole, tile, off: [0.2, -0.3], eye: camera.eye, longest_path: 10.0 };
             let mut corners = [Lanes::filled(0.0); 3];
             sight.corners(Level::new(), &mut corners);
             let mut packet = RayPacket::EMPTY;

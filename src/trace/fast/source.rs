@@ -206,7 +206,7 @@ mod tests {
             let pinhole = PinholeCamera::new(&camera, &Picture { dots: Size::new(width, height), dot_aspect: 1.0 });
             let all = tiles(Size::new(width, height));
             let tile = all[pick % all.len()];
-            let sight = TileCamera { pinhole: &pinhole, tile, off: [off.0, off.1], eye, path: distance + 4.0 };
+            let sight = TileCamera { pinhole: &pinhole, tile, off: [off.0, off.1], eye, longest_path: distance + 4.0 };
             let mut packets = vec![RayPacket::EMPTY; sight.blocks()];
             let level = Level::new();
             for (k, packet) in packets.iter_mut().enumerate() {

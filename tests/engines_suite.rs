@@ -11,6 +11,7 @@ mod support {
 }
 
 mod engines {
+    mod events;
     mod glass;
     mod lamps;
     mod random;

@@ -6,7 +6,7 @@ use crate::integrate::{TileHits, TileIntegrator, TilePass};
 use crate::math::DVec3;
 use crate::shade::Channel;
 use crate::solid::Assembly;
-use crate::stage::{Meter, Probe, TileProbe};
+use crate::stage::{Meter, Probe, Stopwatch};
 use crate::view::{PinholeCamera, Tile, TileCamera};
 
 use super::finished_tile::FinishedTile;
@@ -59,7 +59,7 @@ impl<I> TileRenderer<'_, I> {
     pub fn render<C: Channel>(
         &self,
         tile: &Tile,
-        watch: TileProbe,
+        watch: Stopwatch,
         memory: &mut RenderMemory<I::Memory, C>,
         finished: &mut FinishedTile<C>,
     ) where

@@ -13,7 +13,7 @@
 use std::ops::{Div, Mul};
 
 use crate::math::{Number, Ray, Rays};
-use crate::stage::{Meter, Probe, Stage};
+use crate::stage::{Meter, Probe, RayEvent, Stage};
 
 use super::expression::Expression;
 use super::primitive::{WorldPrimitive, WorldShape};
@@ -186,10 +186,14 @@ pub fn first_of_span(
 ) -> Option<Crossing> {
     meter.counts.primitive_tests += 1;
     let here = departure.filter(|d| d.primitive == index);
-    if here.is_some_and(|d| !d.inward) {
-        return None;
-    }
-    let spans = primitive.form.spans(&Rays::from(ray)).filter(|spans| spans.any)?;
+    let is_left = here.is_some_and(|d| !d.inward);
+    let spans = if is_left { None } else { primitive.form.spans(&Rays::from(ray)) };
+    let spans = spans.filter(|spans| spans.any);
+    meter.record(|| {
+        let span = spans.map(|spans| [if here.is_some() { 0.0 } else { spans.enter.t }, spans.leave.t]);
+        RayEvent::Tested { primitive: index, span }
+    });
+    let spans = spans?;
     let starts = RayStarts {
         here: here.is_some(),
         inward: here.is_some(),
@@ -213,12 +217,13 @@ pub fn first_of_expression(
     let Scratch { events, state } = scratch;
     meter.at(Stage::Solid);
     meter.counts.primitive_tests += expression.leaves.len() as u64;
-    gather(ray, expression, primitives, departure, reach, events);
+    gather(ray, expression, primitives, departure, reach, events, meter);
     if events.is_empty() {
         return None;
     }
     meter.at(Stage::Csg);
     meter.counts.csg_evaluations += 1;
+    meter.record(|| RayEvent::Evaluated { leaves: expression.leaves.len(), crossings: events.len() });
     events.sort_unstable_by(|a, b| a.end.t.total_cmp(&b.end.t).then(a.leaf.cmp(&b.leaf)));
     state.start(expression);
     let mut value = state.value(expression);
@@ -291,6 +296,15 @@ fn gather_cluster(events: &mut [Event], place_error: impl Fn(&Event) -> f64) -> 
     length
 }
 
+/// The event of a ray that crosses a primitive at these distances, in any order.
+fn tested(primitive: u32, crossings: impl Iterator<Item = f64>) -> RayEvent {
+    let span = crossings.fold(None, |span, t| {
+        let [first, last] = span.unwrap_or([t; 2]);
+        Some([t.min(first), t.max(last)])
+    });
+    RayEvent::Tested { primitive, span }
+}
+
 /// Collects the crossings of every primitive of the expression that can matter within `reach`.
 fn gather(
     ray: &Ray,
@@ -299,6 +313,7 @@ fn gather(
     departure: Option<Departure>,
     reach: TRange,
     events: &mut Vec<Event>,
+    meter: &mut Meter<impl Probe>,
 ) {
     events.clear();
     for (leaf, place) in expression.leaves.iter().enumerate() {
@@ -308,17 +323,21 @@ fn gather(
         let zero = End { t: 0.0, error: 0.0, surface: 0 };
         if !form.is_convex() {
             let start = here.map(|d| d.surface);
+            let before = events.len();
             form.crossings(ray, |end| {
                 let end = if Some(end.surface) == start { zero } else { end };
                 events.push(Event { end, leaf });
             });
+            meter.record(|| tested(place.primitive, events[before..].iter().map(|event| event.end.t)));
             continue;
         }
         let outward = here.is_some_and(|d| !d.inward);
-        let Some(mut span) = (if outward { None } else { form.span(ray) }) else { continue };
-        if here.is_some() {
+        let mut span = if outward { None } else { form.span(ray) };
+        if let (Some(span), true) = (&mut span, here.is_some()) {
             span.enter = zero;
         }
+        meter.record(|| tested(place.primitive, span.iter().flat_map(|span| [span.enter.t, span.leave.t])));
+        let Some(span) = span else { continue };
         // Far outside the reach only the state inside it matters: none for a span that ends before it or
         // starts behind it.
         let ends_before = span.leave.t + span.leave.error < reach.from;

@@ -1,7 +1,7 @@
 //! Stage 7, SOLID: the first place along a ray where it meets a surface that bounds no solid.
 
 use crate::math::{Number, Ray, Rays};
-use crate::stage::{Meter, Probe};
+use crate::stage::{Meter, Probe, RayEvent};
 
 use super::crossing::{Crossing, FirstCrossings, RayStarts, at_start};
 use super::primitive::{WorldPrimitive, WorldShape};
@@ -27,7 +27,7 @@ pub fn first_of_surface(
         entering,
     };
     let at_start = |end: &End| at_start(end, &primitive.form, departure);
-    match &primitive.form {
+    let found = match &primitive.form {
         WorldShape::Face(face) => {
             // A plane is not met again by a ray that leaves it.
             let end = if here.is_some() { None } else { face.crossing(ray) };
@@ -47,7 +47,9 @@ pub fn first_of_surface(
             first.any.then(|| crossing(first.end.one(), first.entering))
         }
         _ => None,
-    }
+    };
+    meter.record(|| RayEvent::Tested { primitive: index, span: found.map(|crossing| [crossing.t; 2]) });
+    found
 }
 
 /// The first crossings of a tube, which is the form itself.

@@ -26,6 +26,7 @@ use build_primitive::BuildPrimitive;
 pub use bounding_sphere::{BoundingSphere, ROOM};
 pub use node::{BvhChild, Node, WIDE};
 pub use stream::{Candidate, Stream, StreamRays};
+pub use walk::BoxVisitor;
 
 /// Boxes around boxes over a whole scene.
 #[derive(Clone, Debug)]

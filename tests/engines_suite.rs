@@ -3,6 +3,7 @@
 //! same.
 
 mod support {
+    pub mod agreement;
     pub mod anything;
     pub mod beside;
     pub mod request;

@@ -7,9 +7,10 @@ use ray13::math::{DAffine3, DVec3, Size};
 use ray13::plan::StructureChoice;
 use ray13::scene::{Anchor, Camera, FieldSpan, Light, Material, MaterialId, Object, Primitive, Scene, Solid};
 
+use crate::support::agreement::difference;
 use crate::support::anything::{any_rotation, any_solid};
 use crate::support::request::request;
-use crate::support::same::{difference, exact, fast};
+use crate::support::same::{exact, fast};
 
 pub const DOTS: Size = Size::new(43, 37);
 

@@ -1,9 +1,9 @@
 //! The tracer against the oracle's calculation, on expressions that nobody would draw: small numbers on a
 //! coarse grid, so that faces are flush, edges meet and solids coincide, and then the whole of it turned.
 
-use crate::support::agreement::compare;
 use crate::support::anything::{any_rotation, any_solid};
 use crate::support::oracle::{Oracle, Wide};
+use crate::support::oracle_agreement::compare;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use ray13::frame::Studio;

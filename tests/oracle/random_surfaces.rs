@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use crate::support::agreement::compare;
 use crate::support::oracle::{Oracle, Wide};
+use crate::support::oracle_agreement::compare;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use ray13::frame::Studio;

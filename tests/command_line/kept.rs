@@ -148,8 +148,8 @@ fn what_is_broken_does_not_keep_the_others_from_being_compared() {
     assert_eq!(run().status.code(), Some(2));
 }
 
-/// Whether a file is a picture was asked of its bytes, and its scene was read once more: of a pipe nothing was
-/// left.
+/// Whether a file is a picture was asked of its bytes, and its scene was read once more: of a pipe nothing
+/// was left.
 #[cfg(unix)]
 #[test]
 fn pipes_are_compared_as_files_are() {

@@ -1,5 +1,5 @@
-//! What a probe records of a ray through the exact engine: what happens to it, in its order, as often as it is
-//! counted; and nothing else is different for that.
+//! What a probe records of a ray through the exact engine: what happens to it, in its order, as often as it
+//! is counted; and nothing else is different for that.
 
 use ray13::integrate::RayIntegrator;
 use ray13::lattice::{Bvh8, Lattice, Structure, SubLattices, Tree};

@@ -2,8 +2,8 @@
 
 use ray13::frame::Frame;
 
-/// How a picture differs from a reference of the same dots, in any bit of any dot or in any cell: how many dots,
-/// how far, and what the first of them hold.
+/// How a picture differs from a reference of the same dots, in any bit of any dot or in any cell: how many
+/// dots, how far, and what the first of them hold.
 pub fn difference(picture: &Frame, reference: &Frame) -> Option<String> {
     let comparison = picture.compare(reference).unwrap_or_else(|error| panic!("{error}"));
     let [own, other] = [picture, reference].map(held);

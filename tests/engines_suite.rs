@@ -6,6 +6,7 @@ mod support {
     pub mod agreement;
     pub mod anything;
     pub mod beside;
+    pub mod cases;
     pub mod request;
     pub mod same;
     pub mod scenery;

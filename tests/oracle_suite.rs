@@ -4,6 +4,7 @@
 mod support {
     pub mod anything;
     pub mod beside;
+    pub mod cases;
     pub mod oracle;
     pub mod oracle_agreement;
     pub mod rays;

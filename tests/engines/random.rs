@@ -9,6 +9,7 @@ use ray13::scene::{Anchor, Camera, FieldSpan, Light, Material, MaterialId, Objec
 
 use crate::support::agreement::difference;
 use crate::support::anything::{any_rotation, any_solid};
+use crate::support::cases::cases;
 use crate::support::request::request;
 use crate::support::same::{exact, fast};
 
@@ -78,7 +79,7 @@ fn any_direction() -> impl Strategy<Value = DVec3> {
 
 proptest! {
     // The same cases each time: a test that fails tells of the change before it.
-    #![proptest_config(ProptestConfig { cases: 150, rng_seed: RngSeed::Fixed(13), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(13), ..cases(60) })]
 
     #[test]
     fn from_outside(scene in any_scene(), direction in any_direction()) {

@@ -9,6 +9,7 @@ use crate::solid::{Crossing, Departure};
 use crate::stage::{Meter, Probe, RayEvent, RayKind, Stage};
 use crate::trace::{Hit, RayEngine};
 
+use super::history::History;
 use super::path_state::PathState;
 use super::ray_integrator::{PathMemory, RayIntegrator};
 
@@ -30,6 +31,7 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
         meter: &mut Meter<impl Probe>,
     ) -> View<C> {
         let Some(met) = self.interaction(ray, memory, meter) else {
+            memory.history = History::MISS;
             return View { light: self.illumination.background, seen: None };
         };
         let inside = memory.media.start(&self.illumination.around_eye);
@@ -67,6 +69,7 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
         memory: &mut PathMemory<R::Memory>,
         meter: &mut Meter<impl Probe>,
     ) -> C {
+        memory.history = History::hit(met.hit.object, met.hit.primitive, met.hit.surface);
         if self.illumination.material_at(met).scatters() {
             let transition = self.transition(&sent.inside, memory);
             let own = self.own_light(sent, met, memory, meter);
@@ -92,6 +95,7 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
         for (number, lamp) in illumination.lamps.iter().enumerate() {
             let towards = Towards::new(lamp.at, Vector::from(met.p), normal);
             if !towards.shines() {
+                memory.history = memory.history.lit(0.0);
                 continue;
             }
             let diffuse = material.diffuse(towards.facing);
@@ -103,7 +107,11 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
             let mut reflected = Reflected { diffuse, highlight, visible: None };
             if illumination.shadows && material.is_lit() {
                 let ray = Ray::new(met.p, towards.d.into());
-                reflected.visible = Some(self.visibility(&ray, departure, towards.distance, memory, meter));
+                let visible = self.visibility(&ray, departure, towards.distance, memory, meter);
+                memory.history = memory.history.lit(visible);
+                reflected.visible = Some(visible);
+            } else {
+                memory.history = memory.history.lit(if material.is_lit() { 1.0 } else { 0.0 });
             }
             let Reflected { visible, .. } = reflected;
             meter.record(|| RayEvent::Lit { lamp: number, diffuse, highlight, visible });
@@ -189,7 +197,10 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
             let next = sent.scattered(met, onward, inside.clone());
             meter.record(|| RayEvent::Sent { kind, ray: next.ray, weight: next.weight });
             let departure = self.illumination.departure(&met.hit, met.p, side);
-            self.arriving(&next, departure, memory, meter) * onward.share
+            let before = memory.history;
+            let light = self.arriving(&next, departure, memory, meter) * onward.share;
+            memory.history = before.sent_on(memory.history);
+            light
         };
         if let Some(mirror) = rays.mirror {
             light = (light + arriving(RayKind::Mirror, mirror, met.normal, &sent.inside)).limited();
@@ -213,12 +224,16 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
         if !self.is_followed(sent.generation, sent.weight) {
             meter.counts.truncated_rays += 1;
             meter.record(|| RayEvent::Truncated);
+            memory.history = History::TRUNCATED;
             return self.illumination.ambient;
         }
         meter.counts.secondary_rays += 1;
         let hit = self.engine.next(&sent.ray, departure, &mut memory.engine, meter);
         meter.at(Stage::Shade);
-        let Some(hit) = hit else { return self.illumination.background };
+        let Some(hit) = hit else {
+            memory.history = History::MISS;
+            return self.illumination.background;
+        };
         meter.counts.secondary_hits += 1;
         let met = self.met(&sent.ray, hit, memory);
         meter.record(|| hit_event(&met.hit));

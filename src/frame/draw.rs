@@ -11,7 +11,7 @@ use crate::integrate::TileIntegrator;
 use crate::math::{DVec3, Grid};
 use crate::plan::Channels;
 use crate::shade::Channel;
-use crate::stage::{Counts, Progress, Stage, StageTimes, Task, TileProbe};
+use crate::stage::{Counts, Progress, Stage, StageTimes, Stopwatch, Task};
 use crate::tone::Tone;
 use crate::view::{TILE, Tile, tiles};
 
@@ -176,7 +176,7 @@ impl<C: Channel> Work<C> for Whole<'_> {
         let tiles = tiles(picture.size());
         progress.begin(Task::Tracing, tiles.len() as u64);
         let drawn = tiles.into_par_iter().map(|tile| {
-            let watch = if is_timed(&tile) { TileProbe::timed(Stage::Ray) } else { TileProbe::Silent };
+            let watch = if is_timed(&tile) { Stopwatch::start(Stage::Ray) } else { Stopwatch::still() };
             workers.with(renderer, |Worker { memory, finished, .. }| {
                 renderer.render(&tile, watch, memory, finished);
                 picture.take(finished);

@@ -62,7 +62,6 @@ fn measure(name: &str, studio: &Studio) {
     let adaptive = |error| with(Options { adaptive: Some(error), ..plain.options });
     let mut of = [Duration::ZERO; 2];
     for (what, request) in [
-        ("under", with(Options { undersampling: true, ..plain.options })),
         ("1", fixed(1)),
         ("4", fixed(2)),
         ("16", fixed(4)),

@@ -153,8 +153,6 @@ impl From<PrecisionName> for PrecisionChoice {
 /// The ways of anti-aliasing by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum AntiAliasing {
-    /// Fewer rays than dots: where those around see the same, light is interpolated
-    Under,
     /// One ray through the middle of each dot
     Off,
     /// As many rays for each dot: --samples by --samples

@@ -62,7 +62,6 @@ impl PictureArguments {
             precision: self.precision.into(),
             samples: self.samples_per_axis(),
             adaptive: (self.anti_aliasing() == AntiAliasing::Adaptive).then(|| self.error.unwrap_or(ERROR)),
-            undersampling: self.anti_aliasing() == AntiAliasing::Under,
             color: false,
             threads: self.threads.map_or(0, usize::from),
         };
@@ -83,7 +82,7 @@ impl PictureArguments {
     fn samples_per_axis(&self) -> u32 {
         match self.anti_aliasing() {
             AntiAliasing::Fixed => self.samples.unwrap_or(FIXED_SAMPLES),
-            AntiAliasing::Under | AntiAliasing::Off | AntiAliasing::Adaptive => 1,
+            AntiAliasing::Off | AntiAliasing::Adaptive => 1,
         }
     }
 

@@ -56,18 +56,6 @@ impl PictureDots {
         }
     }
 
-    /// Sets the light of all dots.
-    pub fn set_all<C: Channel>(&mut self, light: &Grid<C>) {
-        for (own, light) in self.light.values_mut().iter_mut().zip(light.values()) {
-            *own = light.gray();
-        }
-        if let Some(color) = &mut self.color {
-            for (own, light) in color.values_mut().iter_mut().zip(light.values()) {
-                *own = light.rgb();
-            }
-        }
-    }
-
     /// The picture, as far as its tiles are finished.
     pub fn assembly(&mut self) -> PictureAssembly<'_> {
         let size = self.light.size();

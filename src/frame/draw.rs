@@ -12,7 +12,6 @@ use crate::math::{DVec3, Grid};
 use crate::plan::Channels;
 use crate::shade::Channel;
 use crate::stage::{Counts, Progress, Stage, StageTimes, Stopwatch, Task};
-use crate::tone::Tone;
 use crate::view::{TILE, Tile, tiles};
 
 use super::assemble::PictureDots;
@@ -21,7 +20,6 @@ use super::prepare::{Prepared, Work};
 use super::refine::{Accuracy, FirstRays, open_dots, refine};
 use super::render::TileRenderer;
 use super::reuse::Reused;
-use super::undersample::undersample;
 use super::workers::{Worker, Workers};
 use super::{Frame, NothingInView, Request, Space, Studio, Wants};
 
@@ -107,10 +105,7 @@ impl Studio {
             let color = request.wants_color();
             Accuracy { error, tone: request.tone, color }
         });
-        let wants = request.wants;
-        let sees = wants.depth || wants.normal || wants.object;
-        let undersampled = (prepared.plan.undersampling && !sees).then_some(request.tone);
-        let whole = Whole { dots: &mut dots, wants, accuracy, undersampled, progress: &self.progress };
+        let whole = Whole { dots: &mut dots, wants: request.wants, accuracy, progress: &self.progress };
         let (counts, sampled) = match prepared.plan.channels {
             Channels::Gray => prepared.work::<f64, _>(whole),
             Channels::Three => prepared.work::<DVec3, _>(whole),
@@ -151,8 +146,6 @@ struct Whole<'a> {
     wants: Wants,
     /// How exact dots are to be, where they get as many rays as that needs.
     accuracy: Option<Accuracy>,
-    /// How light becomes levels, where fewer rays than dots are traced.
-    undersampled: Option<Tone>,
     progress: &'a Progress,
 }
 
@@ -161,18 +154,12 @@ impl<C: Channel> Work<C> for Whole<'_> {
     type Done = (Counts, StageTimes);
 
     fn by<I: TileIntegrator<C>>(self, renderer: &TileRenderer<I>) -> Self::Done {
-        let Self { dots, wants, accuracy, undersampled, progress } = self;
-        let workers = Workers::new(wants, accuracy.is_some());
-        if let Some(tone) = undersampled {
-            let (light, counts) = undersample(dots.light.size(), tone, renderer, &workers);
-            dots.set_all(&light);
-            workers.give_back(renderer);
-            return (counts, StageTimes::default());
-        }
+        let Self { dots, wants, accuracy, progress } = self;
         if accuracy.is_some() {
             dots.keep_histories();
         }
         let picture = dots.assembly();
+        let workers = Workers::new(wants, accuracy.is_some());
         let tiles = tiles(picture.size());
         progress.begin(Task::Tracing, tiles.len() as u64);
         let drawn = tiles.into_par_iter().map(|tile| {

@@ -17,7 +17,6 @@ mod sample;
 mod scratch_pool;
 mod small;
 mod studio;
-mod undersample;
 mod workers;
 
 pub use compare::{Comparison, OtherDots};

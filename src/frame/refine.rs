@@ -300,7 +300,7 @@ fn add_samples<C: Channel, I: TileIntegrator<C>>(
     for (points, light) in points.chunks(FRUSTA * PACKET).zip(light.chunks_mut(FRUSTA * PACKET)) {
         packets.clear();
         packets.extend(points.chunks(PACKET).map(PointPacket::new));
-        renderer.shade_points(packets, memory, light, None, meter);
+        renderer.shade_points(packets, memory, light, meter);
     }
     for (dot, lights) in dots.iter_mut().zip(light.chunks(samples.len())) {
         dot.add(lights, accuracy);

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use crate::integrate::{History, TileHits, TileIntegrator, TilePass};
+use crate::integrate::{TileHits, TileIntegrator, TilePass};
 use crate::math::DVec3;
 use crate::shade::Channel;
 use crate::solid::Assembly;
@@ -113,24 +113,19 @@ impl<I> TileRenderer<'_, I> {
         }
     }
 
-    /// Sets `light` to that of rays through some points of the picture, at most 16 packets of them, and
-    /// `histories` to what they met.
+    /// Sets `light` to that of rays through some points of the picture, at most 16 packets of them.
     pub fn shade_points<C: Channel>(
         &self,
         points: &[PointPacket],
         memory: &mut RenderMemory<I::Memory, C>,
         light: &mut [C],
-        histories: Option<&mut [History]>,
         meter: &mut Meter<impl Probe>,
     ) where
         I: TileIntegrator<C>,
     {
         let camera = self.camera(&Tile::NONE, TileRays::Points(points));
-        let pass = TilePass { camera, kept: None, keeps_histories: histories.is_some() };
+        let pass = TilePass { camera, kept: None, keeps_histories: false };
         self.integrator.shade(&pass, &mut memory.integrator, light, meter);
-        if let Some(histories) = histories {
-            self.integrator.histories(&pass, &memory.integrator, |ray, history| histories[ray] = history);
-        }
     }
 
     /// A ray through each dot, by a sample's number.

@@ -73,7 +73,7 @@ impl Request {
     fn has_dots_of(&self, other: &Self) -> bool {
         let planned = self.planned();
         // How many rays a dot gets depends on where the borders of its levels are.
-        let by_levels = planned.adaptive.is_some() || planned.undersampling;
+        let by_levels = planned.adaptive.is_some();
         self.has_view_of(other) && planned == other.planned() && (self.tone == other.tone || !by_levels)
     }
 

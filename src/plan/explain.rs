@@ -151,9 +151,6 @@ impl Plan {
     fn rays(&self, dots: Size) -> String {
         let size = format!("{} × {} dots", dots.width, dots.height);
         match (self.samples, self.adaptive) {
-            _ if self.undersampling => {
-                format!("{size}, a ray for each 16 of them, and for those between where these differ")
-            }
             (_, Some(error)) => format!(
                 "{size}, a ray through the middle of each, and more where its level is not decided within {error} of a level"
             ),

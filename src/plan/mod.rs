@@ -58,8 +58,6 @@ pub struct Plan {
     pub samples: u32,
     /// The error that dots are left with, as a share of a level, where they get as many rays as that needs.
     pub adaptive: Option<f64>,
-    /// Whether fewer rays than dots are traced.
-    pub undersampling: bool,
     /// Why each of these is as it is.
     pub reasons: Reasons,
 }
@@ -167,13 +165,8 @@ impl Plan {
             shadows: reasons.shadows.is_ok(),
             channels: if reasons.colored.is_some() { Channels::Three } else { Channels::Gray },
             lamps,
-            samples: if options.adaptive.is_some() || options.undersampling {
-                1
-            } else {
-                options.samples.max(1)
-            },
-            undersampling: options.undersampling,
-            adaptive: options.adaptive.filter(|_| !options.undersampling).map(|error| error.max(LEAST_ERROR)),
+            samples: if options.adaptive.is_some() { 1 } else { options.samples.max(1) },
+            adaptive: options.adaptive.map(|error| error.max(LEAST_ERROR)),
             reasons,
         }
     }

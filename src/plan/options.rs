@@ -37,10 +37,6 @@ pub struct Options {
     /// this share of a level at most, above 0; `samples` says nothing then. Absent where each dot gets as
     /// many.
     pub adaptive: Option<f64>,
-    /// Whether fewer rays than dots are traced, and light that seems to be smooth is interpolated between
-    /// them: for pictures of a moment. Only of light and characters; `samples` and `adaptive` say nothing
-    /// then.
-    pub undersampling: bool,
     /// Whether the light of each dot is wanted by its three primaries, and not its luminance only. A `color`
     /// palette wants it by itself.
     pub color: bool,
@@ -60,7 +56,6 @@ impl Default for Options {
             precision: PrecisionChoice::Auto,
             samples: 1,
             adaptive: None,
-            undersampling: false,
             color: false,
             threads: 0,
         }

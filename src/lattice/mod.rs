@@ -7,10 +7,10 @@
 //! [`crate::solid::Assembly::primitives`].
 
 mod bvh;
+mod cells;
 mod clip;
 mod frusta;
 mod frustum;
-mod loose_octree;
 mod planes;
 mod slopes;
 mod structure;
@@ -18,14 +18,14 @@ mod sub;
 mod tree;
 
 pub use bvh::{BoundingSphere, Bvh8, BvhChild, Candidate, Node, ROOM, Stream, StreamRays, WIDE};
+pub use cells::{CellLine, CsgCells};
 pub use clip::{Outcode, entry};
 pub use frusta::{FRUSTA, FrustaHits, FrustumSoa};
 pub use frustum::{Frustum, FrustumHits, LONGEST_PATH};
-pub use loose_octree::{LooseOctree, MANY};
 pub use planes::{CellStep, Planes, SLACK, slack};
 pub use slopes::{Basis, Spread};
 pub use structure::Structure;
-pub use sub::{SubLattice, SubLattices};
+pub use sub::{MANY, SubLattice, SubLattices};
 pub use tree::{MOST_POINTERS, Tree};
 
 use std::ops::ControlFlow;

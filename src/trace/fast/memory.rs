@@ -2,9 +2,10 @@
 
 use crate::lattice::{FRUSTA, Frustum, FrustumSoa};
 use crate::math::{RayPacket, Real};
-use crate::solid::{PacketCrossings, PacketScratch, PacketShear, PrunedExpr, Pruning};
+use crate::solid::{PacketCrossings, PacketRange, PacketScratch, PacketShear, PrunedExpr, Pruning};
 use crate::stage::Counts;
 
+use super::cells::{CellItem, CellRays};
 use super::incoherent::IncoherentRays;
 use super::packet_culler::PacketCuller;
 use super::packet_hits::PacketHits;
@@ -28,6 +29,8 @@ pub struct TileMemory {
     pub(super) stack: Vec<StackItem>,
     pub(super) doubles: PrecisionScratch<f64>,
     pub(super) singles: PrecisionScratch<f32>,
+    /// What is to be walked of an object's cells.
+    pub(super) cell_stack: Vec<CellItem>,
     /// What rays meet of one object.
     pub(super) met: Box<PacketHits>,
     pub(super) pruning: Pruning,
@@ -59,6 +62,11 @@ impl StackItem {
 pub(super) struct PrecisionScratch<T> {
     pub csg: PacketScratch<T>,
     pub found: Box<PacketCrossings<T>>,
+    pub cells: CellRays<T>,
+    /// What is met first in the cells of one object: for the one that is asked about.
+    pub of_object: Vec<PacketHits<T>>,
+    /// The part of each ray that is asked for.
+    pub reach: Box<PacketRange<T>>,
     /// By packet: its rays, and what they met, where those of the tile are in another precision.
     pub rays: Vec<RayPacket<T>>,
     pub nearest: Vec<PacketHits<T>>,
@@ -69,6 +77,9 @@ impl<T: Real> Default for PrecisionScratch<T> {
         Self {
             csg: PacketScratch::default(),
             found: Box::new(PacketCrossings::NONE),
+            cells: CellRays::default(),
+            of_object: Vec::new(),
+            reach: Box::new(PacketRange::NONE),
             rays: Vec::new(),
             nearest: Vec::new(),
         }
@@ -100,6 +111,7 @@ impl Default for TileMemory {
             stack: Vec::new(),
             doubles: PrecisionScratch::default(),
             singles: PrecisionScratch::default(),
+            cell_stack: Vec::new(),
             met: Box::default(),
             pruning: Pruning::default(),
             pruned: Vec::new(),

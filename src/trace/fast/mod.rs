@@ -7,6 +7,7 @@
 //! convex, that ray is left to the exact engine.
 
 mod blocked;
+mod cells;
 mod composite;
 mod first;
 mod glass;

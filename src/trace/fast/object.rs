@@ -9,6 +9,7 @@ use crate::solid::{
 };
 
 use super::Fast;
+use super::cells::CellsTest;
 use super::composite::CompositeTest;
 use super::memory::TileMemory;
 use super::packet_culler::{PacketCuller, Slabs};
@@ -93,13 +94,17 @@ impl Fast<'_> {
                 found.any != 0
             }
             Body::Composite { whole, .. } => {
+                if let Some(cells) = self.subs.cells(object) {
+                    let PacketTest { farthest, .. } = *test;
+                    let mut test = CellsTest { fast: self, simd, source, object, cells, k, farthest, open: passing, unsure: 0 };
+                    return test.trace(sink, memory);
+                }
                 let slack = self.slack_of::<T>();
                 let (from, to) = box_range(simd, &memory.cullers[k], &own.bounds, slack, passing);
                 T::scratch(memory).csg.start();
                 let expression = ExprView::from(&**whole);
-                let loose = self.subs.loose(object).map(|loose| (loose, expression));
                 let mut composite =
-                    CompositeTest { fast: self, simd, source, object, whole: loose, open: passing, sink };
+                    CompositeTest { fast: self, simd, source, object, open: passing, sink };
                 composite.trace(expression, from, to.min(test.farthest), memory);
                 true
             }

@@ -1,0 +1,148 @@
+//! The cells of a composite object of many primitives: space is cut where that parts them, each cell has the
+//! part of the expression that still matters there, and cells without a surface are left out.
+//!
+//! What is left are boxes, disjoint but for their sides, in a hierarchy as that of objects: rays and frustums
+//! find those on their way as they find objects.
+
+mod build;
+mod split;
+
+use std::ops::ControlFlow;
+
+use crate::math::{Bounds, Mask, Number, Ray, Rays, Real, Vector};
+use crate::solid::{Assembly, Expression, ExprView, Expressions, TRange};
+
+use super::bvh::Bvh8;
+use super::planes::{SLACK, slack};
+
+/// Where single precision would need expressions to hold farther around their cells than this, it is not used:
+/// they would name much beside their cells.
+const WIDEST: f64 = 1.0 / 1024.0;
+
+/// The cells of one object.
+#[derive(Clone, Debug)]
+pub struct CsgCells {
+    /// By cell.
+    bounds: Vec<Bounds>,
+    expressions: Expressions,
+    boxes: Bvh8,
+    margin: f64,
+}
+
+/// How far around its cell an expression is to hold where crossings may be computed `slack` beside their
+/// places: twice that keeps their whole cluster. In single precision it is so much more, if that is little
+/// enough.
+fn margin(slack: f64) -> f64 {
+    let least = 2.0 * slack;
+    least.max((least * f32::COARSER).min(WIDEST))
+}
+
+/// A line as cells are cut out of it: 1 / d, and the largest number where that is larger, so that no product
+/// with 0 is not a number.
+#[derive(Clone, Copy, Debug)]
+pub struct CellLine<N> {
+    /// Where it starts.
+    pub o: Vector<N>,
+    /// The inverse of its direction.
+    pub inverse: Vector<N>,
+}
+
+impl<N: Number> CellLine<N> {
+    /// The lines of rays, whose numbers reach up to `greatest`.
+    #[inline(always)]
+    pub fn new(rays: &Rays<N>, greatest: f64) -> Self {
+        let most = rays.o.x.same(greatest);
+        let one = rays.o.x.same(1.0);
+        let inverse = Vector { x: one / rays.d.x, y: one / rays.d.y, z: one / rays.d.z };
+        let within = |x: N| x.smaller(most).larger(-most);
+        Self {
+            o: rays.o,
+            inverse: Vector { x: within(inverse.x), y: within(inverse.y), z: within(inverse.z) },
+        }
+    }
+
+    /// Between which distances the lines are in a box, from 0 on: of those that miss it the second is less.
+    #[inline(always)]
+    pub fn range(&self, b: &Bounds) -> (N, N) {
+        let (mut from, mut to) = (self.o.x.same(0.0), self.o.x.same(f64::INFINITY));
+        for axis in 0..3 {
+            let (o, inverse) = (self.o.along(axis), self.inverse.along(axis));
+            let (lo, hi) = ((o.same(b.lo[axis]) - o) * inverse, (o.same(b.hi[axis]) - o) * inverse);
+            let ascends = lo.is_at_most(hi);
+            from = from.larger(ascends.choose(lo, hi));
+            to = to.smaller(ascends.choose(hi, lo));
+        }
+        (from, to)
+    }
+}
+
+impl CsgCells {
+    /// Cuts the object of the expression `whole` in the box `bounds`, into cells that name about `allowance`
+    /// primitives together.
+    pub fn new(whole: &Expression, assembly: &Assembly, bounds: &Bounds, allowance: f64) -> Self {
+        let slack = slack(assembly.off);
+        let margin = margin(slack);
+        let build::Part { bounds, expressions } = build::cut(whole, assembly, bounds, allowance, slack, margin);
+        let boxes = Bvh8::of_boxes(&bounds, slack);
+        Self { bounds, expressions, boxes, margin }
+    }
+
+    /// How far around its cell an expression holds.
+    pub fn margin(&self) -> f64 {
+        self.margin
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.bounds.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.bounds.is_empty()
+    }
+
+    /// Primitives that their expressions name, all together.
+    pub fn leaves(&self) -> usize {
+        self.expressions.leaves()
+    }
+
+    /// Their boxes, in a hierarchy: its objects are the cells.
+    #[inline]
+    pub fn boxes(&self) -> &Bvh8 {
+        &self.boxes
+    }
+
+    /// The box of one.
+    #[inline]
+    pub fn bounds(&self, cell: u32) -> &Bounds {
+        &self.bounds[cell as usize]
+    }
+
+    /// The expression in one.
+    #[inline]
+    pub fn expression(&self, cell: u32) -> ExprView<'_> {
+        self.expressions.get(cell as usize)
+    }
+
+    /// Calls `visit` with the expression in each cell on the way of a ray, and its part there, nearly in
+    /// order. `visit` returns how far the ray still matters.
+    pub fn walk(
+        &self,
+        ray: &Ray,
+        to: f64,
+        cells_visited: &mut u64,
+        mut visit: impl FnMut(ExprView, TRange) -> f64,
+    ) {
+        let line = CellLine::new(&Rays::from(ray), f64::MAX);
+        let mut limit = to;
+        self.boxes.walk(ray, 0.0, limit, cells_visited, |cell, _| -> ControlFlow<(), f64> {
+            let (from, end) = line.range(self.bounds(cell));
+            if from <= end && from <= limit + SLACK {
+                let reach = TRange { from: from - SLACK, to: end + SLACK };
+                limit = visit(self.expression(cell), reach);
+            }
+            ControlFlow::Continue(limit + SLACK)
+        });
+    }
+}

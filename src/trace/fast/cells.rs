@@ -1,0 +1,266 @@
+//! A packet of rays against a composite object that is cut into cells: its frustum finds those on the way,
+//! nearest first, and the rays that pass one are intersected with what the object's expression is there.
+//!
+//! Where few rays pass each cell, they go on one by one.
+
+use fearless_simd::Simd;
+
+use crate::lattice::{CellLine, CsgCells, Frustum, SLACK};
+use crate::math::{Bounds, LaneVector, Lanes, Number, Ray, RayPacket, Real, Vector, lanes};
+use crate::solid::{CsgQuery, Departures, PacketRange, first_of_expressions};
+use crate::stage::{Meter, Silent};
+
+use super::Fast;
+use super::memory::{PrecisionScratch, TileMemory};
+use super::packet_culler::Slabs;
+use super::packet_hits::PacketHits;
+use super::precision::Precision;
+use super::sink::{HitSink, offer_crossings, offer_hits};
+use super::source::PacketSource;
+
+/// A packet is given up where, of its first cells, fewer than so many rays pass each: a cell costs as much
+/// for a packet as for so many rays one by one.
+const FEW_RAYS: u32 = 3;
+
+/// So many cells are looked at before a packet is given up.
+const FIRST_CELLS: u32 = 8;
+
+/// What is to be walked: a node, or a cell.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct CellItem {
+    /// How near it is at least.
+    near: f32,
+    number: u32,
+    is_cell: bool,
+}
+
+/// Rays as cells are cut out of them, and their parts in one.
+#[derive(Debug)]
+pub(super) struct CellRays<T> {
+    inverse: [Lanes<T>; 3],
+    pub(super) is_known: bool,
+    reach: PacketRange<T>,
+}
+
+impl<T: Real> Default for CellRays<T> {
+    fn default() -> Self {
+        Self { inverse: [Lanes::filled(T::ZERO); 3], is_known: false, reach: PacketRange::NONE }
+    }
+}
+
+impl<T: Real> CellRays<T> {
+    /// Sets the parts of some rays of a packet in a box, and so much before and behind it; answers which rays
+    /// have one.
+    #[inline(always)]
+    fn clip<S: Simd>(&mut self, simd: S, packet: &RayPacket<T>, wanted: u64, b: &Bounds, slack: f64) -> u64 {
+        if !std::mem::replace(&mut self.is_known, true) {
+            for row in 0..T::ROWS {
+                let line = CellLine::new(&packet.load(simd, row), T::GREATEST);
+                self.inverse.store(row, line.inverse);
+            }
+        }
+        let mut within = 0;
+        for row in 0..T::ROWS {
+            if !T::has_any(wanted, row) {
+                continue;
+            }
+            let (o, inverse): (Vector<T::SimdReal<S>>, _) = (packet.o.load(simd, row), self.inverse.load(simd, row));
+            let (from, to) = CellLine { o, inverse }.range(b);
+            within |= T::bits_of(simd, from.is_at_most(to), row);
+            self.reach.from.store(row, from - slack);
+            self.reach.to.store(row, to + slack);
+        }
+        within & wanted
+    }
+}
+
+/// Rays that may meet a composite object.
+pub(super) struct CellsTest<'a, S, T> {
+    pub fast: &'a Fast<'a>,
+    pub simd: S,
+    pub source: PacketSource<'a, T>,
+    pub object: u32,
+    pub cells: &'a CsgCells,
+    /// The packet's number in the tile.
+    pub k: usize,
+    /// What lies farther away does not matter.
+    pub farthest: f64,
+    /// The rays of which it is still asked, a bit for each; and those that are to be asked one by one.
+    pub open: u64,
+    pub unsure: u64,
+}
+
+impl<S: Simd, T: Precision> CellsTest<'_, S, T> {
+    /// Finds what the rays meet first. Answers whether any may have met it.
+    pub fn trace(&mut self, sink: &mut impl HitSink<T>, memory: &mut TileMemory) -> bool {
+        let Some(frustum) = memory.frustums[self.k] else { return false };
+        let mut hits = T::scratch(memory).of_object.pop().unwrap_or_default();
+        hits.clear();
+        memory.doubles.cells.is_known = false;
+        memory.singles.cells.is_known = false;
+        memory.doubles.csg.start();
+        memory.singles.csg.start();
+        let limits = memory.cullers[self.k].limits();
+        let mut stack = std::mem::take(&mut memory.cell_stack);
+        self.walk(&frustum, &mut stack, &mut hits, memory);
+        memory.cell_stack = stack;
+        memory.cullers[self.k].restore(limits);
+        sink.doubt(self.unsure);
+        offer_hits(self.simd, &hits, u64::MAX, self.object, sink);
+        let found = hits.t.0.iter().any(|&t| t.into() < f64::INFINITY);
+        T::scratch(memory).of_object.push(hits);
+        found || self.unsure != 0
+    }
+
+    fn walk(
+        &mut self,
+        frustum: &Frustum,
+        stack: &mut Vec<CellItem>,
+        hits: &mut PacketHits<T>,
+        memory: &mut TileMemory,
+    ) {
+        let slack = self.fast.slack_of::<T>();
+        let (mut far, mut cells, mut passed) = (self.farthest, 0, 0);
+        stack.clear();
+        stack.push(CellItem { near: f32::NEG_INFINITY, number: 0, is_cell: false });
+        while let Some(CellItem { near, number, is_cell }) = stack.pop() {
+            // What is not a number is not known to be farther.
+            if f64::from(near) > far + slack {
+                continue;
+            }
+            if !is_cell {
+                memory.counts.cells_visited += 1;
+                self.simd.vectorize(
+                    #[inline(always)]
+                    || open_node(self.simd, self.cells, number, frustum, stack),
+                );
+                continue;
+            }
+            let b = self.cells.bounds(number);
+            let (simd, culler, open) = (self.simd, &memory.cullers[self.k], self.open);
+            let rays = simd.vectorize(
+                #[inline(always)]
+                || culler.passing(simd, &Slabs::around(simd, b.lo, b.hi, slack), open),
+            );
+            if rays == 0 {
+                continue;
+            }
+            (cells, passed) = (cells + 1, passed + rays.count_ones());
+            if cells >= FIRST_CELLS && passed < FEW_RAYS * cells {
+                self.one_by_one(hits, memory);
+                return;
+            }
+            let found = self.evaluate(number, rays, hits, memory);
+            if found != 0 {
+                memory.cullers[self.k].shorten(found, |lane| hits.reach_of(lane) + slack);
+                far = self.farthest_open(hits);
+            }
+            if self.open == 0 {
+                return;
+            }
+        }
+    }
+
+    /// Up to where anything still matters to any of the open rays.
+    fn farthest_open(&self, hits: &PacketHits<T>) -> f64 {
+        lanes(self.open).map(|lane| hits.reach_of(lane)).fold(f64::NEG_INFINITY, f64::max).min(self.farthest)
+    }
+
+    /// Asks what some rays meet in a cell; answers which may have met anything.
+    fn evaluate(&mut self, cell: u32, rays: u64, hits: &mut PacketHits<T>, memory: &mut TileMemory) -> u64 {
+        let holds = T::DECIDES || self.cells.margin() >= 2.0 * self.fast.slack_of::<T>();
+        let (mut met, mut unsure) = (0, rays);
+        if holds {
+            (met, unsure) = self.evaluate_in(self.source, rays, cell, hits, memory);
+        }
+        if unsure != 0 && !T::DECIDES {
+            let more;
+            (more, unsure) = self.evaluate_in(self.source.full(), unsure, cell, hits, memory);
+            met |= more;
+        }
+        self.unsure |= unsure;
+        self.open &= !unsure;
+        met
+    }
+
+    /// The same in one precision; answers also for which that does not decide.
+    fn evaluate_in<U: Precision>(
+        &self,
+        source: PacketSource<U>,
+        rays: u64,
+        cell: u32,
+        hits: &mut PacketHits<T>,
+        memory: &mut TileMemory,
+    ) -> (u64, u64) {
+        let (simd, expression) = (self.simd, self.cells.expression(cell));
+        let PrecisionScratch { csg, found, cells, .. } = U::scratch(memory);
+        let (packet, b) = (source.rays, self.cells.bounds(cell));
+        let wanted = simd.vectorize(
+            #[inline(always)]
+            || cells.clip(simd, packet, rays, b, SLACK * U::COARSER),
+        );
+        if wanted == 0 {
+            return (0, 0);
+        }
+        let query = CsgQuery { packet, wanted, departures: source.departures, reach: &cells.reach };
+        first_of_expressions(simd, &query, expression, &self.fast.assembly.primitives, csg, found);
+        offer_crossings(simd, found, self.object, hits);
+        let (any, unsure) = (found.any, found.unsure);
+        memory.counts.primitive_tests += expression.leaves.len() as u64;
+        memory.counts.csg_evaluations += 1;
+        (any, unsure)
+    }
+
+    /// Finds what the open rays meet one after the other.
+    fn one_by_one(&mut self, hits: &mut PacketHits<T>, memory: &mut TileMemory) {
+        let scratch = &mut memory.incoherent.scratch;
+        let mut meter = Meter::new(Silent);
+        let PacketSource { full_rays, full_departures, .. } = self.source;
+        let found = &mut *memory.doubles.found;
+        found.any = 0;
+        found.entering = 0;
+        for lane in lanes(self.open) {
+            if full_departures.is_some_and(|all| self.fast.leaves_mesh(all, lane)) {
+                self.unsure |= 1 << lane;
+                continue;
+            }
+            let departure = full_departures.filter(|all| all.primitive.0[lane] != Departures::NOWHERE);
+            let departure = departure.map(|all| all.get(lane));
+            let to = hits.reach_of(lane).min(self.farthest);
+            let ray: Ray = full_rays.ray(lane);
+            if let Some(crossing) = self.fast.exact.object(self.object, &ray, departure, to, scratch, &mut meter) {
+                found.set(lane, &crossing);
+            }
+        }
+        memory.counts += meter.counts;
+        offer_crossings(self.simd, &memory.doubles.found, self.object, hits);
+        self.open = 0;
+    }
+}
+
+/// Puts what a packet's frustum meets of a node's children on the stack, the nearest last.
+#[inline(always)]
+fn open_node<S: Simd>(simd: S, cells: &CsgCells, node: u32, frustum: &Frustum, stack: &mut Vec<CellItem>) {
+    let node = &cells.boxes().nodes()[node as usize];
+    let (lo, hi) = node.sides(simd);
+    let met = frustum.meets_boxes(simd, &lo, &hi);
+    let (first, inner) = (stack.len(), node.inner());
+    let mut left = met.boxes;
+    while left != 0 {
+        let slot = left.trailing_zeros() as usize;
+        left &= left - 1;
+        let Some(child) = node.child(slot) else { continue };
+        let (is_cell, number) = match child {
+            crate::lattice::BvhChild::Object(cell) => (true, cell),
+            crate::lattice::BvhChild::Node(node) => (false, node),
+        };
+        debug_assert_eq!(is_cell, inner >> slot & 1 == 0);
+        let near = met.near[slot];
+        let mut place = stack.len();
+        stack.push(CellItem { near, number, is_cell });
+        while place > first && stack[place - 1].near < near {
+            stack.swap(place - 1, place);
+            place -= 1;
+        }
+    }
+}

@@ -13,6 +13,7 @@ mod support {
 mod engines {
     mod glass;
     mod lamps;
+    mod large_csg;
     mod random;
     mod range;
     mod scenes;

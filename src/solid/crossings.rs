@@ -62,7 +62,11 @@ pub fn first_of_expressions<S: Simd, T: Real>(
     scratch.places.clear();
     scratch.known.make_room(leaves);
     for (leaf, place) in expression.leaves.iter().enumerate() {
-        let (place, [ahead, may]) = scratch.known.look(simd, asked, place.primitive, form(leaf));
+        let (place, [ahead, may]) = {
+            let near = asked.near.get(leaf).copied().unwrap_or(u64::MAX);
+            let asked = CsgQuery { wanted: wanted & near, ..*asked };
+            scratch.known.look(simd, &asked, place.primitive, form(leaf))
+        };
         scratch.places.push(place);
         some |= ahead;
         doubtful |= may;

@@ -18,6 +18,9 @@ pub struct CsgQuery<'a, T> {
     pub departures: Option<&'a Departures<T>>,
     /// The part of each.
     pub reach: &'a PacketRange<T>,
+    /// By leaf of the expression: which of them may be in it within their parts, as far as that is known;
+    /// all where there is nothing.
+    pub near: &'a [u64],
 }
 
 /// The part of each ray of a packet that is asked for, as [`TRange`].

@@ -164,7 +164,7 @@ impl<T: Real> SpanCache<T> {
         primitive: u32,
         form: &WorldShape,
     ) -> (u32, [u64; 2]) {
-        let CsgQuery { packet, wanted, departures, reach } = *asked;
+        let CsgQuery { packet, wanted, departures, reach, .. } = *asked;
         // The last are the likeliest.
         let known = self.primitives.iter().rposition(|&known| known == primitive);
         let place = known.unwrap_or_else(|| {

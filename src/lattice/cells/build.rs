@@ -1,7 +1,7 @@
 //! Cutting the box of a composite object into cells, from the top.
 
 use crate::math::{Bounds, DVec3};
-use crate::solid::{Assembly, Classification, ExprView, Expression, Expressions, PrunedExpr, Pruning};
+use crate::solid::{Assembly, Classification, ExprView, Expression, Expressions, Leaf, PrunedExpr, Pruning};
 
 use super::split::best;
 
@@ -54,19 +54,54 @@ struct Cell {
 
 struct Building<'a> {
     assembly: &'a Assembly,
-    /// The boxes of the object's primitives, which begin with number `first`.
-    boxes: Vec<Bounds>,
-    first: u32,
+    boxes: &'a LeafBoxes,
     margin: f64,
 }
 
-/// Cuts the box `bounds` of an expression. Crossings may be computed `slack` beside their
-/// places, and expressions are to hold `margin` around their cells.
-pub fn cut(whole: &Expression, assembly: &Assembly, bounds: &Bounds, allowance: f64, slack: f64, margin: f64) -> Part {
-    let numbers = || whole.leaves.iter().map(|leaf| leaf.primitive);
-    let (first, last) = (numbers().min().unwrap_or(0), numbers().max().unwrap_or(0));
-    let boxes = assembly.primitives[first as usize..=last as usize].iter().map(|p| p.form.bounds()).collect();
-    let building = Building { assembly, boxes, first, margin };
+/// The boxes around the primitives of an object.
+#[derive(Clone, Debug)]
+pub struct LeafBoxes {
+    /// By primitive, from number `first` on.
+    boxes: Vec<Bounds>,
+    first: u32,
+}
+
+impl LeafBoxes {
+    /// Those of an expression.
+    pub fn new(whole: &Expression, assembly: &Assembly) -> Self {
+        let numbers = || whole.leaves.iter().map(|leaf| leaf.primitive);
+        let (first, last) = (numbers().min().unwrap_or(0), numbers().max().unwrap_or(0));
+        let own = &assembly.primitives[first as usize..=last as usize];
+        Self { boxes: own.iter().map(|primitive| primitive.form.bounds()).collect(), first }
+    }
+
+    /// The box around one.
+    #[inline]
+    pub fn of(&self, leaf: &Leaf) -> &Bounds {
+        &self.boxes[(leaf.primitive - self.first) as usize]
+    }
+}
+
+/// What is to be cut, and how.
+#[derive(Clone, Copy)]
+pub struct Cutting<'a> {
+    pub whole: &'a Expression,
+    pub assembly: &'a Assembly,
+    pub boxes: &'a LeafBoxes,
+    /// The box of the object.
+    pub bounds: &'a Bounds,
+    /// How many primitives the expressions of all cells may name together, about.
+    pub allowance: f64,
+    /// How far beside their places crossings may be computed.
+    pub slack: f64,
+    /// How far around its cell an expression is to hold.
+    pub margin: f64,
+}
+
+/// Cuts the box of an object into cells.
+pub fn cut(cutting: &Cutting) -> Part {
+    let Cutting { whole, assembly, boxes, bounds, allowance, slack, margin } = *cutting;
+    let building = Building { assembly, boxes, margin };
     let mut part = Part::default();
     let cell = Cell { b: bounds.padded(DVec3::splat(slack)), allowance, fruitless: 0 };
     building.fill(ExprView::from(whole), cell, &mut Memory::default(), &mut part);
@@ -95,8 +130,7 @@ impl Building<'_> {
             part.push(b, left);
             return;
         }
-        let padded = |leaf: &crate::solid::Leaf| self.boxes[(leaf.primitive - self.first) as usize];
-        let plane = best(&b, left.leaves.iter().map(padded));
+        let plane = best(&b, left.leaves.iter().map(|leaf| *self.boxes.of(leaf)));
         let (mut low, mut high) = (b, b);
         low.hi[plane.axis] = plane.at;
         high.lo[plane.axis] = plane.at;

@@ -10,10 +10,12 @@ mod split;
 use std::ops::ControlFlow;
 
 use crate::math::{Bounds, Mask, Number, Ray, Rays, Real, Vector};
-use crate::solid::{Assembly, Expression, ExprView, Expressions, TRange};
+use crate::solid::{Assembly, ExprView, Expression, Expressions, Leaf, TRange};
 
 use super::bvh::Bvh8;
 use super::planes::{SLACK, slack};
+
+use build::{Cutting, LeafBoxes, Part, cut};
 
 /// Where single precision would need expressions to hold farther around their cells than this, it is not used:
 /// they would name much beside their cells.
@@ -26,6 +28,7 @@ pub struct CsgCells {
     bounds: Vec<Bounds>,
     expressions: Expressions,
     boxes: Bvh8,
+    leaf_boxes: LeafBoxes,
     margin: f64,
 }
 
@@ -82,9 +85,11 @@ impl CsgCells {
     pub fn new(whole: &Expression, assembly: &Assembly, bounds: &Bounds, allowance: f64) -> Self {
         let slack = slack(assembly.off);
         let margin = margin(slack);
-        let build::Part { bounds, expressions } = build::cut(whole, assembly, bounds, allowance, slack, margin);
+        let leaf_boxes = LeafBoxes::new(whole, assembly);
+        let cutting = Cutting { whole, assembly, boxes: &leaf_boxes, bounds, allowance, slack, margin };
+        let Part { bounds, expressions } = cut(&cutting);
         let boxes = Bvh8::of_boxes(&bounds, slack);
-        Self { bounds, expressions, boxes, margin }
+        Self { bounds, expressions, boxes, leaf_boxes, margin }
     }
 
     /// How far around its cell an expression holds.
@@ -117,6 +122,12 @@ impl CsgCells {
     #[inline]
     pub fn bounds(&self, cell: u32) -> &Bounds {
         &self.bounds[cell as usize]
+    }
+
+    /// The box around the part in a cell of a primitive of the object.
+    #[inline]
+    pub fn part(&self, cell: u32, leaf: &Leaf) -> Bounds {
+        self.bounds(cell).meet(self.leaf_boxes.of(leaf))
     }
 
     /// The expression in one.

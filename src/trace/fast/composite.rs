@@ -89,7 +89,7 @@ impl<S: Simd, T: Precision, H: HitSink<T>> CompositeTest<'_, S, T, H> {
         let PacketSource { rays: packet, departures, .. } = source;
         let PrecisionScratch { csg, found, reach: part, .. } = U::scratch(memory);
         part.fill(reach);
-        let query = CsgQuery { packet, wanted, departures, reach: part };
+        let query = CsgQuery { packet, wanted, departures, reach: part, near: &[] };
         first_of_expressions(self.simd, &query, expression, &self.fast.assembly.primitives, csg, found);
         self.open &= !found.any;
         offer_crossings(self.simd, found, self.object, self.sink);

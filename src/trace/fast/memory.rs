@@ -31,6 +31,8 @@ pub struct TileMemory {
     pub(super) singles: PrecisionScratch<f32>,
     /// What is to be walked of an object's cells.
     pub(super) cell_stack: Vec<CellItem>,
+    /// By leaf of an expression: the rays that may meet it.
+    pub(super) near: Vec<u64>,
     /// What rays meet of one object.
     pub(super) met: Box<PacketHits>,
     pub(super) pruning: Pruning,
@@ -112,6 +114,7 @@ impl Default for TileMemory {
             doubles: PrecisionScratch::default(),
             singles: PrecisionScratch::default(),
             cell_stack: Vec::new(),
+            near: Vec::new(),
             met: Box::default(),
             pruning: Pruning::default(),
             pruned: Vec::new(),

@@ -96,15 +96,24 @@ impl Fast<'_> {
             Body::Composite { whole, .. } => {
                 if let Some(cells) = self.subs.cells(object) {
                     let PacketTest { farthest, .. } = *test;
-                    let mut test = CellsTest { fast: self, simd, source, object, cells, k, farthest, open: passing, unsure: 0 };
+                    let mut test = CellsTest {
+                        fast: self,
+                        simd,
+                        source,
+                        object,
+                        cells,
+                        k,
+                        farthest,
+                        open: passing,
+                        unsure: 0,
+                    };
                     return test.trace(sink, memory);
                 }
                 let slack = self.slack_of::<T>();
                 let (from, to) = box_range(simd, &memory.cullers[k], &own.bounds, slack, passing);
                 T::scratch(memory).csg.start();
                 let expression = ExprView::from(&**whole);
-                let mut composite =
-                    CompositeTest { fast: self, simd, source, object, open: passing, sink };
+                let mut composite = CompositeTest { fast: self, simd, source, object, open: passing, sink };
                 composite.trace(expression, from, to.min(test.farthest), memory);
                 true
             }

@@ -12,6 +12,7 @@ use crate::solid::{
 use crate::stage::{Progress, Task};
 
 use super::cells::CsgCells;
+use super::loose_octree::MANY;
 use super::planes::{CellStep, Planes, SLACK, slack};
 
 /// The most cells of one sub-lattice. Past it planes are left out, which costs tests but changes no hit: 64
@@ -26,9 +27,6 @@ const ALL_CELLS: f64 = 4_194_304.0;
 /// times that while one is built. Past it cells share an expression, which costs tests but changes no hit.
 const MOST_LEAVES: f64 = 4_194_304.0;
 const ALL_LEAVES: f64 = 4.0 * MOST_LEAVES;
-
-/// An object of so many primitives is cut into cells where they are parted best; one of fewer by a lattice.
-pub const MANY: usize = 24;
 
 /// The sub-lattices of all composite objects.
 #[derive(Debug)]

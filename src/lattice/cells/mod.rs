@@ -13,6 +13,7 @@ use crate::math::{Bounds, Mask, Number, Ray, Rays, Real, Vector};
 use crate::solid::{Assembly, ExprView, Expression, Expressions, Leaf, TRange};
 
 use super::bvh::Bvh8;
+use super::loose_octree::LooseOctree;
 use super::planes::{SLACK, slack};
 
 use build::{Cutting, LeafBoxes, Part, cut};
@@ -22,7 +23,7 @@ use build::{Cutting, LeafBoxes, Part, cut};
 const WIDEST: f64 = 1.0 / 1024.0;
 
 /// The cells of one object.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct CsgCells {
     /// By cell.
     bounds: Vec<Bounds>,
@@ -30,6 +31,8 @@ pub struct CsgCells {
     boxes: Bvh8,
     leaf_boxes: LeafBoxes,
     margin: f64,
+    /// What is left of the expression around slices of a packet's way.
+    loose: LooseOctree,
 }
 
 /// How far around its cell an expression is to hold where crossings may be computed `slack` beside their
@@ -89,12 +92,18 @@ impl CsgCells {
         let cutting = Cutting { whole, assembly, boxes: &leaf_boxes, bounds, allowance, slack, margin };
         let Part { bounds, expressions } = cut(&cutting);
         let boxes = Bvh8::of_boxes(&bounds, slack);
-        Self { bounds, expressions, boxes, leaf_boxes, margin }
+        let loose = LooseOctree::new(*cutting.bounds);
+        Self { bounds, expressions, boxes, leaf_boxes, margin, loose }
     }
 
     /// How far around its cell an expression holds.
     pub fn margin(&self) -> f64 {
         self.margin
+    }
+
+    /// What is left of the object's expression in larger cells, which overlap.
+    pub fn loose(&self) -> &LooseOctree {
+        &self.loose
     }
 
     /// How many there are.

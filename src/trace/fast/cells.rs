@@ -44,6 +44,13 @@ pub(super) struct CellRays<T> {
     reach: PacketRange<T>,
 }
 
+/// What is cut out of rays: what lies in a box, and not before `start`, and so much before and behind that.
+struct Clip<'a> {
+    b: &'a Bounds,
+    start: f64,
+    slack: f64,
+}
+
 impl<T: Real> Default for CellRays<T> {
     fn default() -> Self {
         Self { inverse: [Lanes::filled(T::ZERO); 3], is_known: false, reach: PacketRange::NONE }
@@ -51,10 +58,11 @@ impl<T: Real> Default for CellRays<T> {
 }
 
 impl<T: Real> CellRays<T> {
-    /// Sets the parts of some rays of a packet in a box, and so much before and behind it; answers which rays
-    /// have one.
+    /// Sets the parts of some rays of a packet; answers which rays have one.
     #[inline(always)]
-    fn clip<S: Simd>(&mut self, simd: S, packet: &RayPacket<T>, wanted: u64, b: &Bounds, slack: f64) -> u64 {
+    fn clip<S: Simd>(&mut self, simd: S, packet: &RayPacket<T>, wanted: u64, clip: &Clip) -> u64 {
+        let Clip { b, start, slack } = *clip;
+        let start = T::all(simd, start);
         if !std::mem::replace(&mut self.is_known, true) {
             for row in 0..T::ROWS {
                 let line = CellLine::new(&packet.load(simd, row), T::GREATEST);
@@ -69,6 +77,7 @@ impl<T: Real> CellRays<T> {
             let (o, inverse): (Vector<T::SimdReal<S>>, _) =
                 (packet.o.load(simd, row), self.inverse.load(simd, row));
             let (from, to) = CellLine { o, inverse }.range(b);
+            let from = from.larger(start);
             within |= T::bits_of(simd, from.is_at_most(to), row);
             self.reach.from.store(row, from - slack);
             self.reach.to.store(row, to + slack);
@@ -86,7 +95,8 @@ pub(super) struct CellsTest<'a, S, T> {
     pub cells: &'a CsgCells,
     /// The packet's number in the tile.
     pub k: usize,
-    /// What lies farther away does not matter.
+    /// What lies nearer was looked at; what lies farther away does not matter.
+    pub start: f64,
     pub farthest: f64,
     /// The rays of which it is still asked, a bit for each; and those that are to be asked one by one.
     pub open: u64,
@@ -104,9 +114,9 @@ struct Asked<'a> {
 }
 
 impl<S: Simd, T: Precision> CellsTest<'_, S, T> {
-    /// Finds what the rays meet first. Answers whether any may have met it.
-    pub fn trace(&mut self, sink: &mut impl HitSink<T>, memory: &mut TileMemory) -> bool {
-        let Some(frustum) = memory.frustums[self.k] else { return false };
+    /// Finds what the rays meet first.
+    pub fn trace(&mut self, sink: &mut impl HitSink<T>, memory: &mut TileMemory) {
+        let Some(frustum) = memory.frustums[self.k] else { return };
         let mut hits = T::scratch(memory).of_object.pop().unwrap_or_default();
         hits.clear();
         memory.doubles.cells.is_known = false;
@@ -120,9 +130,7 @@ impl<S: Simd, T: Precision> CellsTest<'_, S, T> {
         memory.cullers[self.k].restore(limits);
         sink.doubt(self.unsure);
         offer_hits(self.simd, &hits, u64::MAX, self.object, sink);
-        let found = hits.t.0.iter().any(|&t| t.into() < f64::INFINITY);
         T::scratch(memory).of_object.push(hits);
-        found || self.unsure != 0
     }
 
     fn walk(
@@ -261,10 +269,10 @@ impl<S: Simd, T: Precision> CellsTest<'_, S, T> {
     ) -> (u64, u64) {
         let simd = self.simd;
         let PrecisionScratch { csg, found, cells, .. } = U::scratch(memory);
-        let (packet, b) = (source.rays, self.cells.bounds(cell));
+        let (packet, b, start) = (source.rays, self.cells.bounds(cell), self.start);
         let wanted = simd.vectorize(
             #[inline(always)]
-            || cells.clip(simd, packet, rays, b, SLACK * U::COARSER),
+            || cells.clip(simd, packet, rays, &Clip { b, start, slack: SLACK * U::COARSER }),
         );
         if wanted == 0 {
             return (0, 0);

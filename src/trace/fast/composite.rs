@@ -3,9 +3,9 @@
 
 use fearless_simd::Simd;
 
-use crate::lattice::SLACK;
+use crate::lattice::{LooseOctree, MANY, SLACK};
 use crate::math::{Bounds, DVec3, Mask, Number, RayPacket, Rays, Real, SimdRegister};
-use crate::solid::{Classification, CsgQuery, ExprView, TRange, first_of_expressions};
+use crate::solid::{Classification, CsgQuery, ExprView, TRange, WorldPrimitive, first_of_expressions};
 
 use super::Fast;
 use super::memory::{PrecisionScratch, TileMemory};
@@ -21,32 +21,59 @@ const CUTS: u32 = 2;
 /// has cells.
 const HALVINGS: u32 = 6;
 
+/// Slices are given up where, for one packet, they are pruned from more primitives than this all together:
+/// an object that is cut into cells has those, which take as long as some ten slices.
+const MOST_WORK: usize = 512;
+
+/// The expression of a whole object, and its classifications by cells.
+pub(super) type Whole<'a> = (&'a LooseOctree, ExprView<'a>);
+
 /// Rays that may meet a composite object.
 pub(super) struct CompositeTest<'a, S, T, H> {
     pub fast: &'a Fast<'a>,
     pub simd: S,
     pub source: PacketSource<'a, T>,
     pub object: u32,
+    pub whole: Option<Whole<'a>>,
     /// The rays that have not met the object yet, a bit for each.
     pub open: u64,
+    /// How many primitives slices were pruned from; and where that became too many.
+    pub work: usize,
+    pub given_up: Option<f64>,
     pub sink: &'a mut H,
 }
 
 impl<S: Simd, T: Precision, H: HitSink<T>> CompositeTest<'_, S, T, H> {
-    /// Finds what the rays meet first between two distances.
-    pub fn trace(&mut self, expression: ExprView, from: f64, to: f64, memory: &mut TileMemory) {
+    /// Finds what the rays meet first between two distances. Answers up to where nothing is left to be
+    /// found: before the second where slices take too much work.
+    pub fn trace(&mut self, expression: ExprView, from: f64, to: f64, memory: &mut TileMemory) -> f64 {
         self.slice(expression, from, to, HALVINGS, memory);
+        self.given_up.unwrap_or(f64::INFINITY)
     }
 
     fn slice(&mut self, expression: ExprView, from: f64, to: f64, halvings: u32, memory: &mut TileMemory) {
-        if self.open == 0 || from > to {
+        if self.open == 0 || from > to || self.given_up.is_some() {
             return;
         }
         let primitives = &self.fast.assembly.primitives;
         // A crossing may be computed `slack` outside its slice; twice that keeps its whole cluster.
         let margin = DVec3::splat(2.0 * self.fast.slack_of::<T>());
         let b = bounds_between(self.simd, self.source.rays, self.open, from, to).padded(margin);
+        let Some(expression) = least_known(self.whole, expression, primitives, &b) else { return };
         let middle = 0.5 * (from + to);
+        // The range is cut before much is pruned: shorter slices begin with less.
+        if expression.leaves.len() > 2 * MANY && halvings > 0 {
+            self.slice(expression, from, middle, halvings - 1, memory);
+            self.slice(expression, middle, to, halvings - 1, memory);
+            return;
+        }
+        if self.whole.is_some() {
+            self.work += expression.leaves.len();
+            if self.work > MOST_WORK {
+                self.given_up = Some(from);
+                return;
+            }
+        }
         let mut pruned = memory.pruned.pop().unwrap_or_default();
         if expression.pruned(primitives, &b, &mut memory.pruning, &mut pruned) == Classification::Mixed {
             let left = ExprView::from(&pruned);
@@ -95,6 +122,19 @@ impl<S: Simd, T: Precision, H: HitSink<T>> CompositeTest<'_, S, T, H> {
         offer_crossings(self.simd, found, self.object, self.sink);
         found.unsure
     }
+}
+
+/// What an expression in a box is to be pruned from: what is left of it already, or of the whole object in a
+/// cell around the box, whichever is less; none where there is no surface in that cell.
+fn least_known<'e>(
+    whole: Option<Whole<'e>>,
+    left: ExprView<'e>,
+    primitives: &[WorldPrimitive],
+    b: &Bounds,
+) -> Option<ExprView<'e>> {
+    let Some((loose, whole)) = whole.filter(|_| left.leaves.len() >= MANY) else { return Some(left) };
+    let around = loose.around(whole, primitives, b)?;
+    Some(if around.leaves.len() < left.leaves.len() { around } else { left })
 }
 
 /// The box around some rays of a packet between two distances.

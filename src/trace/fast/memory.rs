@@ -33,6 +33,8 @@ pub struct TileMemory {
     pub(super) cell_stack: Vec<CellItem>,
     /// By leaf of an expression: the rays that may meet it.
     pub(super) near: Vec<u64>,
+    /// The objects of the tile whose cells are walked at once, since slices took too much work.
+    pub(super) in_cells: Vec<u32>,
     /// What rays meet of one object.
     pub(super) met: Box<PacketHits>,
     pub(super) pruning: Pruning,
@@ -94,8 +96,9 @@ impl TileMemory {
         &mut self.counts
     }
 
-    /// Forgets the planes across the rays of the last tile.
-    pub(super) fn forget_sheared(&mut self) {
+    /// Forgets the planes across the rays of the last tile, and which objects were walked by cells.
+    pub(super) fn forget_tile(&mut self) {
+        self.in_cells.clear();
         self.sheared.iter_mut().for_each(PacketShear::forget);
     }
 }
@@ -115,6 +118,7 @@ impl Default for TileMemory {
             singles: PrecisionScratch::default(),
             cell_stack: Vec::new(),
             near: Vec::new(),
+            in_cells: Vec::new(),
             met: Box::default(),
             pruning: Pruning::default(),
             pruned: Vec::new(),

@@ -15,6 +15,7 @@ type Seen = HashMap<(bool, [u64; 6]), Vec<u32>>;
 
 impl CsgTree {
     /// The same solid, whose every point is decided by the same primitives.
+    #[must_use]
     pub fn simplified(&self, primitives: &[WorldPrimitive]) -> Self {
         self.fold_up(Self::Leaf, |tree, own| match tree {
             Self::Leaf(index) => Self::Leaf(*index),

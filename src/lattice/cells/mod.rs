@@ -166,3 +166,96 @@ impl CsgCells {
         });
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::{DAffine3, DVec3};
+    use crate::scene::{Material, MaterialId, Object, Primitive, Scene, Shape, Solid};
+    use crate::solid::{Body, Scratch, first_of_expression};
+    use crate::stage::{Meter, Silent};
+
+    /// A block from which these are cut.
+    fn cut_from_block(shape: &Shape, maps: impl Iterator<Item = DAffine3>) -> Assembly {
+        let solid = |shape: &Shape, map| Solid::Primitive(Primitive::new(shape.clone(), map, MaterialId(0)));
+        let block = solid(&Shape::Cube, DAffine3::from_scale(DVec3::new(1.0, 1.0, 0.2)));
+        let parts = std::iter::once(block).chain(maps.map(|map| solid(shape, map))).collect();
+        let object = Object { name: None, solid: Solid::Difference(parts) };
+        let scene = Scene { objects: vec![object], materials: vec![Material::default()], ..Scene::default() };
+        Assembly::new(&scene).unwrap()
+    }
+
+    fn whole(assembly: &Assembly) -> &Expression {
+        let Body::Composite { whole, .. } = &assembly.objects[0].body else { panic!("one solid of many") };
+        whole
+    }
+
+    /// A plate of `side` × `side` holes.
+    fn plate(side: u32) -> Assembly {
+        let step = 2.0 / f64::from(side);
+        let place = move |k: u32| (f64::from(k) + 0.5) * step - 1.0;
+        let holes = (0..side * side).map(move |k| {
+            DAffine3::from_translation(DVec3::new(place(k % side), place(k / side), 0.0))
+                * DAffine3::from_scale(DVec3::new(0.3 * step, 0.3 * step, 1.0))
+        });
+        cut_from_block(&Shape::Frustum { bottom: 1.0, top: 1.0 }, holes)
+    }
+
+    fn cells(assembly: &Assembly, allowance: f64) -> CsgCells {
+        CsgCells::new(whole(assembly), assembly, &assembly.objects[0].bounds, allowance)
+    }
+
+    // The sub-lattice of 10 000 holes had 262 144 cells.
+    #[test]
+    fn a_hole_has_few_cells_however_many_there_are() {
+        for side in [10, 30, 50] {
+            let cells = cells(&plate(side), f64::INFINITY);
+            let holes = (side * side) as usize;
+            assert!(cells.len() <= 2 * holes, "{} cells of {holes} holes", cells.len());
+            assert!(cells.leaves() <= 8 * holes, "{} primitives of {holes} holes", cells.leaves());
+        }
+    }
+
+    // What slanted plates share is in all cells.
+    #[test]
+    fn expressions_stay_within_the_allowance() {
+        let slabs = (0..60).map(|k| {
+            DAffine3::from_rotation_x(f64::from(k))
+                * DAffine3::from_rotation_y(0.7)
+                * DAffine3::from_scale(DVec3::new(1.0, 1.0, 0.01))
+        });
+        let assembly = cut_from_block(&Shape::Cube, slabs);
+        let (much, little) = (cells(&assembly, f64::INFINITY).leaves(), cells(&assembly, 500.0).leaves());
+        assert!(much > 2000, "{much}: the allowance is not put to the test");
+        assert!(little < 1000, "{little}");
+    }
+
+    #[test]
+    fn a_ray_finds_in_the_cells_what_it_finds_in_the_whole() {
+        let assembly = plate(9);
+        let cells = cells(&assembly, f64::INFINITY);
+        let (mut scratch, mut meter) = (Scratch::default(), Meter::new(Silent));
+        for k in 0..500 {
+            let [x, y, z] = [31, 89, 200].map(|step| f64::from(k * step % 257) / 128.0 - 1.0);
+            let start = DVec3::new(x, y, if k % 3 == 0 { 0.0 } else { 1.5 });
+            // Every fifth ray runs straight down, or along a plane between cells.
+            let d = if k % 5 == 0 { -DVec3::Z } else { DVec3::new(z, 0.5 - x, -1.0).normalize() };
+            let ray = Ray::new(start, d);
+            let mut first = |expression: ExprView<'_>, reach| {
+                let primitives = &assembly.primitives;
+                first_of_expression(&ray, expression, primitives, None, reach, &mut scratch, &mut meter)
+            };
+            let expected = first(whole(&assembly).into(), TRange::ALL);
+            let (mut found, mut visited) = (None::<crate::solid::Crossing>, 0);
+            cells.walk(&ray, f64::INFINITY, &mut visited, |expression, reach| {
+                if let Some(crossing) = first(expression, reach)
+                    && found.is_none_or(|found| crossing.t < found.t)
+                {
+                    found = Some(crossing);
+                }
+                found.map_or(f64::INFINITY, |found| found.t)
+            });
+            assert_eq!(found, expected, "{ray:?}");
+        }
+    }
+}

@@ -23,8 +23,8 @@ struct Bins {
 }
 
 /// The best plane to cut a cell where primitives with these boxes are. By surface area: so a ray that meets
-/// the cell is expected to meet either part (MacDonald and Booth: Heuristics for ray tracing using space
-/// subdivision, 1990).
+/// the cell is expected to meet either part (Wald and Havran: On building fast kd-trees for ray tracing, and
+/// on doing that in O(N log N), 2006).
 pub fn best(cell: &Bounds, boxes: impl ExactSizeIterator<Item = Bounds>) -> Cut {
     let count = boxes.len() as f64;
     let size = cell.hi - cell.lo;

@@ -18,8 +18,8 @@ use super::planes::{SLACK, slack};
 
 use build::{Cutting, LeafBoxes, Part, cut};
 
-/// Where single precision would need expressions to hold farther around their cells than this, it is not used:
-/// they would name much beside their cells.
+/// Where single precision would need expressions to hold farther around their cells than this, it is not
+/// used: they would name much beside their cells.
 const WIDEST: f64 = 1.0 / 1024.0;
 
 /// The cells of one object.

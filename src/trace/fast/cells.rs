@@ -5,14 +5,13 @@
 
 use fearless_simd::Simd;
 
-use crate::lattice::{CellLine, CsgCells, Frustum, SLACK};
-use crate::math::{Bounds, LaneVector, Lanes, Number, Ray, RayPacket, Real, Vector, lanes};
-use crate::solid::{
-    Classification, CsgQuery, Departures, ExprView, PacketRange, PrunedExpr, first_of_expressions,
-};
+use crate::lattice::{BvhChild, CsgCells, Frustum, SLACK};
+use crate::math::{Ray, Real, lanes};
+use crate::solid::{Classification, CsgQuery, Departures, ExprView, PrunedExpr, first_of_expressions};
 use crate::stage::{Meter, Silent};
 
 use super::Fast;
+use super::cell_rays::{CellItem, Clip};
 use super::memory::{PrecisionScratch, TileMemory};
 use super::packet_culler::Slabs;
 use super::packet_hits::PacketHits;
@@ -26,65 +25,6 @@ const FEW_RAYS: u32 = 2;
 
 /// So many cells are looked at before a packet is given up.
 const FIRST_CELLS: u32 = 4;
-
-/// What is to be walked: a node, or a cell.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct CellItem {
-    /// How near it is at least.
-    near: f32,
-    number: u32,
-    is_cell: bool,
-}
-
-/// Rays as cells are cut out of them, and their parts in one.
-#[derive(Debug)]
-pub(super) struct CellRays<T> {
-    inverse: [Lanes<T>; 3],
-    pub(super) is_known: bool,
-    reach: PacketRange<T>,
-}
-
-/// What is cut out of rays: what lies in a box, and not before `start`, and so much before and behind that.
-struct Clip<'a> {
-    b: &'a Bounds,
-    start: f64,
-    slack: f64,
-}
-
-impl<T: Real> Default for CellRays<T> {
-    fn default() -> Self {
-        Self { inverse: [Lanes::filled(T::ZERO); 3], is_known: false, reach: PacketRange::NONE }
-    }
-}
-
-impl<T: Real> CellRays<T> {
-    /// Sets the parts of some rays of a packet; answers which rays have one.
-    #[inline(always)]
-    fn clip<S: Simd>(&mut self, simd: S, packet: &RayPacket<T>, wanted: u64, clip: &Clip) -> u64 {
-        let Clip { b, start, slack } = *clip;
-        let start = T::all(simd, start);
-        if !std::mem::replace(&mut self.is_known, true) {
-            for row in 0..T::ROWS {
-                let line = CellLine::new(&packet.load(simd, row), T::GREATEST);
-                self.inverse.store(row, line.inverse);
-            }
-        }
-        let mut within = 0;
-        for row in 0..T::ROWS {
-            if !T::has_any(wanted, row) {
-                continue;
-            }
-            let (o, inverse): (Vector<T::SimdReal<S>>, _) =
-                (packet.o.load(simd, row), self.inverse.load(simd, row));
-            let (from, to) = CellLine { o, inverse }.range(b);
-            let from = from.larger(start);
-            within |= T::bits_of(simd, from.is_at_most(to), row);
-            self.reach.from.store(row, from - slack);
-            self.reach.to.store(row, to + slack);
-        }
-        within & wanted
-    }
-}
 
 /// Rays that may meet a composite object.
 pub(super) struct CellsTest<'a, S, T> {
@@ -119,8 +59,8 @@ impl<S: Simd, T: Precision> CellsTest<'_, S, T> {
         let Some(frustum) = memory.frustums[self.k] else { return };
         let mut hits = T::scratch(memory).of_object.pop().unwrap_or_default();
         hits.clear();
-        memory.doubles.cells.is_known = false;
-        memory.singles.cells.is_known = false;
+        memory.doubles.cells.start();
+        memory.singles.cells.start();
         memory.doubles.csg.start();
         memory.singles.csg.start();
         let limits = memory.cullers[self.k].limits();
@@ -340,8 +280,8 @@ fn open_node<S: Simd>(simd: S, cells: &CsgCells, node: u32, frustum: &Frustum, s
         left &= left - 1;
         let Some(child) = node.child(slot) else { continue };
         let (is_cell, number) = match child {
-            crate::lattice::BvhChild::Object(cell) => (true, cell),
-            crate::lattice::BvhChild::Node(node) => (false, node),
+            BvhChild::Object(cell) => (true, cell),
+            BvhChild::Node(node) => (false, node),
         };
         debug_assert_eq!(is_cell, inner >> slot & 1 == 0);
         let near = met.near[slot];

@@ -5,7 +5,7 @@ use crate::math::{RayPacket, Real};
 use crate::solid::{PacketCrossings, PacketRange, PacketScratch, PacketShear, PrunedExpr, Pruning};
 use crate::stage::Counts;
 
-use super::cells::{CellItem, CellRays};
+use super::cell_rays::{CellItem, CellRays};
 use super::incoherent::IncoherentRays;
 use super::packet_culler::PacketCuller;
 use super::packet_hits::PacketHits;

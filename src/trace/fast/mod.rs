@@ -7,6 +7,7 @@
 //! convex, that ray is left to the exact engine.
 
 mod blocked;
+mod cell_rays;
 mod cells;
 mod composite;
 mod first;

@@ -6,7 +6,7 @@
 use fearless_simd::Simd;
 
 use crate::lattice::{BvhChild, CsgCells, Frustum, SLACK};
-use crate::math::{Ray, Real, lanes};
+use crate::math::{Ray, lanes};
 use crate::solid::{Classification, CsgQuery, Departures, ExprView, PrunedExpr, first_of_expressions};
 use crate::stage::{Meter, Silent};
 

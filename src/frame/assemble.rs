@@ -8,7 +8,6 @@ use crate::shade::Channel;
 use crate::view::TILE;
 
 use super::finished_tile::FinishedTile;
-use super::refine::RefinedDot;
 use super::{Frame, Request};
 
 /// The dots of a picture; those that nobody wants are absent.
@@ -78,6 +77,14 @@ impl PictureDots {
         };
         PictureAssembly { size, bands: std::iter::repeat_with(next).take(rows).collect() }
     }
+}
+
+/// A dot that more rays have given another light.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RefinedDot<C> {
+    pub column: u32,
+    pub row: u32,
+    pub light: C,
 }
 
 /// A picture to which finished tiles are added, in any order and by any thread.
@@ -256,7 +263,7 @@ mod tests {
                 assert_eq!(light.light, all.light);
                 let (dots, rays) = (light.light.values().len() as u64, u64::from(samples).pow(2));
                 assert_eq!(light.counts.primary_rays, dots * rays);
-                assert_eq!(all.counts.primary_rays, dots * (rays + 0));
+                assert_eq!(all.counts.primary_rays, dots * rays);
                 assert_eq!(all.counts.shadow_rays, light.counts.shadow_rays);
                 assert_eq!(all.counts.secondary_rays, light.counts.secondary_rays);
                 // What the middle sees does not depend on the samples.

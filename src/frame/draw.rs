@@ -60,9 +60,10 @@ impl Studio {
         self.finished(request, Reused::default(), Instant::now())
     }
 
-    /// The same with other samples of each dot than the first squares of [`Options::samples`](crate::plan::Options):
-    /// those of these numbers ([`sample_point`](crate::view::sample_point)), of which there is one at least.
-    /// Two pictures of samples that none shares show how far each is off. Nothing of it is kept.
+    /// The same with other samples of each dot than the first squares of
+    /// [`Options::samples`](crate::plan::Options): those of these numbers
+    /// ([`sample_point`](crate::view::sample_point)), of which there is one at least. Two pictures of samples
+    /// that none shares show how far each is off. Nothing of it is kept.
     pub fn draw_samples(&self, request: &Request, samples: Range<u32>) -> Frame {
         let start = Instant::now();
         let workers = self.workers(request.options.threads);

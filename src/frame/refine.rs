@@ -19,23 +19,24 @@ use crate::stage::{Counts, Meter, Silent};
 use crate::tone::{Level, Tone};
 use crate::view::{PointPacket, Tile, edge_error, missed_edge_error, sample_point, tiles};
 
-use super::assemble::PictureDots;
+use super::assemble::{PictureDots, RefinedDot};
 use super::render::TileRenderer;
 use super::small::small_solids;
-use super::workers::{Worker, Workers};
+use super::workers::{PointScratch, Worker, Workers};
 
 /// Rays of a dot after each round: twice as many each, so that a dot which is decided has had half as many at
 /// least as it needed.
 const ROUNDS: [u32; 7] = [4, 8, 16, 32, 64, 128, 256];
 
 /// So many standard deviations its mean is taken to be off at most. With 1.5 a dot that is called decided has
-/// another level in one case of fifteen at the border; of 1, 1.5 and 2 it takes the fewest rays for as many wrong
-/// levels as 16 rays for each dot leave (`benches/antialiasing.rs`, on hanyang, temple, glass and SPD tree).
+/// another level in one case of fifteen at the border; of 1, 1.5 and 2 it takes the fewest rays for as many
+/// wrong levels as 16 rays for each dot leave (`benches/antialiasing.rs`, on hanyang, temple, glass and SPD
+/// tree).
 const DEVIATIONS: f64 = 1.5;
 
-/// How far the mean of smooth light over a dot is from that of its middle, as a share of how far the middle is
-/// off the line between two dots beside it: of a parabola a twenty-fourth of its second difference, from each
-/// of two axes.
+/// How far the mean of smooth light over a dot is from that of its middle, as a share of how far the middle
+/// is off the line between two dots beside it: of a parabola a twenty-fourth of its second difference, from
+/// each of two axes.
 const BEND: f64 = 2.0 / 24.0;
 
 /// The directions in which two dots lie on opposite sides of one.
@@ -79,28 +80,6 @@ pub(super) struct OpenDot<C> {
 struct LightRange {
     least: [f64; 3],
     most: [f64; 3],
-}
-
-/// A dot that more rays have given another light.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct RefinedDot<C> {
-    pub column: u32,
-    pub row: u32,
-    pub light: C,
-}
-
-/// Memory of a worker.
-#[derive(Debug)]
-pub(super) struct RefineMemory<C> {
-    points: Vec<[f64; 2]>,
-    packets: Vec<PointPacket>,
-    light: Vec<C>,
-}
-
-impl<C> Default for RefineMemory<C> {
-    fn default() -> Self {
-        Self { points: Vec::new(), packets: Vec::new(), light: Vec::new() }
-    }
 }
 
 impl Accuracy {
@@ -175,7 +154,7 @@ impl<'a> FirstRays<'a> {
         // What the dots on opposite sides of this one see.
         let opposites = AXES.map(|[across, down]| {
             let beside = |sign: i32| {
-                let (i, j) = (column as i32 + sign * across, row as i32 + sign * down);
+                let (i, j) = (column.cast_signed() + sign * across, row.cast_signed() + sign * down);
                 (i as u32, j as u32)
             };
             [beside(-1), beside(1)]
@@ -288,7 +267,7 @@ fn add_samples<C: Channel, I: TileIntegrator<C>>(
     worker: &mut Worker<I::Memory, C>,
     meter: &mut Meter<Silent>,
 ) {
-    let Worker { memory, refining: RefineMemory { points, packets, light }, .. } = worker;
+    let Worker { memory, refining: PointScratch { points, packets, light }, .. } = worker;
     let samples: Vec<_> = numbers.map(sample_point).collect();
     points.clear();
     for dot in &*dots {
@@ -304,5 +283,59 @@ fn add_samples<C: Channel, I: TileIntegrator<C>>(
     }
     for (dot, lights) in dots.iter_mut().zip(light.chunks(samples.len())) {
         dot.add(lights, accuracy);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Size;
+
+    const ACCURACY: Accuracy = Accuracy { error: 1.0 / 16.0, tone: Tone::Lightness, color: false };
+
+    fn between(least: f64, most: f64) -> LightRange {
+        LightRange { least: [least, 0.0, 0.0], most: [most, 0.0, 0.0] }
+    }
+
+    #[test]
+    fn a_level_is_decided_between_its_borders_and_nearly_on_them() {
+        let level = Level::new(8).unwrap().light();
+        assert!(ACCURACY.decides(&between(level - 0.03, level + 0.03)));
+        // Its border with level 9 is at 0.4728.
+        assert!(!ACCURACY.decides(&between(level, 0.49)));
+        assert!(ACCURACY.decides(&between(0.4725, 0.4731)));
+        // White may be as bright as it likes.
+        assert!(ACCURACY.decides(&between(0.95, 1e300)));
+    }
+
+    /// Rays of two histories with an edge between columns 3 and 4.
+    fn first_rays(light: &Grid<f64>, history: &Grid<History>) -> Vec<(u32, u32)> {
+        let small = Grid::filled(light.size(), false);
+        let first = FirstRays { light, color: None, history, small };
+        open_dots::<f64>(&first, ACCURACY).into_iter().map(|dot| (dot.column, dot.row)).collect()
+    }
+
+    #[test]
+    fn dots_beside_an_edge_are_open_and_no_others() {
+        let size = Size::new(8, 3);
+        let side = |dark: f64, bright: f64| {
+            Grid::from_values(size, (0..24).map(|k| if k % 8 < 4 { dark } else { bright }).collect())
+        };
+        let face = |k: usize| if k % 8 < 4 { History::MISS } else { History::hit(0, 0, 0) };
+        let history = Grid::from_values(size, (0..24).map(face).collect());
+        let open = first_rays(&side(0.0, 1.0), &history);
+        assert_eq!(open.len(), 6);
+        assert!(open.iter().all(|&(column, _)| column == 3 || column == 4));
+        // Where both sides are of one level, it makes no difference where the edge is.
+        assert_eq!(first_rays(&side(0.4, 0.41), &history), []);
+    }
+
+    #[test]
+    fn smooth_light_is_open_where_it_bends_near_a_border() {
+        let size = Size::new(3, 3);
+        let history = Grid::filled(size, History::hit(0, 0, 0));
+        let columns = |lights: [f64; 3]| Grid::from_values(size, [lights; 3].concat());
+        assert_eq!(first_rays(&columns([0.42, 0.47, 0.52]), &history), []);
+        assert_eq!(first_rays(&columns([0.6, 0.47, 0.6]), &history), [(1, 1)]);
     }
 }

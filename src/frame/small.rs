@@ -4,8 +4,8 @@ use crate::math::{DVec3, Grid, Size};
 use crate::solid::Assembly;
 use crate::view::PinholeCamera;
 
-/// A solid that is so many dots wide and high has the middle of a dot before it, if it is as thick as its box:
-/// a disc of this diameter, the diagonal of a dot, covers one wherever it lies.
+/// A solid that is so many dots wide and high has the middle of a dot before it, if it is as thick as its
+/// box: a disc of this diameter, the diagonal of a dot, covers one wherever it lies.
 const SURELY_SEEN: f64 = std::f64::consts::SQRT_2;
 
 /// Marks the dots before which there is a primitive that the rays through the middles of dots may all miss.

@@ -4,26 +4,41 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::integrate::TileIntegrator;
 use crate::shade::Channel;
+use crate::view::PointPacket;
 
 use super::Wants;
 use super::finished_tile::FinishedTile;
-use super::refine::RefineMemory;
 use super::render::{RenderMemory, TileRenderer};
 
 /// Memory of a worker.
 pub(super) struct Worker<M, C> {
     pub memory: RenderMemory<M, C>,
     pub finished: FinishedTile<C>,
-    pub refining: RefineMemory<C>,
+    pub refining: PointScratch<C>,
 }
 
-/// Memory of workers that have nothing in hand. Taken anew for each piece of work, since rayon would make more
-/// memories than it has threads.
+/// Points of which rays are traced, and their light.
+#[derive(Debug)]
+pub(super) struct PointScratch<C> {
+    /// In dots from the picture's upper left corner.
+    pub points: Vec<[f64; 2]>,
+    /// The same, as many as a packet has rays.
+    pub packets: Vec<PointPacket>,
+    pub light: Vec<C>,
+}
+
+impl<C> Default for PointScratch<C> {
+    fn default() -> Self {
+        Self { points: Vec::new(), packets: Vec::new(), light: Vec::new() }
+    }
+}
+
+/// Memory of workers that have nothing in hand. Taken anew for each piece of work, since rayon would make
+/// more memories than it has threads.
 pub(super) struct Workers<M, C> {
     wants: Wants,
     keeps_histories: bool,
     // Behind pointers: they are large, and handed on with every piece.
-    #[expect(clippy::vec_box, reason = "moved in and out for each tile")]
     idle: Mutex<Vec<Box<Worker<M, C>>>>,
 }
 
@@ -42,7 +57,7 @@ impl<M, C: Channel> Workers<M, C> {
         let taken = idle().pop();
         let mut worker = taken.unwrap_or_else(|| {
             let finished = FinishedTile::new(self.wants).with_histories(self.keeps_histories);
-            Box::new(Worker { memory: renderer.memory(), finished, refining: RefineMemory::default() })
+            Box::new(Worker { memory: renderer.memory(), finished, refining: PointScratch::default() })
         });
         let done = work(&mut worker);
         idle().push(worker);

@@ -27,12 +27,14 @@ impl History {
 
     /// After the surface has seen a lamp of which this share reaches it: 0 where it is hidden or behind.
     #[inline]
+    #[must_use]
     pub fn lit(self, visible: f64) -> Self {
         self.with(visible.to_bits())
     }
 
     /// After the surface has sent on a ray, which had a history of its own.
     #[inline]
+    #[must_use]
     pub fn sent_on(self, ray: Self) -> Self {
         self.with(ray.0)
     }

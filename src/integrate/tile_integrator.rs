@@ -34,8 +34,8 @@ pub trait TileIntegrator<C>: Sync {
     /// What of it serves the next picture.
     fn into_scratch(memory: Self::Memory) -> Self::Scratch;
 
-    /// Sets `light`, which has a place for each ray in the order of [`TileCamera::points`]: the tile's scan order
-    /// where each dot has one.
+    /// Sets `light`, which has a place for each ray in the order of [`TileCamera::points`]: the tile's scan
+    /// order where each dot has one.
     fn shade(
         &self,
         pass: &TilePass,

@@ -9,8 +9,8 @@ pub const DEPTH: u32 = 5;
 /// decimals.
 pub const CUTOFF: f64 = 0.011;
 
-/// The error that a dot is left with, as a share of a level, where none is asked for: with it as few dots have
-/// a wrong level as with 16 rays for each (docs/performance.md).
+/// The error that a dot is left with, as a share of a level, where none is asked for: with it as few dots
+/// have a wrong level as with 16 rays for each (docs/performance.md).
 pub const ERROR: f64 = 1.0 / 16.0;
 
 /// Choices that change what is computed.
@@ -33,8 +33,8 @@ pub struct Options {
     pub precision: PrecisionChoice,
     /// Rays per dot along each axis; 1 or more. The light of a dot is their mean.
     pub samples: u32,
-    /// A dot gets more rays than the one through its middle where its level is not decided, until its error is
-    /// this share of a level at most, above 0; `samples` says nothing then. Absent where each dot gets as
+    /// A dot gets more rays than the one through its middle where its level is not decided, until its error
+    /// is this share of a level at most, above 0; `samples` says nothing then. Absent where each dot gets as
     /// many.
     pub adaptive: Option<f64>,
     /// Whether the light of each dot is wanted by its three primaries, and not its luminance only. A `color`

@@ -96,8 +96,8 @@ impl Level {
         Self(darkest + u8::from(light >= border))
     }
 
-    /// Where `light` lies among the levels, −½ to 12½: the number of its level, and so far between the borders of
-    /// that as its light lies between theirs; −½ for no light, 12½ for white and above.
+    /// Where `light` lies among the levels, −½ to 12½: the number of its level, and so far between the
+    /// borders of that as its light lies between theirs; −½ for no light, 12½ for white and above.
     pub fn position(light: f64) -> f64 {
         let level = Self::nearest(light);
         let number = usize::from(level.get());

@@ -108,8 +108,8 @@ impl PinholeCamera {
         d * (height.same(1.0) / d.length())
     }
 
-    /// Where in the picture a point is seen that lies so far from the eye, in dots from the upper left corner;
-    /// none where it is not in front of the eye. The inverse of [`PinholeCamera::ray`].
+    /// Where in the picture a point is seen that lies so far from the eye, in dots from the upper left
+    /// corner; none where it is not in front of the eye. The inverse of [`PinholeCamera::ray`].
     pub fn seen_at(&self, from_eye: DVec3) -> Option<[f64; 2]> {
         let depth = from_eye.dot(self.forward);
         let Size { width, height } = self.dots;

@@ -2,9 +2,9 @@
 //!
 //! The first two dimensions of Sobol's sequence, in which 2ᵏ points have one in each of 2ᵏ equal parts of the
 //! dot, whatever the shape of the parts (a (0, 2) sequence), scrambled digit by digit after Owen so that no
-//! row of points lines up with an edge (Owen: Randomly permuted (t, m, s)-nets and (t, s)-sequences, 1995; the
-//! permutations are a hash of the digits before, after Laine and Karras: Stratified sampling for stochastic
-//! transparency, 2011). The same in every dot: what moves across the screen does not flicker.
+//! row of points lines up with an edge (Owen: Randomly permuted (t, m, s)-nets and (t, s)-sequences, 1995;
+//! the permutations are a hash of the digits before, after Laine and Karras: Stratified sampling for
+//! stochastic transparency, 2011). The same in every dot: what moves across the screen does not flicker.
 
 /// Which scrambling: that of 1500 whose first 4, 8, … 128 points err least on edges (the test below has the
 /// measure).

@@ -50,8 +50,8 @@ fn a_level_that_nothing_puts_in_doubt_takes_one_ray() {
     assert_eq!(frame.counts.primary_rays, DOTS.area() as u64);
 }
 
-/// On three scenes together as few levels are wrong as with 16 rays a dot, give or take a tenth, with two fifths
-/// of the rays at most; none of the scenes has twice as many wrong.
+/// On three scenes together as few levels are wrong as with 16 rays a dot, give or take a tenth, with two
+/// fifths of the rays at most; none of the scenes has twice as many wrong.
 #[test]
 fn adaptive_rays_are_as_good_as_sixteen_with_two_fifths_of_them() {
     let (mut wrong, mut wrong_of_16, mut rays) = (0, 0, 0.0);

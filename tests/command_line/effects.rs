@@ -27,7 +27,7 @@ const FORMATS: [&[&str]; 12] = [
 
 /// Options that can change a picture, each but `--threads`, `--structure` and `--engine`, by which all are
 /// the same.
-const OPTIONS: [&[&str]; 24] = [
+const OPTIONS: [&[&str]; 27] = [
     &["--view", "side"],
     &["--eye", "9,9,9"],
     &["--target", "1,0,0"],
@@ -39,6 +39,9 @@ const OPTIONS: [&[&str]; 24] = [
     &["--depth", "0"],
     &["--cutoff", "9"],
     &["--samples", "3"],
+    &["--aa", "fixed"],
+    &["--aa", "adaptive"],
+    &["--error", "0.5"],
     &["--glyphs", "half"],
     &["--glyphs", "ascii"],
     &["--palette", "dos"],

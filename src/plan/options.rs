@@ -179,3 +179,14 @@ pub enum PrecisionChoice {
     /// All.
     Double,
 }
+
+impl PrecisionChoice {
+    /// The name on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Single => "single",
+            Self::Double => "double",
+        }
+    }
+}

@@ -1,5 +1,6 @@
 //! One picture, through all stages: prepared, rendered tile by tile, and assembled.
 
+use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -58,21 +59,29 @@ impl Studio {
         self.finished(request, Reused::default(), Instant::now())
     }
 
+    /// The same with other samples of each dot than the first squares of [`Options::samples`](crate::plan::Options):
+    /// those of these numbers ([`sample_point`](crate::view::sample_point)), of which there is one at least.
+    /// Two pictures of samples that none shares show how far each is off. Nothing of it is kept.
+    pub fn draw_samples(&self, request: &Request, samples: Range<u32>) -> Frame {
+        let start = Instant::now();
+        let workers = self.workers(request.options.threads);
+        let work = || with_cells(self.traced(request, None, Some(samples)), request);
+        let frame = match workers {
+            Some(pool) => pool.install(work),
+            None => work(),
+        };
+        Frame { total: start.elapsed(), ..frame }
+    }
+
     /// A picture of which some of the grids may be there already.
     fn finished(&self, request: &Request, Reused { frame, hits }: Reused, start: Instant) -> Frame {
-        let cells_lack = |frame: &Frame| request.wants.cells && frame.cells.is_none();
         let workers = match &frame {
-            Some(frame) if !cells_lack(frame) => None,
+            Some(frame) if !frame.lacks_cells(request) => None,
             _ => self.workers(request.options.threads),
         };
         let work = || {
-            let mut frame = frame.unwrap_or_else(|| self.traced(request, hits.as_ref()));
-            if cells_lack(&frame) {
-                let dithering = Instant::now();
-                frame.cells = Some(Arc::new(composed(&frame.light, frame.color.as_deref(), request)));
-                frame.times[Stage::Dither] = dithering.elapsed();
-            }
-            frame
+            let frame = frame.unwrap_or_else(|| self.traced(request, hits.as_ref(), None));
+            with_cells(frame, request)
         };
         let mut frame = match workers {
             Some(pool) => pool.install(work),
@@ -84,8 +93,11 @@ impl Studio {
     }
 
     /// The dots of a picture, without characters: prepared, rendered tile by tile, and assembled.
-    fn traced(&self, request: &Request, hits: Option<&Hits>) -> Frame {
-        let prepared = self.prepare(request, hits);
+    fn traced(&self, request: &Request, hits: Option<&Hits>, samples: Option<Range<u32>>) -> Frame {
+        let mut prepared = self.prepare(request, hits);
+        if let Some(samples) = samples {
+            prepared.samples = samples;
+        }
         let tracing = Instant::now();
         let mut dots = PictureDots::new(request, self.given_up());
         let whole = Whole { dots: &mut dots, wants: request.wants, progress: &self.progress };
@@ -166,6 +178,16 @@ impl<C: Channel> Work<C> for Whole<'_> {
         }
         all
     }
+}
+
+/// A picture with its characters, if they are wanted.
+fn with_cells(mut frame: Frame, request: &Request) -> Frame {
+    if frame.lacks_cells(request) {
+        let dithering = Instant::now();
+        frame.cells = Some(Arc::new(composed(&frame.light, frame.color.as_deref(), request)));
+        frame.times[Stage::Dither] = dithering.elapsed();
+    }
+    frame
 }
 
 /// The characters of a picture.

@@ -1,6 +1,7 @@
 //! The dots of one tile when all is known of them: a value that can be kept, or sent to where the picture is
 //! put together.
 
+use crate::integrate::History;
 use crate::math::DVec3;
 use crate::shade::{Channel, PrimaryHit};
 use crate::solid::Assembly;
@@ -21,6 +22,8 @@ pub(super) struct FinishedTile<C> {
     pub normal: Option<Vec<DVec3>>,
     /// From 1 in file order; 0 where nothing is seen.
     pub object: Option<Vec<u32>>,
+    /// What the rays through the middles met.
+    pub history: Option<Vec<History>>,
     /// What was counted while it was rendered.
     pub counts: Counts,
     /// What its stages took; 0 where they were not timed.
@@ -36,9 +39,15 @@ impl<C: Channel> FinishedTile<C> {
             depth: wants.depth.then(Vec::new),
             normal: wants.normal.then(Vec::new),
             object: wants.object.then(Vec::new),
+            history: None,
             counts: Counts::default(),
             times: StageTimes::default(),
         }
+    }
+
+    /// The same with histories, or without.
+    pub fn with_histories(self, kept: bool) -> Self {
+        Self { history: kept.then(Vec::new), ..self }
     }
 
     /// Whether anyone wants to know what dots see, beside light.
@@ -75,6 +84,9 @@ impl<C: Channel> FinishedTile<C> {
         }
         if let Some(object) = &mut self.object {
             object.resize(area, 0);
+        }
+        if let Some(history) = &mut self.history {
+            history.resize(area, History::MISS);
         }
     }
 }

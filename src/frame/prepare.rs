@@ -1,5 +1,6 @@
 //! The first step of a picture: what it requires, from where it is seen, and how its space is cut.
 
+use std::ops::Range;
 use std::sync::OnceLock;
 use std::time::Instant;
 
@@ -28,6 +29,8 @@ pub(super) struct Prepared<'a> {
     pub times: StageTimes,
     /// By tile: what rays through the middles of dots meet, where that is kept.
     hits: Option<&'a [OnceLock<TileHits>]>,
+    /// The numbers of the samples of each dot.
+    pub samples: Range<u32>,
 }
 
 /// What is done with a picture's tiles, by whatever integrator its plan has.
@@ -52,7 +55,8 @@ impl Studio {
         let cut_before = self.built().cutting;
         let (structure, over_budget) = self.structure(plan.structure);
         times[Stage::Lattice] = self.built().cutting.saturating_sub(cut_before);
-        Prepared { studio: self, plan, pinhole, structure, over_budget, times, hits }
+        let samples = 0..plan.samples.pow(2);
+        Prepared { studio: self, plan, pinhole, structure, over_budget, times, hits, samples }
     }
 }
 
@@ -81,7 +85,7 @@ impl Prepared<'_> {
             pinhole: &self.pinhole,
             eye,
             way: farthest(eye, &assembly.limit),
-            samples: self.plan.samples,
+            samples: self.samples.clone(),
             hits: self.hits,
             spare: &self.studio.spare,
         }

@@ -1,5 +1,6 @@
 //! The second step of a picture: one tile after the other, by any integrator, with one sampling loop for all.
 
+use std::ops::Range;
 use std::sync::OnceLock;
 
 use crate::integrate::{TileHits, TileIntegrator, TilePass};
@@ -7,13 +8,13 @@ use crate::math::DVec3;
 use crate::shade::Channel;
 use crate::solid::Assembly;
 use crate::stage::{Meter, Probe, TileProbe};
-use crate::view::{PinholeCamera, Tile, TileCamera};
+use crate::view::{PinholeCamera, PointPacket, Tile, TileCamera, TileRays, sample_point};
 
 use super::finished_tile::FinishedTile;
 use super::scratch_pool::ScratchPool;
 
-/// The middle of a dot.
-const MIDDLE: [f64; 2] = [0.0; 2];
+/// The number of the sample in the middle of a dot.
+const MIDDLE: u32 = 0;
 
 /// Renders the tiles of one picture.
 pub(super) struct TileRenderer<'a, I> {
@@ -24,8 +25,8 @@ pub(super) struct TileRenderer<'a, I> {
     pub eye: DVec3,
     /// To the farthest point of the world, in the assembly's unit.
     pub way: f64,
-    /// Rays for the light of a dot along each of its sides, 1 or more.
-    pub samples: u32,
+    /// The numbers of the samples ([`sample_point`]) whose mean is the light of a dot; one at least.
+    pub samples: Range<u32>,
     /// By tile: what the rays through the middles of its dots meet, where that is kept.
     pub hits: Option<&'a [OnceLock<TileHits>]>,
     pub spare: &'a ScratchPool,
@@ -83,43 +84,61 @@ impl<I> TileRenderer<'_, I> {
     {
         finished.start(tile);
         let RenderMemory { integrator: memory, sample } = memory;
-        if self.samples == 1 {
-            let pass = self.pass(tile, MIDDLE);
+        if self.samples == (MIDDLE..MIDDLE + 1) {
+            let pass = self.pass(tile, MIDDLE, finished.history.is_some());
             self.integrator.shade(&pass, memory, &mut finished.light, meter);
             self.see(&pass, memory, finished);
             return;
         }
         finished.light.fill(C::DARK);
         sample.resize(finished.light.len(), C::DARK);
-        let mut saw_middle = false;
-        for off in offsets(self.samples) {
-            let pass = self.pass(tile, off);
+        for number in self.samples.clone() {
+            let pass = self.pass(tile, number, finished.history.is_some() && number == MIDDLE);
             self.integrator.shade(&pass, memory, sample, meter);
             for (sum, light) in finished.light.iter_mut().zip(&*sample) {
                 *sum = *sum + *light;
             }
-            if off == MIDDLE {
-                saw_middle = true;
+            if number == MIDDLE {
                 self.see(&pass, memory, finished);
             }
         }
-        let step = 1.0 / f64::from(self.samples);
+        let share = 1.0 / self.samples.len() as f64;
         for light in &mut finished.light {
-            *light = *light * (step * step);
+            *light = *light * share;
         }
-        if !saw_middle && finished.sees() {
-            let pass = self.pass(tile, MIDDLE);
+        if !self.samples.contains(&MIDDLE) && finished.sees() {
+            let pass = self.pass(tile, MIDDLE, false);
             self.integrator.trace(&pass, memory, meter);
             self.see(&pass, memory, finished);
         }
     }
 
-    /// A ray through each dot, so many dots from its middle.
-    fn pass(&self, tile: &Tile, off: [f64; 2]) -> TilePass<'_> {
+    /// Sets `light` to that of rays through some points of a tile's dots, at most 16 packets of them.
+    pub fn shade_points<C: Channel>(
+        &self,
+        tile: &Tile,
+        points: &[PointPacket],
+        memory: &mut RenderMemory<I::Memory, C>,
+        light: &mut [C],
+        meter: &mut Meter<impl Probe>,
+    ) where
+        I: TileIntegrator<C>,
+    {
+        let camera = self.camera(tile, TileRays::Points(points));
+        let pass = TilePass { camera, kept: None, keeps_histories: false };
+        self.integrator.shade(&pass, &mut memory.integrator, light, meter);
+    }
+
+    /// A ray through each dot, by a sample's number.
+    fn pass(&self, tile: &Tile, number: u32, keeps_histories: bool) -> TilePass<'_> {
+        let camera = self.camera(tile, TileRays::EachDot(sample_point(number)));
+        let hits = self.hits.filter(|_| number == MIDDLE);
+        TilePass { camera, kept: hits.map(|tiles| &tiles[tile.number as usize]), keeps_histories }
+    }
+
+    fn camera<'r>(&'r self, tile: &Tile, rays: TileRays<'r>) -> TileCamera<'r> {
         let Self { pinhole, eye, way, .. } = *self;
-        let camera = TileCamera { pinhole, tile: *tile, off, eye, path: way };
-        let hits = self.hits.filter(|_| off == MIDDLE);
-        TilePass { camera, kept: hits.map(|tiles| &tiles[tile.number as usize]) }
+        TileCamera { pinhole, tile: *tile, rays, eye, path: way }
     }
 
     /// Takes over what the dots saw in the last pass.
@@ -130,12 +149,8 @@ impl<I> TileRenderer<'_, I> {
         if finished.sees() {
             self.integrator.seen(pass, memory, |dot, seen| finished.see(dot, seen, self.assembly));
         }
+        if let Some(histories) = finished.history.as_mut().filter(|_| pass.keeps_histories) {
+            self.integrator.histories(pass, memory, |dot, history| histories[dot] = history);
+        }
     }
-}
-
-/// Where in a dot its samples lie, in dots from its middle: row by row, in the middles of n × n parts.
-fn offsets(n: u32) -> impl Iterator<Item = [f64; 2]> {
-    let step = 1.0 / f64::from(n);
-    let inside = move |k: u32| (f64::from(k) + 0.5) * step - 0.5;
-    (0..n).flat_map(move |b| (0..n).map(move |a| [inside(a), inside(b)]))
 }

@@ -88,6 +88,11 @@ impl Frame {
             && (!wants.object || self.object.is_some())
     }
 
+    /// Whether its characters are wanted and not there.
+    pub(super) fn lacks_cells(&self, request: &Request) -> bool {
+        request.wants.cells && self.cells.is_none()
+    }
+
     /// The same with what is wanted, and nothing more.
     pub(super) fn only(self, request: &Request) -> Self {
         let wants = request.wants;

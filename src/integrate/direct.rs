@@ -1,7 +1,7 @@
 //! Direct light on the surfaces of one generation: one lamp after the other, so that the shadow rays towards
 //! it run side by side.
 
-use crate::math::{Lanes, places};
+use crate::math::{Lanes, lanes, places};
 use crate::shade::{Channel, Illumination, Lamp, Lit, LitQuery, ResolvedMaterial, Surfaces, before_lamps};
 use crate::stage::{Meter, Probe, Stage};
 use crate::trace::{ShadowPacket, ShadowQuery};
@@ -30,6 +30,7 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
         let (level, illumination) = (self.engine.level(), self.illumination());
         let wave = &mut memory.tile.waves[generation];
         for k in 0..wave.rays.len() {
+            wave.begin_histories(k);
             let (hits, known) = (wave.surfaces[k].hits, wave.resolved_singly[k]);
             for (part, light) in wave.light_mut(k).iter_mut().enumerate() {
                 before_lamps(illumination.background.part(part), hits, known, light, level);
@@ -62,12 +63,15 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
         for k in 0..count {
             let asked = memory.tile.shadow_packets[k].rays.live;
             if asked == 0 {
+                let unlit = Reached { lanes: 0, dimmed: false };
+                keep_visibility(&unlit, k, generation, &mut memory.tile);
                 continue;
             }
             let mut reached = Reached { lanes: asked, dimmed: false };
             if self.illumination().shadows {
                 reached = self.reached(k, generation, memory, meter);
             }
+            keep_visibility(&reached, k, generation, &mut memory.tile);
             let WavefrontScratch { waves, lit, .. } = &mut memory.tile;
             let (Wavefront { surfaces, light, .. }, lit) = (&mut waves[generation], &mut lit[k]);
             let sum = &mut light[k * C::PARTS..][..C::PARTS];
@@ -92,7 +96,7 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
     ) {
         let (level, illumination) = (self.engine.level(), self.illumination());
         let Illumination { shadows, opacity, dark, lets_through, .. } = illumination;
-        let WavefrontScratch { trace, waves, shadow_packets, lit } = tile;
+        let WavefrontScratch { trace, waves, shadow_packets, lit, .. } = tile;
         let wave = &mut waves[generation];
         let count = wave.rays.len();
         if shadow_packets.len() < count {
@@ -167,5 +171,20 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
         let materials = &self.illumination().materials;
         let of_kind = surfaces.materials.iter().filter(|(material, _)| kind(&materials[*material as usize]));
         of_kind.fold(0, |rays, (_, lanes)| rays | lanes)
+    }
+}
+
+/// Adds to the histories of a packet's rays, where they are kept, how much of a lamp each surface sees.
+fn keep_visibility<C: Channel>(
+    reached: &Reached,
+    k: usize,
+    generation: usize,
+    tile: &mut WavefrontScratch<C>,
+) {
+    let Wavefront { surfaces, histories, .. } = &mut tile.waves[generation];
+    let Some(histories) = histories.get_mut(k) else { return };
+    for lane in lanes(surfaces[k].hits) {
+        let visible = if reached.lanes >> lane & 1 == 1 { tile.lit[k].visible.0[lane] } else { 0.0 };
+        histories[lane] = histories[lane].lit(visible);
     }
 }

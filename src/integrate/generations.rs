@@ -9,6 +9,7 @@ use crate::shade::{Channel, PrimaryHit};
 use crate::stage::{Meter, Probe};
 
 use super::goal::Goal;
+use super::history::History;
 use super::tile_integrator::{TileIntegrator, TilePass};
 use super::wavefront_integrator::WavefrontIntegrator;
 use super::wavefront_scratch::{WavefrontMemory, WavefrontScratch};
@@ -32,6 +33,7 @@ impl<C: Channel + 'static> TileIntegrator<C> for WavefrontIntegrator<'_, C> {
         light: &mut [C],
         meter: &mut Meter<impl Probe>,
     ) {
+        memory.tile.keeps_histories = pass.keeps_histories;
         self.find_primary_hits(pass, Goal::Light, memory, meter);
         self.shade_generation(0, memory, meter);
         let mut last = 0;
@@ -45,14 +47,13 @@ impl<C: Channel + 'static> TileIntegrator<C> for WavefrontIntegrator<'_, C> {
         }
         meter.counts += std::mem::take(memory.tile.trace.counts_mut());
         let (camera, first) = (&pass.camera, &memory.tile.waves[0]);
-        for block in 0..camera.blocks() {
-            camera
-                .block(block)
-                .rows(&camera.tile, |row, dots| copy_row(first.row_of_light(block, row), &mut light[dots]));
+        for packet in 0..camera.packets() {
+            camera.rows(packet, |row, rays| copy_row(first.row_of_light(packet, row), &mut light[rays]));
         }
     }
 
     fn trace(&self, pass: &TilePass, memory: &mut WavefrontMemory<C>, meter: &mut Meter<impl Probe>) {
+        memory.tile.keeps_histories = false;
         self.find_primary_hits(pass, Goal::Surfaces, memory, meter);
         meter.counts += std::mem::take(memory.tile.trace.counts_mut());
     }
@@ -64,12 +65,23 @@ impl<C: Channel + 'static> TileIntegrator<C> for WavefrontIntegrator<'_, C> {
         mut each: impl FnMut(usize, Option<PrimaryHit>),
     ) {
         let (camera, first) = (&pass.camera, &memory.tile.waves[0]);
-        for packet in 0..camera.blocks() {
+        for packet in 0..camera.packets() {
             let found = first.found(packet);
-            camera.block(packet).rows(&camera.tile, |row, dots| {
-                for (lane, dot) in (row * LANES..).zip(dots) {
+            camera.rows(packet, |row, rays| {
+                for (lane, ray) in (row * LANES..).zip(rays) {
                     let met = (found >> lane & 1 == 1).then(|| first.met(RayIndex { packet, lane }));
-                    each(dot, met.map(|met| met.primary()));
+                    each(ray, met.map(|met| met.primary()));
+                }
+            });
+        }
+    }
+
+    fn histories(&self, pass: &TilePass, memory: &WavefrontMemory<C>, mut each: impl FnMut(usize, History)) {
+        let (camera, first) = (&pass.camera, &memory.tile.waves[0]);
+        for packet in 0..camera.packets() {
+            camera.rows(packet, |row, rays| {
+                for (lane, ray) in (row * LANES..).zip(rays) {
+                    each(ray, first.history_or_miss(RayIndex { packet, lane }));
                 }
             });
         }

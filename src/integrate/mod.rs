@@ -7,6 +7,7 @@
 mod direct;
 mod generations;
 mod goal;
+mod history;
 mod path;
 mod path_state;
 mod primary;
@@ -23,6 +24,7 @@ mod wavefront;
 mod wavefront_integrator;
 mod wavefront_scratch;
 
+pub use history::History;
 pub use path::View;
 pub use ray_integrator::{PathMemory, RayIntegrator};
 pub use ray_tiles::RayTileMemory;

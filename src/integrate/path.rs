@@ -9,6 +9,7 @@ use crate::solid::{Crossing, Departure};
 use crate::stage::{Meter, Probe, Stage};
 use crate::trace::{Hit, RayEngine};
 
+use super::history::History;
 use super::path_state::PathState;
 use super::ray_integrator::{PathMemory, RayIntegrator};
 
@@ -30,6 +31,7 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
         meter: &mut Meter<impl Probe>,
     ) -> View<C> {
         let Some(met) = self.interaction(ray, memory, meter) else {
+            memory.history = History::MISS;
             return View { light: self.illumination.background, seen: None };
         };
         let inside = memory.media.start(&self.illumination.around_eye);
@@ -64,6 +66,7 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
         memory: &mut PathMemory<R::Memory>,
         meter: &mut Meter<impl Probe>,
     ) -> C {
+        memory.history = History::hit(met.hit.object, met.hit.primitive, met.hit.surface);
         if self.illumination.material_at(met).scatters() {
             let transition = self.transition(&sent.inside, memory);
             let own = self.own_light(sent, met, memory, meter);
@@ -89,6 +92,7 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
         for lamp in &illumination.lamps {
             let towards = Towards::new(lamp.at, Vector::from(met.p), normal);
             if !towards.shines() {
+                memory.history = memory.history.lit(0.0);
                 continue;
             }
             let diffuse = material.diffuse(towards.facing);
@@ -101,10 +105,13 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
             if illumination.shadows && material.is_lit() {
                 let ray = Ray::new(met.p, towards.d.into());
                 let visible = self.visibility(&ray, departure, towards.distance, memory, meter);
+                memory.history = memory.history.lit(visible);
                 if visible == 0.0 {
                     continue;
                 }
                 reflected.visible = Some(visible);
+            } else {
+                memory.history = memory.history.lit(if material.is_lit() { 1.0 } else { 0.0 });
             }
             for part in 0..C::PARTS {
                 sum[part] = reflected.add_to(sum[part], material.color.part(part), lamp.light.part(part));
@@ -184,7 +191,10 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
         let mut arriving = |onward: Scattered, side: DVec3, inside: &MediumStack| {
             let next = sent.scattered(met, onward, inside.clone());
             let departure = self.illumination.departure(&met.hit, met.p, side);
-            self.arriving(&next, departure, memory, meter) * onward.share
+            let before = memory.history;
+            let light = self.arriving(&next, departure, memory, meter) * onward.share;
+            memory.history = before.sent_on(memory.history);
+            light
         };
         if let Some(mirror) = rays.mirror {
             light = (light + arriving(mirror, met.normal, &sent.inside)).limited();
@@ -207,12 +217,16 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
     ) -> C {
         if !self.is_followed(sent.generation, sent.weight) {
             meter.counts.truncated_rays += 1;
+            memory.history = History::TRUNCATED;
             return self.illumination.ambient;
         }
         meter.counts.secondary_rays += 1;
         let hit = self.engine.next(&sent.ray, departure, &mut memory.engine, meter);
         meter.at(Stage::Shade);
-        let Some(hit) = hit else { return self.illumination.background };
+        let Some(hit) = hit else {
+            memory.history = History::MISS;
+            return self.illumination.background;
+        };
         meter.counts.secondary_hits += 1;
         let met = self.met(&sent.ray, hit, memory);
         self.light(sent, &met, memory, meter)

@@ -26,7 +26,7 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
         meter: &mut Meter<impl Probe>,
     ) {
         let WavefrontMemory { single, tile } = memory;
-        tile.start(pass.camera.blocks());
+        tile.start(pass.camera.packets());
         tile.waves[0].inside = single.media.start(&self.illumination().around_eye);
         match pass.kept.map(|kept| (kept, kept.get())) {
             None => self.trace_primary(&pass.camera, goal, None, memory, meter),
@@ -58,7 +58,7 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
         let made = self.engine.first_seen(&mut packets, &mut nearest[..count], trace, &mut meter.probe);
         self.engine.first_of_incoherent(&wave.rays, None, &mut wave.nearest[..count], trace);
         for k in 0..count {
-            meter.counts.primary_rays += u64::from(camera.block(k).live().count_ones());
+            meter.counts.primary_rays += u64::from(camera.live(k).count_ones());
             if made >> k & 1 == 0 {
                 wave.surfaces[k].forget();
                 continue;

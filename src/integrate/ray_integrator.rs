@@ -6,6 +6,8 @@ use crate::shade::{Channel, Illumination, Media};
 use crate::solid::{Assembly, Crossing};
 use crate::trace::RayEngine;
 
+use super::history::History;
+
 /// Follows one ray after the other, with any engine for rays.
 #[derive(Debug)]
 pub struct RayIntegrator<'a, R, C> {
@@ -24,6 +26,8 @@ pub struct PathMemory<M> {
     pub(super) media: Media,
     /// The glass objects that the present shadow ray has gone through.
     pub(super) crossed: Vec<(u32, Crossing)>,
+    /// That of the last ray whose light was found.
+    pub(super) history: History,
 }
 
 impl<'a, R: RayEngine, C: Channel> RayIntegrator<'a, R, C> {
@@ -40,6 +44,11 @@ impl<'a, R: RayEngine, C: Channel> RayIntegrator<'a, R, C> {
 
     /// New memory for a worker.
     pub fn memory(&self) -> PathMemory<R::Memory> {
-        PathMemory { engine: self.engine.memory(), media: Media::default(), crossed: Vec::new() }
+        PathMemory {
+            engine: self.engine.memory(),
+            media: Media::default(),
+            crossed: Vec::new(),
+            history: History::MISS,
+        }
     }
 }

@@ -6,29 +6,33 @@ use crate::stage::{Meter, Probe, Stage};
 use crate::trace::RayEngine;
 use crate::view::{TileCamera, settled};
 
+use super::history::History;
 use super::ray_integrator::{PathMemory, RayIntegrator};
 use super::tile_integrator::{TileIntegrator, TilePass};
 
-/// By dot of a tile in scan order: what it saw.
-type SeenByDots = Vec<Option<PrimaryHit>>;
+/// What the rays of a tile saw, in their order.
+#[derive(Debug, Default)]
+pub struct SeenByRays {
+    seen: Vec<Option<PrimaryHit>>,
+    histories: Vec<History>,
+}
 
 /// Memory of one worker.
 #[derive(Debug)]
 pub struct RayTileMemory<M> {
     rays: PathMemory<M>,
     /// Of the last pass.
-    seen: SeenByDots,
+    last: SeenByRays,
 }
 
 impl<R, C: Channel> RayIntegrator<'_, R, C>
 where
     R: RayEngine,
 {
-    /// The rays from the eye through a tile's dots, in scan order.
+    /// The rays from the eye through a tile, in the order of [`TileCamera::points`].
     fn primary_rays<'r>(&self, camera: &'r TileCamera) -> impl Iterator<Item = Ray> + use<'r, '_, R, C> {
         let assembly = self.illumination.assembly;
-        camera.tile.dots().map(move |(i, j)| {
-            let (x, y) = (f64::from(i) + 0.5 + camera.off[0], f64::from(j) + 0.5 + camera.off[1]);
+        camera.points().map(move |[x, y]| {
             let ray = assembly.ray(&camera.pinhole.ray(x, y));
             Ray::new(ray.o, settled(ray.d, camera.path))
         })
@@ -39,15 +43,15 @@ impl<R, C: Channel> TileIntegrator<C> for RayIntegrator<'_, R, C>
 where
     R: RayEngine<Memory: Send> + Sync,
 {
-    type Scratch = SeenByDots;
+    type Scratch = SeenByRays;
     type Memory = RayTileMemory<R::Memory>;
 
-    fn tile_memory(&self, scratch: SeenByDots) -> Self::Memory {
-        RayTileMemory { rays: self.memory(), seen: scratch }
+    fn tile_memory(&self, scratch: SeenByRays) -> Self::Memory {
+        RayTileMemory { rays: self.memory(), last: scratch }
     }
 
-    fn into_scratch(memory: Self::Memory) -> SeenByDots {
-        memory.seen
+    fn into_scratch(memory: Self::Memory) -> SeenByRays {
+        memory.last
     }
 
     /// Traces all rays, whatever is kept: it is the reference.
@@ -58,20 +62,23 @@ where
         light: &mut [C],
         meter: &mut Meter<impl Probe>,
     ) {
-        let RayTileMemory { rays: memory, seen } = memory;
+        let RayTileMemory { rays: memory, last: SeenByRays { seen, histories } } = memory;
         seen.clear();
+        histories.clear();
         meter.at(Stage::Ray);
         for (light, ray) in light.iter_mut().zip(self.primary_rays(&pass.camera)) {
             let view = self.view(&ray, memory, meter);
             meter.at(Stage::Ray);
             *light = view.light;
             seen.push(view.seen);
+            histories.push(memory.history);
         }
     }
 
     fn trace(&self, pass: &TilePass, memory: &mut Self::Memory, meter: &mut Meter<impl Probe>) {
-        let RayTileMemory { rays: memory, seen } = memory;
+        let RayTileMemory { rays: memory, last: SeenByRays { seen, histories } } = memory;
         seen.clear();
+        histories.clear();
         meter.at(Stage::Ray);
         for ray in self.primary_rays(&pass.camera) {
             let met = self.interaction(&ray, memory, meter);
@@ -81,6 +88,10 @@ where
     }
 
     fn seen(&self, _: &TilePass, memory: &Self::Memory, mut each: impl FnMut(usize, Option<PrimaryHit>)) {
-        memory.seen.iter().enumerate().for_each(|(dot, seen)| each(dot, *seen));
+        memory.last.seen.iter().enumerate().for_each(|(ray, seen)| each(ray, *seen));
+    }
+
+    fn histories(&self, _: &TilePass, memory: &Self::Memory, mut each: impl FnMut(usize, History)) {
+        memory.last.histories.iter().enumerate().for_each(|(ray, history)| each(ray, *history));
     }
 }

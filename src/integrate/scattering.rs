@@ -1,6 +1,6 @@
 //! The rays that the surfaces of one generation send on, and the light that arrives along them.
 
-use crate::math::{LaneVector, Ray, RayIndex, places};
+use crate::math::{LaneVector, Ray, RayIndex, lanes, places};
 use crate::shade::{
     Channel, Media, MediumStack, OUTSIDE, ResolvedMaterial, Scattered, ScatteredRays, SurfaceInteraction,
     add_everywhere,
@@ -9,6 +9,7 @@ use crate::solid::{Departure, WorldShape};
 use crate::stage::{Meter, Probe};
 use crate::trace::RayMemory;
 
+use super::history::History;
 use super::path_state::PathState;
 use super::ray_integrator::PathMemory;
 use super::wavefront::{Arrival, QueuedRay, RayQueue, Wavefront};
@@ -43,14 +44,19 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
         let unfollowed =
             |material: &ResolvedMaterial<C>| !followed && material.kr > 0.0 && material.kt == 0.0;
         for k in 0..wave.rays.len() {
-            let Wavefront { surfaces, light, .. } = &mut *wave;
-            for &(material, lanes) in &surfaces[k].materials {
+            let Wavefront { surfaces, light, histories, .. } = &mut *wave;
+            for &(material, sent) in &surfaces[k].materials {
                 let material = &self.illumination().materials[material as usize];
                 if unfollowed(material) {
                     let arriving = self.illumination().ambient * material.kr;
                     let light = &mut light[k * C::PARTS..][..C::PARTS];
-                    add_everywhere(arriving, lanes, light, self.engine.level());
-                    meter.counts.truncated_rays += u64::from(lanes.count_ones());
+                    add_everywhere(arriving, sent, light, self.engine.level());
+                    if let Some(histories) = histories.get_mut(k) {
+                        for lane in lanes(sent) {
+                            histories[lane] = histories[lane].sent_on(History::TRUNCATED);
+                        }
+                    }
+                    meter.counts.truncated_rays += u64::from(sent.count_ones());
                 }
             }
             let scatters = |material: &ResolvedMaterial<C>| material.scatters() && !unfollowed(material);
@@ -69,13 +75,17 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
         for RayQueue { rays, arrivals, .. } in &next.queues {
             for arrival in arrivals {
                 let light = match arrival.ray {
-                    None => self.illumination().ambient,
+                    None => {
+                        single.history = History::TRUNCATED;
+                        self.illumination().ambient
+                    }
                     Some(ray) => {
                         let QueuedRay { sent, departure } = &rays[ray as usize];
                         self.single.arriving(sent, *departure, single, meter)
                     }
                 };
                 wave.add(arrival, light);
+                wave.change_history(arrival.at, |history| history.sent_on(single.history));
             }
         }
         false
@@ -97,8 +107,13 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
         // The distance of the hit is that from the eye already.
         let ray = wave.rays[at.packet].ray(at.lane);
         let sent = PathState { ray, travelled: 0.0, weight, generation: wave.generation, inside };
+        wave.change_history(at, |history| {
+            memory.history = history;
+            history
+        });
         let light = self.single.scattered_light(&sent, &met, &transition, wave.light(at), memory, meter);
         wave.set_light(at, light);
+        wave.change_history(at, |_| memory.history);
     }
 
     /// Puts the rays that one surface sends on into the queues of the next generation.
@@ -156,9 +171,15 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
         let (wave, next) = (&mut before[generation - 1], &behind[0]);
         for queue in &next.queues {
             for arrival in &queue.arrivals {
-                let ambient = self.illumination().ambient;
-                let light = arrival.ray.map_or(ambient, |ray| next.light(queue.place(ray as usize)));
+                let (light, history) = match arrival.ray {
+                    None => (self.illumination().ambient, History::TRUNCATED),
+                    Some(ray) => {
+                        let at = queue.place(ray as usize);
+                        (next.light(at), next.history_or_miss(at))
+                    }
+                };
                 wave.add(arrival, light);
+                wave.change_history(arrival.at, |before| before.sent_on(history));
             }
         }
     }

@@ -23,10 +23,11 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
         meter: &mut Meter<impl Probe>,
     ) {
         meter.at(Stage::Cell);
-        let WavefrontMemory { single, tile: WavefrontScratch { trace, waves, .. } } = memory;
+        let WavefrontMemory { single, tile: WavefrontScratch { trace, waves, keeps_histories, .. } } = memory;
         let wave = &mut waves[generation];
         wave.pack_queues(self.engine.level());
         wave.make_room();
+        wave.keep_histories(*keeps_histories);
         for packets in [wave.queues[0].packets(), wave.queues[1].packets()] {
             self.trace_queue(wave, packets, trace);
         }

@@ -41,6 +41,7 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
         if goal == Goal::Light {
             let light = self.single.light(sent, &met, memory, meter);
             wave.set_light(at, light);
+            wave.change_history(at, |_| memory.history);
         }
         meter.at(Stage::Cell);
         wave.nearest[at.packet].set(at.lane, Some(&met.hit));

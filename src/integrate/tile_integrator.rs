@@ -6,9 +6,10 @@ use crate::shade::PrimaryHit;
 use crate::stage::{Meter, Probe};
 use crate::view::TileCamera;
 
+use super::history::History;
 use super::tile_hits::TileHits;
 
-/// One ray through each dot of a tile.
+/// Some rays through a tile.
 #[derive(Clone, Copy, Debug)]
 pub struct TilePass<'a> {
     /// The rays.
@@ -16,6 +17,8 @@ pub struct TilePass<'a> {
     /// What they meet, or room for it: set by the same camera and the same solids. Absent where it is not
     /// kept.
     pub kept: Option<&'a OnceLock<TileHits>>,
+    /// Whether anyone asks for [`TileIntegrator::histories`].
+    pub keeps_histories: bool,
 }
 
 /// Finds the light of the dots of tiles, and what they see.
@@ -31,7 +34,8 @@ pub trait TileIntegrator<C>: Sync {
     /// What of it serves the next picture.
     fn into_scratch(memory: Self::Memory) -> Self::Scratch;
 
-    /// Sets `light`, which has a place for each dot in the tile's scan order.
+    /// Sets `light`, which has a place for each ray in the order of [`TileCamera::points`]: the tile's scan order
+    /// where each dot has one.
     fn shade(
         &self,
         pass: &TilePass,
@@ -43,7 +47,11 @@ pub trait TileIntegrator<C>: Sync {
     /// Finds what the rays see, and no light.
     fn trace(&self, pass: &TilePass, memory: &mut Self::Memory, meter: &mut Meter<impl Probe>);
 
-    /// Calls `each` with every dot's place in the tile's scan order and what it saw in the last pass, which
-    /// was this one.
+    /// Calls `each` with every ray's place in that order and what it saw in the last pass, which was this
+    /// one.
     fn seen(&self, pass: &TilePass, memory: &Self::Memory, each: impl FnMut(usize, Option<PrimaryHit>));
+
+    /// Calls `each` with every ray's place in that order and its history in the last pass, which was this
+    /// one, found light and kept histories.
+    fn histories(&self, pass: &TilePass, memory: &Self::Memory, each: impl FnMut(usize, History));
 }

@@ -5,11 +5,12 @@ use std::ops::Range;
 
 use fearless_simd::{Level, dispatch};
 
-use crate::math::{LANES, LaneVector, Lanes, PACKET, RayIndex, RayPacket};
+use crate::math::{LANES, LaneVector, Lanes, PACKET, RayIndex, RayPacket, lanes};
 use crate::shade::{Channel, MediumStack, SurfaceInteraction, Surfaces};
 use crate::solid::{Departure, Departures};
 use crate::trace::{Hit, PacketHits};
 
+use super::history::History;
 use super::path_state::PathState;
 
 /// A ray that is sent on.
@@ -59,6 +60,8 @@ pub(super) struct Wavefront<C> {
     /// The light that arrives along each ray, whole as soon as that is known: a column for each part, packet
     /// by packet.
     pub light: Vec<Lanes>,
+    /// The histories of the rays that met anything, where they are kept.
+    pub histories: Vec<[History; PACKET]>,
     /// The rays that met several surfaces in one place, a bit for each: their surface is known already, and
     /// its light, where light is asked for.
     pub resolved_singly: Vec<u64>,
@@ -96,6 +99,7 @@ impl<C> Wavefront<C> {
             surfaces: Vec::new(),
             departures: Vec::new(),
             light: Vec::new(),
+            histories: Vec::new(),
             resolved_singly: Vec::new(),
             queues: Default::default(),
             incoherent: false,
@@ -216,6 +220,42 @@ impl<C: Channel> Wavefront<C> {
     pub fn departure(&self, at: RayIndex) -> Departure {
         let surface = self.nearest[at.packet].surface.0[at.lane];
         Departure { surface, ..self.departures[at.packet].get(at.lane) }
+    }
+
+    /// The history of one ray that met something, where histories are kept.
+    #[inline]
+    pub fn history(&self, at: RayIndex) -> History {
+        self.histories[at.packet][at.lane]
+    }
+
+    /// The history of any ray; that of a miss where histories are not kept.
+    #[inline]
+    pub fn history_or_miss(&self, at: RayIndex) -> History {
+        let met = !self.histories.is_empty() && self.found(at.packet) >> at.lane & 1 == 1;
+        if met { self.history(at) } else { History::MISS }
+    }
+
+    /// Changes the history of one ray, where histories are kept.
+    #[inline]
+    pub fn change_history(&mut self, at: RayIndex, change: impl FnOnce(History) -> History) {
+        if let Some(histories) = self.histories.get_mut(at.packet) {
+            histories[at.lane] = change(histories[at.lane]);
+        }
+    }
+
+    /// Makes room for the histories of its rays, or for none.
+    pub fn keep_histories(&mut self, kept: bool) {
+        self.histories.resize(if kept { self.rays.len() } else { 0 }, [History::MISS; PACKET]);
+    }
+
+    /// Begins the history of the rays of packet `k` that met a surface which is not lit yet.
+    pub fn begin_histories(&mut self, k: usize) {
+        let Some(histories) = self.histories.get_mut(k) else { return };
+        let nearest = &self.nearest[k];
+        for lane in lanes(self.surfaces[k].hits) {
+            histories[lane] =
+                History::hit(nearest.object.0[lane], nearest.primitive.0[lane], nearest.surface.0[lane]);
+        }
     }
 
     /// Which rays of a packet met something, a bit for each.

@@ -15,6 +15,8 @@ pub struct WavefrontScratch<C> {
     pub(super) waves: Vec<Wavefront<C>>,
     pub(super) shadow_packets: Vec<ShadowPacket>,
     pub(super) lit: Vec<Lit>,
+    /// Whether the histories of rays are kept.
+    pub(super) keeps_histories: bool,
 }
 
 /// Memory of one worker.
@@ -27,7 +29,7 @@ pub struct WavefrontMemory<C> {
 impl<C> Default for WavefrontScratch<C> {
     fn default() -> Self {
         let (trace, shadow_packets, lit) = (TileMemory::default(), Vec::new(), Vec::new());
-        Self { trace, waves: Vec::new(), shadow_packets, lit }
+        Self { trace, waves: Vec::new(), shadow_packets, lit, keeps_histories: false }
     }
 }
 
@@ -41,5 +43,6 @@ impl<C: Channel> WavefrontScratch<C> {
         first.rays.resize(packets, RayPacket::EMPTY);
         first.before.resize(packets, [Lanes::filled(0.0); 2]);
         first.make_room();
+        first.keep_histories(self.keeps_histories);
     }
 }

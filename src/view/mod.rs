@@ -4,6 +4,8 @@ mod block;
 mod direction;
 mod framing;
 mod pinhole;
+mod point_packet;
+mod sample_points;
 mod tile;
 mod tile_camera;
 
@@ -11,5 +13,7 @@ pub use block::{BLOCK, Block};
 pub use direction::{all_settled, settled};
 pub use framing::framed;
 pub use pinhole::{Picture, PinholeCamera};
+pub use point_packet::PointPacket;
+pub use sample_points::{edge_error, sample_point};
 pub use tile::{TILE, Tile, tiles};
-pub use tile_camera::TileCamera;
+pub use tile_camera::{TileCamera, TileRays};

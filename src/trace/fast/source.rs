@@ -148,7 +148,7 @@ impl PacketSources<'_, '_> {
                 let moved = most_moved(camera.eye, &ends);
                 let mut corners = [Lanes::filled(0.0); 3];
                 camera.corners(level, &mut corners);
-                for k in 0..camera.blocks().min(FRUSTA) {
+                for k in 0..camera.packets().min(FRUSTA) {
                     let ends = [0, 1, 2, 3].map(|corner| corners.get(4 * k + corner));
                     frustums.push(Some(Frustum::between(camera.eye, ends, moved, &basis)));
                 }
@@ -174,7 +174,7 @@ mod tests {
     use crate::math::{DVec3, ROWS, Size, lanes};
     use crate::scene::{Camera, FieldSpan};
     use crate::stage::Silent;
-    use crate::view::{Picture, PinholeCamera, TileCamera, tiles};
+    use crate::view::{Picture, PinholeCamera, TileCamera, TileRays, tiles};
 
     fn direction() -> impl Strategy<Value = DVec3> {
         let coordinate = || prop_oneof![-1.0..1.0_f64, (-1..=1_i8).prop_map(f64::from)];
@@ -204,8 +204,14 @@ mod tests {
             let pinhole = PinholeCamera::new(&camera, &Picture { dots: Size::new(width, height), dot_aspect: 1.0 });
             let all = tiles(Size::new(width, height));
             let tile = all[pick % all.len()];
-            let sight = TileCamera { pinhole: &pinhole, tile, off: [off.0, off.1], eye, path: distance + 4.0 };
-            let mut packets = vec![RayPacket::EMPTY; sight.blocks()];
+            let sight = TileCamera {
+                pinhole: &pinhole,
+                tile,
+                rays: TileRays::EachDot([off.0, off.1]),
+                eye,
+                path: distance + 4.0,
+            };
+            let mut packets = vec![RayPacket::EMPTY; sight.packets()];
             let level = Level::new();
             for (k, packet) in packets.iter_mut().enumerate() {
                 sight.rays(k, level, packet);

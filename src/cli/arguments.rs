@@ -174,7 +174,7 @@ pub struct TradeArguments {
     #[arg(long, value_name = "SHARE", value_parser = values::percent, allow_hyphen_values = true)]
     pub wrong: Option<f64>,
     /// Rays a dot of the reference, a power of two: the same accuracy again, whatever the time [default: as
-    /// many as it takes, and the time allows, to tell half a percent of wrong levels apart, or --wrong]
+    /// many as it takes, and the time allows, to tell one percent of wrong levels apart, or --wrong]
     #[arg(long, value_name = "N", value_parser = values::rays, allow_hyphen_values = true)]
     pub rays: Option<u32>,
     /// One line of JSON in place of the table

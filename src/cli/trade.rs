@@ -21,9 +21,9 @@ use super::trade_report::{Report, ms, percent};
 use super::write::{Destination, print};
 use super::{effects, input, trade_png, trade_svg};
 
-/// What is to be told apart where nothing else is asked for, as a share of dots with a wrong level: half of
-/// what 64 rays a dot leave wrong on the scenes inside.
-const APART: f64 = 0.005;
+/// What is to be told apart where nothing else is asked for, as a share of dots with a wrong level: what 16
+/// rays a dot leave wrong on the scenes inside.
+const APART: f64 = 0.01;
 
 /// What a shell reports of a program that Ctrl-C has ended.
 const INTERRUPTED: i32 = 128 + SIGINT;

@@ -80,13 +80,14 @@ impl Report<'_> {
         };
         format!(
             "The reference: {} rays for each of {} × {} dots, {exact}.\n\
-             Its own error: {} of the levels wrong, {:.3} levels (RMS), {aim} of the {} to be told apart.\n",
+             Its own error: {} of the levels wrong, {:.3} levels (RMS), {aim} of the {} to be told apart.\n{}",
             reference.rays(),
             dots.width,
             dots.height,
             percent(error.wrong),
             error.rms,
             percent(self.limits.apart),
+            reference.shimmer().map_or(String::new(), |flicker| format!("It flickers by {flicker:.2} itself.\n")),
         )
     }
 

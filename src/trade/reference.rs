@@ -106,7 +106,7 @@ impl Reference {
         let geometry = Request { wants: Wants { cells: false, ..Wants::ALL }, ..exact.clone() };
         let geometry = studio.draw_anew(&geometry);
         let begin = Instant::now();
-        let mut rays = ManyRays::new(studio, Request { wants: Wants::LIGHT, ..exact.clone() });
+        let mut rays = ManyRays::new(studio, exact.clone());
         let [mut first, mut second] = [rays.mean(0..1), rays.mean(1..2)];
         let mut number = 2;
         let mut early = first.with(&second);
@@ -172,6 +172,11 @@ impl Reference {
     /// What an eye sees of its own characters that is not the light that they stand for, in the same unit.
     pub fn shown(&self) -> Option<f64> {
         self.screen.as_ref().map(SeenScreen::shown)
+    }
+
+    /// The light of each dot that the tone shows, 0 to 1.
+    pub const fn light(&self) -> &Grid<f64> {
+        &self.light
     }
 
     /// The level of each dot.

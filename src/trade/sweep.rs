@@ -13,6 +13,8 @@ use thiserror::Error;
 use crate::frame::{Frame, Request, Studio, Wants};
 use crate::lattice::OverBudget;
 use crate::math::Size;
+use crate::plan::EngineChoice;
+use crate::view::TILE;
 
 use super::eye_filter::EyeDistance;
 use super::front::front;
@@ -159,9 +161,13 @@ impl Sweep {
         self.all.len() - before
     }
 
-    /// Looks between the neighbours on the front until nothing new is found.
+    /// Looks between the neighbours on the front until nothing new is found. What is on it is known by several
+    /// pictures of each.
     fn refine(&mut self, run: &Run, watch: &mut dyn FnMut(SweepStep)) {
         loop {
+            for pictures in 2..=LEAST_PICTURES {
+                self.round(run, FOR_SEARCH, |one| one.times.all().len() < pictures);
+            }
             let front = self.front();
             let pairs = front.windows(2).map(|pair| [pair[0], pair[1]].map(|place| self.all[place].setting));
             let between: Vec<Setting> = pairs.flat_map(|[one, next]| one.between(&next)).collect();
@@ -180,28 +186,35 @@ impl Sweep {
     /// Times all settings in turn until the time is over: each thrice at least, if it allows, then those that
     /// have had no more of it than their share.
     fn repeat(&mut self, run: &Run, watch: &mut dyn FnMut(SweepStep)) {
-        for round in 1..MOST_PICTURES {
-            watch(SweepStep::Round(round));
+        // Of one setting alone there is a spread all the same.
+        if run.limits.time.is_zero() {
+            for _ in 1..LEAST_PICTURES {
+                self.round(run, f64::INFINITY, |_| true);
+            }
+            return;
+        }
+        for number in 1..MOST_PICTURES {
+            watch(SweepStep::Round(number));
             let spent = self.all.iter().map(|one| one.times.sum()).sum::<Duration>();
             let share = spent / self.all.len().max(1) as u32;
-            let mut threads = None;
-            for one in &mut self.all {
-                let pictures = one.times.all().len();
-                if run.is_over(1.0) {
-                    // Of one setting alone there is a spread all the same.
-                    let alone = run.limits.time.is_zero() && round < LEAST_PICTURES;
-                    if !alone || run.is_interrupted() {
-                        return;
-                    }
-                }
-                if pictures >= LEAST_PICTURES && one.times.sum() > share {
-                    continue;
-                }
-                if threads.replace(one.setting.options.threads) != Some(one.setting.options.threads) {
-                    run.warm(&one.setting);
-                }
-                one.time(run.studio, run.base);
+            self.round(run, 1.0, |one| one.times.all().len() < LEAST_PICTURES || one.times.sum() <= share);
+            if run.is_over(1.0) {
+                return;
             }
+        }
+    }
+
+    /// Times each of the settings that `is_due` once more, until so much of the time is over.
+    fn round(&mut self, run: &Run, part: f64, is_due: impl Fn(&Measurement) -> bool) {
+        let mut threads = None;
+        for one in self.all.iter_mut().filter(|one| is_due(one)) {
+            if run.is_over(part) {
+                return;
+            }
+            if threads.replace(one.setting.options.threads) != Some(one.setting.options.threads) {
+                run.warm(&one.setting);
+            }
+            one.time(run.studio, run.base);
         }
     }
 }
@@ -222,7 +235,7 @@ impl Run<'_> {
 
     /// Whether this part of the time is over, or it was interrupted.
     fn is_over(&self, part: f64) -> bool {
-        self.is_interrupted() || self.begin.elapsed() >= self.limits.time.mul_f64(part)
+        self.is_interrupted() || self.begin.elapsed().as_secs_f64() >= self.limits.time.as_secs_f64() * part
     }
 
     /// Whether a setting can be measured: what it needs is built, and a smaller picture drawn to see what the
@@ -233,7 +246,12 @@ impl Run<'_> {
         }
         let mut request = setting.request(self.base);
         let all = request.dots.area();
-        let smaller = |dots: u32| dots.div_ceil(SMALLER);
+        // The fast engine takes about as long for a part of a tile as for all of it.
+        let fast = request.options.traced_by() == EngineChoice::Fast;
+        let smaller = |dots: u32| {
+            let few = dots.div_ceil(SMALLER);
+            if fast { few.next_multiple_of(TILE).min(dots) } else { few }
+        };
         request.dots = Size::new(smaller(request.dots.width), smaller(request.dots.height));
         request.wants = Wants::LIGHT;
         let small = self.studio.draw_anew(&request);

@@ -231,7 +231,7 @@ pub struct PictureArguments {
     /// highlights, 4 with mirrors and glass [default: 4]
     #[arg(long, value_name = "1..4", value_parser = clap::value_parser!(u8).range(1..=4), allow_hyphen_values = true)]
     pub shading: Option<u8>,
-    /// Follow mirror and Snell rays for so many generations [default: 5]
+    /// Follow mirror and Snell rays for so many generations [default: 16]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=64), allow_hyphen_values = true)]
     pub depth: Option<u32>,
     /// Follow a mirror or Snell ray only while it can still change the light of its dot by so much; 0 follows

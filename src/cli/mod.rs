@@ -23,7 +23,6 @@ mod trade;
 mod trade_line;
 mod trade_png;
 mod trade_report;
-mod trade_svg;
 mod values;
 mod write;
 

@@ -11,7 +11,7 @@ use signal_hook::consts::SIGINT;
 use signal_hook::flag;
 
 use crate::frame::Wants;
-use crate::trade::{EyeDistance, Sweep, SweepLimits, SweepStep, TradePlot, Wish};
+use crate::trade::{EyeDistance, Sweep, SweepLimits, SweepStep, TradePlot, Wish, svg};
 
 use super::arguments::{PlotFormat, TradeArguments};
 use super::error::{CliError, tell};
@@ -19,7 +19,7 @@ use super::picture::Unsized;
 use super::trade_line::CommandLine;
 use super::trade_report::{Report, ms, percent};
 use super::write::{Destination, print};
-use super::{effects, input, trade_png, trade_svg};
+use super::{effects, input, trade_png};
 
 /// What is to be told apart where nothing else is asked for, as a share of dots with a wrong level: what 16
 /// rays a dot leave wrong on the scenes inside.
@@ -66,7 +66,7 @@ pub fn run(arguments: &TradeArguments) -> Result<(), CliError> {
     if let Some(format) = format {
         let plot = TradePlot::new(&sweep);
         return to.write(&match format {
-            PlotFormat::Svg => trade_svg::drawn(&plot).into_bytes(),
+            PlotFormat::Svg => svg(&plot).into_bytes(),
             PlotFormat::Png => trade_png::drawn(&plot)?,
         });
     }

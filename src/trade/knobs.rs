@@ -28,7 +28,7 @@ pub struct Knob {
 const SAMPLES: [u32; 5] = [1, 2, 3, 4, 6];
 
 /// Generations of mirror and Snell rays that are tried.
-const DEPTHS: [u32; 5] = [0, 1, 2, 3, 8];
+const DEPTHS: [u32; 6] = [0, 1, 2, 4, 8, 16];
 
 /// Cut-offs that are tried: the default's multiples, and none but the smallest, since a scene of much glass
 /// has twice the rays with each generation.

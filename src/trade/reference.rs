@@ -52,12 +52,14 @@ pub struct ReferenceGoal {
     pub until: Instant,
 }
 
-/// How far the light of a reference is from the truth, as its two halves tell: by half of what these differ.
-/// The points of the sampling sequence are spread so that each half fills the gaps of the other: the mean of
-/// both is nearer to the truth than that.
+/// How far the light of a reference is from the truth at most, as its two halves tell: were they independent,
+/// their mean would be off by half of what they differ. The points of the sampling sequence are spread so that
+/// each half fills the gaps of the other, and the mean of both is nearer to the truth than that.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReferenceError {
-    /// The share of dots whose level is wrong, above 0 to 1. Where no dot differs, it is half a dot.
+    /// The share of dots whose level is wrong, above 0 to 1: half of those that differ from half to half, and
+    /// of these, since it is chance which dots lie at a border between levels, two standard deviations more
+    /// than there are, which is twice the root of their number.
     pub wrong: f64,
     /// The root of the mean square, in twelfths of white's CIE L*.
     pub rms: f64,
@@ -67,9 +69,11 @@ impl ReferenceError {
     fn of(halves: [&MeanLight; 2], base: &Request) -> Self {
         let [a, b] = halves.map(|half| half.light.map(|light| shown(base.tone, *light)));
         let differ = |(a, b): &(&f64, &f64)| Level::nearest(**a) != Level::nearest(**b);
-        let different = a.values().iter().zip(b.values()).filter(differ).count();
+        // Where no dot differs, one of twice as many might have.
+        let different = a.values().iter().zip(b.values()).filter(differ).count() as f64;
+        let at_most = different + 2.0 * different.max(1.0).sqrt();
         Self {
-            wrong: different.max(1) as f64 / 2.0 / a.size().area().max(1) as f64,
+            wrong: (at_most / 2.0 / a.size().area().max(1) as f64).min(1.0),
             rms: rms(a.values(), b.values(), steps_apart) / 2.0,
         }
     }

@@ -2,20 +2,24 @@
 
 use std::fmt::Write;
 
-use crate::trade::{LogAxis, TradePlot};
+use super::plot::{LogAxis, TradePlot};
 
 /// Width and height, in pixels of a screen.
 const SIZE: [f64; 2] = [640.0, 400.0];
 /// Left, top, right and bottom of the field of marks.
 const FIELD: [f64; 4] = [60.0, 20.0, 620.0, 350.0];
 
-/// Log time across, log wrong levels up: a grid of half decades, the front as a line, a mark for each
-/// setting. Colours are those of the page that holds it, light or dark.
-pub fn drawn(plot: &TradePlot) -> String {
+/// The colour of lines and marks: middle gray, which shows on light pages and on dark ones.
+const INK: &str = "#808080";
+
+/// Log time across, log wrong levels up: a grid of half decades, the front as a line, and for each setting a
+/// mark: a large dot on the front, a small one where another beats it, a cross for another picture, and a
+/// ring around the request's own.
+pub fn svg(plot: &TradePlot) -> String {
     let [width, height] = SIZE;
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" \
-         height=\"{height}\" font-family=\"sans-serif\" font-size=\"12\" fill=\"currentColor\" \
+         height=\"{height}\" font-family=\"sans-serif\" font-size=\"12\" fill=\"{INK}\" stroke=\"none\" \
          stroke-width=\"1.5\">\n<title>Time of a picture against its wrong levels</title>\n"
     );
     grid(&mut svg, plot);
@@ -26,7 +30,7 @@ pub fn drawn(plot: &TradePlot) -> String {
     let line: String = plot.front.iter().map(|&place| at(place)).map(|(x, y)| format!("{x:.1},{y:.1} ")).collect();
     let _ = writeln!(
         svg,
-        "<polyline points=\"{}\" fill=\"none\" stroke=\"currentColor\" stroke-opacity=\"0.6\"/>",
+        "<polyline points=\"{}\" fill=\"none\" stroke=\"{INK}\" stroke-opacity=\"0.6\"/>",
         line.trim_end()
     );
     for (place, point) in plot.points.iter().enumerate() {
@@ -36,7 +40,7 @@ pub fn drawn(plot: &TradePlot) -> String {
             writeln!(
                 svg,
                 "<path d=\"M{left:.1} {above:.1}L{right:.1} {below:.1}M{left:.1} {below:.1}L{right:.1} {above:.1}\" \
-                 stroke=\"currentColor\" stroke-opacity=\"0.6\"/>"
+                 stroke=\"{INK}\" stroke-opacity=\"0.6\"/>"
             )
         } else {
             let radius = if plot.is_on_front(place) { 4.0 } else { 1.5 };
@@ -47,7 +51,7 @@ pub fn drawn(plot: &TradePlot) -> String {
         let (x, y) = at(0);
         let _ = writeln!(
             svg,
-            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"8\" fill=\"none\" stroke=\"currentColor\"/>"
+            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"8\" fill=\"none\" stroke=\"{INK}\"/>"
         );
     }
     svg.push_str("</svg>\n");
@@ -57,7 +61,7 @@ pub fn drawn(plot: &TradePlot) -> String {
 /// The lines of the half decades, their numbers, and what they are of.
 fn grid(svg: &mut String, plot: &TradePlot) {
     let [left, top, right, bottom] = FIELD;
-    let line = "stroke=\"currentColor\" stroke-opacity=\"0.2\"";
+    let line = "stroke=\"#808080\" stroke-opacity=\"0.3\"";
     for tick in plot.time.ticks() {
         let x = across(plot.time, tick.at);
         let _ = writeln!(svg, "<path d=\"M{x:.1} {top}V{bottom}\" {line}/>");
@@ -92,7 +96,7 @@ fn up(axis: LogAxis, value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trade::PlotPoint;
+    use crate::trade::plot::PlotPoint;
 
     #[test]
     fn each_setting_has_its_mark() {
@@ -103,7 +107,7 @@ mod tests {
             time: LogAxis { low: 0.0, high: 1.0 },
             wrong: LogAxis { low: 0.0, high: 1.0 },
         };
-        insta::assert_snapshot!(drawn(&plot));
-        assert!(drawn(&TradePlot::default()).ends_with("</svg>\n"));
+        insta::assert_snapshot!(svg(&plot));
+        assert!(svg(&TradePlot::default()).ends_with("</svg>\n"));
     }
 }

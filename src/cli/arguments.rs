@@ -177,6 +177,9 @@ pub struct TradeArguments {
     /// many as it takes, and the time allows, to tell one percent of wrong levels apart, or --wrong]
     #[arg(long, value_name = "N", value_parser = values::rays, allow_hyphen_values = true)]
     pub rays: Option<u32>,
+    /// Measure these options too, against the picture of the others: "--samples 3 --depth 2"
+    #[arg(long, value_name = "OPTIONS", allow_hyphen_values = true)]
+    pub with: Option<String>,
     /// One line of JSON in place of the table
     #[arg(long, conflicts_with_all = ["format", "output", "within", "wrong"])]
     pub json: bool,

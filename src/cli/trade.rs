@@ -43,8 +43,10 @@ pub fn run(arguments: &TradeArguments) -> Result<(), CliError> {
     // A size in dots is that of a picture without characters.
     let wants = if arguments.picture.dots.is_some() { Wants::LIGHT } else { Wants::CELLS };
     let request = arguments.picture.request(&studio, arguments.picture.look(None), wants, Unsized::Screen)?;
+    let line = CommandLine::new(arguments, &request)?;
     let limits = SweepLimits {
         time: arguments.seconds,
+        also: arguments.with.as_deref().map(|words| line.setting(words)).transpose()?.into_iter().collect(),
         apart: arguments.wrong.map_or(APART, |wrong| wrong.min(APART)),
         rays: arguments.rays,
         eye: EyeDistance::default(),
@@ -58,7 +60,6 @@ pub fn run(arguments: &TradeArguments) -> Result<(), CliError> {
         tell("interrupted: this is what there is");
     }
 
-    let line = CommandLine::new(arguments, &request)?;
     let wish = Wish { within: arguments.within, error: arguments.wrong };
     if wish != Wish::default() {
         return answer(&sweep, &wish, &line);

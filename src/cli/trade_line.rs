@@ -11,6 +11,8 @@ use super::error::CliError;
 
 /// The command line of a trade, but for its knobs.
 pub struct CommandLine {
+    /// As it was given.
+    picture: PictureArguments,
     file: String,
     /// All options that are no knobs, each behind a blank.
     rest: String,
@@ -27,6 +29,7 @@ impl CommandLine {
         let bare = Setting { options: bare.options()?, glyphs: bare.look(None).glyphs };
         let skip = if arguments.scene.skip_unsupported { " --skip-unsupported" } else { "" };
         Ok(Self {
+            picture: picture.clone(),
             file: quoted(&arguments.scene.file),
             rest: format!("{skip}{}", rest(picture, request)),
             bare,
@@ -37,6 +40,15 @@ impl CommandLine {
     /// The options that make a setting, and nothing where it is what the program does by itself.
     pub fn options(&self, setting: &Setting) -> String {
         setting.arguments(&self.bare)
+    }
+
+    /// The setting that such options make.
+    pub fn setting(&self, options: &str) -> Result<Setting, CliError> {
+        let words = ["ray13"].into_iter().chain(options.split_whitespace());
+        let refused = |e: clap::Error| CliError::Arguments(format!("in --with: {e}").trim_end().to_owned());
+        let given = Arguments::try_parse_from(words).map_err(refused)?.viewer.picture;
+        let turned = PictureArguments { preset: self.picture.preset, ..given };
+        Ok(Setting { options: turned.options()?, glyphs: turned.look(None).glyphs })
     }
 
     /// Whether a setting is the one that was asked for.
@@ -56,10 +68,12 @@ impl CommandLine {
         format!("ray13 render {}{}", self.file, self.rest)
     }
 
-    /// The command that measures any setting again, up to its options: the same accuracy, with a reference of
-    /// as many rays.
+    /// The command that measures any setting again, up to its options in quotes: the same accuracy, against
+    /// the same reference of as many rays.
     pub fn measure_with(&self, rays: u32) -> String {
-        format!("ray13 trade {}{} --seconds 0 --rays {rays}", self.file, self.rest)
+        let own = self.options(&self.own);
+        let blank = if own.is_empty() { "" } else { " " };
+        format!("ray13 trade {}{}{blank}{own} --seconds 0 --rays {rays} --with", self.file, self.rest)
     }
 }
 
@@ -94,8 +108,7 @@ fn rest(picture: &PictureArguments, request: &Request) -> String {
     if let Some(dots) = picture.dots {
         put("dots", Some(format!("{}x{}", dots.width, dots.height)));
     } else if picture.preset.is_none() || picture.cells.is_some() {
-        let [across, down] =
-            [request.dots.width / per_cell.width, request.dots.height / per_cell.height];
+        let [across, down] = [request.dots.width / per_cell.width, request.dots.height / per_cell.height];
         put("cells", Some(format!("{across}x{down}")));
     }
     let camera = &picture.camera;
@@ -149,15 +162,33 @@ mod tests {
     #[test]
     fn a_command_line_says_all_that_was_given() {
         let given = [
-            "it's", "--cells", "20x10", "--view", "low", "--eye", "-1,2.5,3", "--zoom", "2", "--palette", "gray",
-            "--samples", "3", "--no-shadows", "--glyphs", "half",
+            "it's",
+            "--cells",
+            "20x10",
+            "--view",
+            "low",
+            "--eye",
+            "-1,2.5,3",
+            "--zoom",
+            "2",
+            "--palette",
+            "gray",
+            "--samples",
+            "3",
+            "--no-shadows",
+            "--glyphs",
+            "half",
         ];
         let line = line(&given);
         assert!(line.is_own(&line.own));
         let render = line.render(&line.own);
         let rest = r"'it'\''s' --cells 20x10 --view low --eye -1,2.5,3 --zoom 2 --palette gray";
-        assert_eq!(render, format!("ray13 render {rest} --samples 3 --no-shadows --glyphs half"));
-        assert_eq!(line.measure_with(64), format!("ray13 trade {rest} --seconds 0 --rays 64"));
+        let own = "--samples 3 --no-shadows --glyphs half";
+        assert_eq!(render, format!("ray13 render {rest} {own}"));
+        assert_eq!(line.measure_with(64), format!("ray13 trade {rest} {own} --seconds 0 --rays 64 --with"));
+        assert_eq!(line.setting(own).unwrap(), line.own);
+        assert_eq!(line.setting("").unwrap(), line.bare);
+        assert!(line.setting("--sample 3").is_err() && line.setting("--depth -1").is_err());
         assert_eq!(line.options(&line.bare), "");
     }
 

@@ -19,7 +19,8 @@ use super::trade_line::CommandLine;
 const PLOT: Rect = Rect::new(0, 0, 79, 20);
 
 /// The columns of the table.
-const HEAD: &str = "      time  spread    wrong     by 2   rms   max    hits   cells  seen  flicker  options\n";
+const HEAD: &str =
+    "      time  spread    wrong     by 2   rms   max    hits   cells  seen  flicker  options\n";
 
 /// All that is told of a sweep.
 pub struct Report<'a> {
@@ -58,7 +59,7 @@ impl Report<'_> {
         }
         let _ = write!(
             text,
-            "\nA picture of these: {}, with the options of a line.\nThe same accuracy again: {}, with them.\n",
+            "\nA picture of these: {}, with the options of a line.\nThe same accuracy again: {} \"…\", with them in quotes.\n",
             visible(&line.render_with()),
             visible(&line.measure_with(sweep.reference.rays())),
         );
@@ -87,7 +88,9 @@ impl Report<'_> {
             percent(error.wrong),
             error.rms,
             percent(self.limits.apart),
-            reference.shimmer().map_or(String::new(), |flicker| format!("It flickers by {flicker:.2} itself.\n")),
+            reference
+                .shimmer()
+                .map_or(String::new(), |flicker| format!("It flickers by {flicker:.2} itself.\n")),
         )
     }
 

@@ -258,8 +258,7 @@ mod tests {
     use super::*;
     use crate::plan::Options;
 
-    const DEFAULT: fn() -> Setting =
-        || Setting { options: Options::default(), glyphs: GlyphMode::default() };
+    const DEFAULT: fn() -> Setting = || Setting { options: Options::default(), glyphs: GlyphMode::default() };
 
     #[test]
     fn a_setting_says_what_differs() {

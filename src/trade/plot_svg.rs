@@ -27,7 +27,8 @@ pub fn svg(plot: &TradePlot) -> String {
         let point = &plot.points[place];
         (across(plot.time, point.time), up(plot.wrong, point.wrong))
     };
-    let line: String = plot.front.iter().map(|&place| at(place)).map(|(x, y)| format!("{x:.1},{y:.1} ")).collect();
+    let line: String =
+        plot.front.iter().map(|&place| at(place)).map(|(x, y)| format!("{x:.1},{y:.1} ")).collect();
     let _ = writeln!(
         svg,
         "<polyline points=\"{}\" fill=\"none\" stroke=\"{INK}\" stroke-opacity=\"0.6\"/>",
@@ -49,10 +50,7 @@ pub fn svg(plot: &TradePlot) -> String {
     }
     if !plot.points.is_empty() {
         let (x, y) = at(0);
-        let _ = writeln!(
-            svg,
-            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"8\" fill=\"none\" stroke=\"{INK}\"/>"
-        );
+        let _ = writeln!(svg, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"8\" fill=\"none\" stroke=\"{INK}\"/>");
     }
     svg.push_str("</svg>\n");
     svg
@@ -102,7 +100,11 @@ mod tests {
     fn each_setting_has_its_mark() {
         let point = |time, wrong| PlotPoint { time, wrong, is_another_picture: false };
         let plot = TradePlot {
-            points: vec![point(0.0, 1.0), point(1.0, 0.0), PlotPoint { is_another_picture: true, ..point(0.2, 0.9) }],
+            points: vec![
+                point(0.0, 1.0),
+                point(1.0, 0.0),
+                PlotPoint { is_another_picture: true, ..point(0.2, 0.9) },
+            ],
             front: vec![0, 1],
             time: LogAxis { low: 0.0, high: 1.0 },
             wrong: LogAxis { low: 0.0, high: 1.0 },

@@ -200,9 +200,11 @@ impl Reference {
         Accuracy {
             geometry: self.geometry_error(frame),
             light: self.light_error(&own),
-            characters: self.screen.as_ref().zip(frame.cells.as_deref()).map(|(screen, own)| {
-                screen.error(own, moved.and_then(cells).as_deref(), request.palette)
-            }),
+            characters: self
+                .screen
+                .as_ref()
+                .zip(frame.cells.as_deref())
+                .map(|(screen, own)| screen.error(own, moved.and_then(cells).as_deref(), request.palette)),
         }
     }
 

@@ -86,4 +86,3 @@ fn clamped(light: &Grid<f64>) -> Grid<f64> {
 fn apart(own: &Grid<f64>, other: &Grid<f64>) -> f64 {
     rms(own.values(), other.values(), steps_apart)
 }
-

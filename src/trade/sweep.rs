@@ -44,10 +44,12 @@ const LEAST_PICTURES: usize = 3;
 const MOST_PICTURES: usize = 99;
 
 /// How far a sweep goes.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct SweepLimits {
-    /// The time for all of it. Without any, only the request's own setting is measured.
+    /// The time for all of it. Without any, only the request's own setting is measured, and those of `also`.
     pub time: Duration,
+    /// Settings that are measured in any case.
+    pub also: Vec<Setting>,
     /// The difference between two settings that is to be told, as a share of dots with a wrong level, above
     /// 0 to 1.
     pub apart: f64,
@@ -125,6 +127,10 @@ impl Sweep {
         watch(SweepStep::Settings(0));
         // The request's own is measured whatever it takes.
         sweep.measure(&run, own);
+        for setting in limits.also.iter().filter(|setting| **setting != own) {
+            run.warm(setting);
+            sweep.measure(&run, *setting);
+        }
         if limits.time > Duration::ZERO {
             sweep.take(&run, own.alone(base), watch);
             sweep.refine(&run, watch);

@@ -26,7 +26,9 @@ pub struct TradePlotWidget<'a>(pub &'a TradePlot);
 impl TradePlotWidget<'_> {
     /// What the marks mean, in a line.
     pub fn legend() -> String {
-        format!("{OWN} as asked   {FRONT} on the front   {BEATEN} beaten   {OTHER} another picture, on purpose")
+        format!(
+            "{OWN} as asked   {FRONT} on the front   {BEATEN} beaten   {OTHER} another picture, on purpose"
+        )
     }
 }
 

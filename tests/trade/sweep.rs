@@ -18,13 +18,14 @@ fn base() -> (ray13::frame::Studio, Request) {
 }
 
 fn limits(time: Duration) -> SweepLimits {
-    SweepLimits { time, apart: 0.01, rays: Some(16), eye: EyeDistance::default() }
+    SweepLimits { time, also: Vec::new(), apart: 0.01, rays: Some(16), eye: EyeDistance::default() }
 }
 
 #[test]
 fn every_knob_is_turned_and_its_settings_are_told_from_others() {
     let (studio, base) = base();
-    let sweep = Sweep::new(&studio, &base, &limits(Duration::from_secs(600)), &AtomicBool::new(false), &mut |_| ());
+    let sweep =
+        Sweep::new(&studio, &base, &limits(Duration::from_secs(600)), &AtomicBool::new(false), &mut |_| ());
     assert!(!sweep.interrupted);
     let own = Setting::of(&base);
     assert_eq!(sweep.all[0].setting, own);
@@ -39,12 +40,16 @@ fn every_knob_is_turned_and_its_settings_are_told_from_others() {
     let others = sweep.all.iter().filter(|one| one.is_another_picture);
     let others: Vec<String> = others.map(|one| one.setting.arguments(&own)).collect();
     // The scene has no `world(k = …)`; so its models 1 and 2 are one.
-    assert!(["--shading 1", "--shading 2", "--shading 3", "--no-shadows", "--depth 0"]
-        .iter()
-        .all(|other| others.iter().any(|found| found == other)), "{others:?}");
+    assert!(
+        ["--shading 1", "--shading 2", "--shading 3", "--no-shadows", "--depth 0"]
+            .iter()
+            .all(|other| others.iter().any(|found| found == other)),
+        "{others:?}"
+    );
     let front = sweep.front();
     assert!(!front.is_empty());
-    let costs: Vec<_> = front.iter().map(|&place| (sweep.all[place].cost(), sweep.all[place].wrong())).collect();
+    let costs: Vec<_> =
+        front.iter().map(|&place| (sweep.all[place].cost(), sweep.all[place].wrong())).collect();
     assert!(costs.windows(2).all(|pair| pair[0].0 <= pair[1].0 && pair[0].1 > pair[1].1), "{costs:?}");
 }
 

@@ -12,7 +12,10 @@
 mod curves;
 mod losses;
 #[path = "../../benches/scenery/mod.rs"]
-#[expect(dead_code, reason = "of its shapes and spreads one is measured here, the others in benches/growth.rs")]
+#[expect(
+    dead_code,
+    reason = "of its shapes and spreads one is measured here, the others in benches/growth.rs"
+)]
 mod scenery;
 mod structures;
 

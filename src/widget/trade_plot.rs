@@ -98,7 +98,7 @@ mod tests {
                 point(0.1, 0.9),
                 point(1.4, -0.9),
                 point(1.0, 0.6),
-                PlotPoint { is_another_picture: true, ..point(0.05, 0.95) },
+                PlotPoint { is_another_picture: true, ..point(0.3, -0.5) },
             ],
             front: vec![1, 0, 2],
             time: LogAxis { low: 0.0, high: 1.5 },

@@ -93,12 +93,16 @@ fn answer(sweep: &Sweep, wish: &Wish, line: &CommandLine) -> Result<(), CliError
 fn nothing_meets(sweep: &Sweep, line: &CommandLine) -> String {
     let told = |place: usize| {
         let one = &sweep.all[place];
-        format!("{} and {} with `{}`", ms(one.cost()), percent(one.wrong()), line.options(&one.setting))
+        let options = match line.options(&one.setting) {
+            none if none.is_empty() => "without options".to_owned(),
+            some => format!("with `{some}`"),
+        };
+        format!("{} and {} of the levels wrong, {options}", ms(one.cost()), percent(one.wrong()))
     };
     let front = sweep.front();
     let ends = front.first().zip(front.last());
     let ends = ends.map_or(String::new(), |(&fastest, &best)| {
-        format!(": the fastest has {}, the most accurate {}", told(fastest), told(best))
+        format!(": the fastest has {}; the most accurate {}", told(fastest), told(best))
     });
     format!("no setting that was measured keeps to that{ends}")
 }

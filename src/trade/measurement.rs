@@ -24,8 +24,8 @@ pub struct Measurement {
 
 impl Measurement {
     /// Draws the picture of a setting twice, from the request's view and from that turned by a tenth of a
-    /// dot, and compares it. The first is timed; what it needs has to be built.
-    pub fn new(studio: &Studio, reference: &Reference, setting: Setting) -> Self {
+    /// dot, and compares it; `own` is that of the request's own setting. It has no times yet.
+    pub fn new(studio: &Studio, reference: &Reference, setting: Setting, own: Option<&Self>) -> Self {
         let base = reference.base();
         let request = setting.request(base);
         let all = Wants { cells: request.wants.cells, ..Wants::ALL };
@@ -34,7 +34,7 @@ impl Measurement {
         let accuracy = reference.accuracy(&request, &frame, moved.as_ref());
         // A scene without mirrors shows the same without mirror rays.
         let meant = setting.shows_another_picture(&Setting::of(base));
-        let differs = accuracy.light.levels.beyond(0) > 0;
+        let differs = own.is_some_and(|own| own.accuracy.light != accuracy.light);
         Self { setting, times: Times::default(), accuracy, is_another_picture: meant && differs }
     }
 

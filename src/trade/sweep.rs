@@ -184,7 +184,7 @@ impl Sweep {
     }
 
     fn measure(&mut self, run: &Run, setting: Setting) {
-        let mut one = Measurement::new(run.studio, &self.reference, setting);
+        let mut one = Measurement::new(run.studio, &self.reference, setting, self.all.first());
         one.time(run.studio, run.base);
         self.all.push(one);
     }

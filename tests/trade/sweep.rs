@@ -8,7 +8,7 @@ use ray13::math::Size;
 use ray13::plan::Options;
 use ray13::trade::{EyeDistance, KNOBS, Setting, Sweep, SweepLimits, SweepStep};
 
-use super::{inside, picture};
+use super::{given, inside, picture};
 
 /// A picture of eight by four cells: a sweep of all knobs is done long before its time is over.
 fn base() -> (ray13::frame::Studio, Request) {
@@ -51,6 +51,16 @@ fn every_knob_is_turned_and_its_settings_are_told_from_others() {
     let costs: Vec<_> =
         front.iter().map(|&place| (sweep.all[place].cost(), sweep.all[place].wrong())).collect();
     assert!(costs.windows(2).all(|pair| pair[0].0 <= pair[1].0 && pair[0].1 > pair[1].1), "{costs:?}");
+}
+
+/// Without mirrors and shadows to lose, their switches change nothing, and are no other picture.
+#[test]
+fn what_a_scene_does_not_have_is_no_other_picture() {
+    let studio = given("material(ks = 0) sphere(1);");
+    let base = picture(&studio, Size::new(16, 16));
+    let sweep =
+        Sweep::new(&studio, &base, &limits(Duration::from_secs(600)), &AtomicBool::new(false), &mut |_| ());
+    assert!(sweep.all.len() > 10 && sweep.all.iter().all(|one| !one.is_another_picture));
 }
 
 /// Whatever its time, a setting's accuracy is the same.

@@ -30,6 +30,9 @@ fn request(studio: &Studio, view: usize, options: Options) -> Request {
     }
 }
 
+/// A choice by its name, made of the best.
+type Row = (&'static str, fn(Options) -> Options);
+
 /// The largest loss over the views of each scene, by each choice against the best.
 pub fn table() -> Result<String, Box<dyn Error>> {
     let deep = Options {
@@ -38,7 +41,6 @@ pub fn table() -> Result<String, Box<dyn Error>> {
         precision: PrecisionChoice::Double,
         ..Options::default()
     };
-    type Row = (&'static str, fn(Options) -> Options);
     let rows: [Row; 11] = [
         ("`--depth 5`", |deep| Options { depth: 5, ..deep }),
         ("`--depth 8`", |deep| Options { depth: 8, ..deep }),

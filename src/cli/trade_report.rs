@@ -38,7 +38,9 @@ impl Report<'_> {
         let section = |text: &mut String, title: &str, places: &[usize]| {
             if !places.is_empty() {
                 let _ = write!(text, "\n{title}\n{HEAD}");
-                places.iter().for_each(|&place| text.push_str(&self.row(&sweep.all[place])));
+                for &place in places {
+                    text.push_str(&self.row(&sweep.all[place]));
+                }
             }
         };
         section(&mut text, "The front: whatever is faster than one of these has more wrong levels", &front);
@@ -97,7 +99,8 @@ impl Report<'_> {
     fn row(&self, one: &Measurement) -> String {
         let Accuracy { geometry, light, characters } = &one.accuracy;
         let [low, high] = one.times.middle_half();
-        let spread = (high - low).as_secs_f64() / 2.0 / one.cost().as_secs_f64().max(f64::MIN_POSITIVE);
+        let spread =
+            (high.as_secs_f64() - low.as_secs_f64()) / 2.0 / one.cost().as_secs_f64().max(f64::MIN_POSITIVE);
         let or_dash = |value: Option<String>| value.unwrap_or_else(|| "–".to_owned());
         let own = if self.line.is_own(&one.setting) { "(as asked) " } else { "" };
         let row = format!(

@@ -27,7 +27,7 @@ impl MeanLight {
 
     /// The mean of both, which are of as many rays.
     pub fn with(&self, other: &Self) -> Self {
-        let light = means(self.light.values(), other.light.values(), |a, b| f64::midpoint(a, b));
+        let light = means(self.light.values(), other.light.values(), f64::midpoint);
         let color = self.color.as_ref().zip(other.color.as_ref());
         Self {
             light: Arc::new(Grid::from_values(self.light.size(), light)),

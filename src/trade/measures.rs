@@ -18,7 +18,7 @@ pub(super) fn ulps(a: f64, b: f64) -> u64 {
     }
     // The bits of numbers of one sign are in their order; below 0 it is the other way round.
     let place = |x: f64| {
-        let magnitude = (x.abs().to_bits()) as i64;
+        let magnitude = x.abs().to_bits().cast_signed();
         if x.is_sign_negative() { -magnitude } else { magnitude }
     };
     place(a).abs_diff(place(b))

@@ -12,7 +12,7 @@ use super::{inside, picture, reference};
 fn the_claimed_error_holds() {
     for scene in embedded() {
         let studio = inside(scene.name);
-        let base = picture(&studio, Size::new(80, 48));
+        let base = picture(&studio, Size::new(64, 40));
         let [few, many] = [8, 128].map(|rays| reference(&studio, &base, rays));
         assert_eq!((few.rays(), many.rays()), (8, 128));
         let wrong = LevelDifference::between(few.levels(), many.levels()).unwrap();

@@ -50,7 +50,8 @@ pub fn table() -> Result<String, Box<dyn Error>> {
     let mut table = "| objects | none, ray | lattice: build | memory | ray | tree: build | memory | ray \
         | boxes: build | memory | ray |\n|---|---|---|---|---|---|---|---|---|---|---|\n"
         .to_owned();
-    let mut first_win = [[None; 4]; 4];
+    // Of each two the first number of objects since which the one wins always.
+    let mut wins_from = [[None; 4]; 4];
     for objects in OBJECTS {
         eprintln!("  {objects} spheres");
         let cuts = cuts(objects)?;
@@ -70,18 +71,17 @@ pub fn table() -> Result<String, Box<dyn Error>> {
         table.push('\n');
         for own in 0..4 {
             for other in 0..4 {
-                let pair = cuts[own].zip(cuts[other]);
-                if first_win[own][other].is_none()
-                    && pair.is_some_and(|(own, other)| own.ray < 0.95 * other.ray)
-                {
-                    first_win[own][other] = Some(objects);
+                if let Some((one, two)) = cuts[own].zip(cuts[other]).filter(|(_, two)| !two.ray.is_nan()) {
+                    let wins = one.ray < 0.95 * two.ray;
+                    let from = wins_from[own][other].unwrap_or(objects);
+                    wins_from[own][other] = wins.then_some(from);
                 }
             }
         }
     }
     table.push_str("\nA ray is faster, by a twentieth or more, from so many objects on:\n\n| | than none | than the lattice | than the tree |\n|---|---|---|---|\n");
     for own in 1..4 {
-        let cell = |other: usize| first_win[own][other].map_or("–".to_owned(), |n: u64| n.to_string());
+        let cell = |other: usize| wins_from[own][other].map_or("–".to_owned(), |n: u64| n.to_string());
         let name = STRUCTURES[own].name();
         writeln!(table, "| {name} | {} | {} | {} |", cell(0), cell(1), cell(2))?;
     }
@@ -96,9 +96,6 @@ fn cuts(objects: u64) -> Result<[Option<Cut>; 4], Box<dyn Error>> {
     out.flush()?;
     let mut cuts = [None; 4];
     for (cut, structure) in cuts.iter_mut().zip(STRUCTURES) {
-        if structure == StructureChoice::None && objects > MOST_FOR_NONE {
-            continue;
-        }
         let measured = Command::new(std::env::current_exe()?)
             .args([MEASURE])
             .arg(&file)
@@ -117,8 +114,8 @@ fn cuts(objects: u64) -> Result<[Option<Cut>; 4], Box<dyn Error>> {
     Ok(cuts)
 }
 
-/// Measures one structure and prints seconds of building, bytes of memory and nanoseconds of a ray; nothing
-/// where its lattice would be too large.
+/// Measures one structure and prints seconds of building, bytes of memory and nanoseconds of a ray, which is
+/// not known where that takes minutes; nothing where its lattice would be too large.
 pub fn measure(file: &str, structure: &str) -> Result<(), Box<dyn Error>> {
     let structure =
         STRUCTURES.into_iter().find(|choice| choice.name() == structure).ok_or("no such structure")?;
@@ -142,6 +139,10 @@ pub fn measure(file: &str, structure: &str) -> Result<(), Box<dyn Error>> {
         palette: Palette::DOS,
         tone: Tone::Lightness,
     };
+    if structure == StructureChoice::None && studio.scene().objects.len() as u64 > MOST_FOR_NONE {
+        println!("0 {} NaN", peak_memory().ok_or("no /proc")?);
+        return Ok(());
+    }
     let first = studio.draw_anew(&request);
     if first.over_budget.is_some() {
         return Ok(());
@@ -154,9 +155,10 @@ pub fn measure(file: &str, structure: &str) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// A time of nanoseconds to two or three digits.
+/// A time of nanoseconds to two or three digits; – where it is not known.
 fn nanoseconds(time: f64) -> String {
     match time {
+        _ if time.is_nan() => "–".to_owned(),
         _ if time < 1e3 => format!("{time:.0} ns"),
         _ if time < 1e5 => format!("{:.1} µs", time / 1e3),
         _ if time < 1e6 => format!("{:.0} µs", time / 1e3),

@@ -199,10 +199,20 @@ impl Setting {
         KNOBS.iter().any(|knob| (knob.another_picture)(self, base))
     }
 
-    /// The settings that differ from this one by a single knob, which is that of the request.
+    /// The settings that differ from this one by a single knob, which is that of the request: of each knob one,
+    /// then of each another, so that any first few of them tell of all.
     pub fn alone(&self, base: &Request) -> Vec<Self> {
-        let others = KNOBS.iter().flat_map(|knob| (knob.others)(self, base));
-        others.filter(|other| other.is_possible() && other != self).collect()
+        let is_other = |other: &Self| other.is_possible() && other != self;
+        let of_each = KNOBS.iter().map(|knob| (knob.others)(self, base).into_iter().filter(is_other));
+        let mut of_each: Vec<_> = of_each.collect();
+        let mut all = Vec::new();
+        loop {
+            let before = all.len();
+            all.extend(of_each.iter_mut().filter_map(Iterator::next));
+            if all.len() == before {
+                return all;
+            }
+        }
     }
 
     /// Settings between two: one with a single knob as in the other, and for a knob of numbers that alone

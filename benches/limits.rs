@@ -18,7 +18,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
-use ray13::math::{Mask, Number, PACKET, ROWS, Ray, RayPacket, Rays};
+use ray13::math::{Mask, Number, PACKET, REGISTERS, Ray, RayPacket, Rays};
 use ray13::scene::Format;
 use ray13::solid::{Assembly, WorldShape};
 
@@ -124,7 +124,7 @@ fn measured<S: Simd>(simd: S, form: &WorldShape, packet: &RayPacket) -> f64 {
             }
         };
     }
-    of!(Ball, AxisBox, SkewBox, Round, Facets)
+    of!(Ball, AxisBox, SkewBox, Quadric, Facets)
 }
 
 #[inline(always)]
@@ -135,9 +135,9 @@ fn rows<S: Simd>(simd: S, packet: &RayPacket, spans: impl Fn(&Rays<f64x8<S>>) ->
             #[inline(always)]
             || {
                 let mut sum = f64x8::splat(simd, 0.0);
-                for _ in 0..ROUNDS / ROWS {
+                for _ in 0..ROUNDS / REGISTERS {
                     let packet = black_box(packet);
-                    for row in 0..ROWS {
+                    for row in 0..REGISTERS {
                         sum += spans(&packet.load(simd, row));
                     }
                 }
@@ -145,7 +145,7 @@ fn rows<S: Simd>(simd: S, packet: &RayPacket, spans: impl Fn(&Rays<f64x8<S>>) ->
             },
         );
     });
-    time / (ROUNDS / ROWS * ROWS) as f64
+    time / (ROUNDS / REGISTERS * REGISTERS) as f64
 }
 
 /// The least time of many, in nanoseconds.

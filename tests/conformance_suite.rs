@@ -55,8 +55,8 @@ macro_rules! conformance {
             }
 
             #[test]
-            fn frustums_at_any_distance() {
-                distance::at_any_distance::<$subject>("frustum", &solids::FRUSTUM, false);
+            fn truncated_cones_at_any_distance() {
+                distance::at_any_distance::<$subject>("truncated cone", &solids::TRUNCATED_CONE, false);
             }
 
             #[test]

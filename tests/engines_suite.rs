@@ -3,14 +3,17 @@
 //! same.
 
 mod support {
+    pub mod agreement;
     pub mod anything;
     pub mod beside;
+    pub mod cases;
     pub mod request;
     pub mod same;
     pub mod scenery;
 }
 
 mod engines {
+    mod events;
     mod glass;
     mod lamps;
     mod random;

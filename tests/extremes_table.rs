@@ -2,12 +2,12 @@
 //! `docs/numerics.md` and draws its picture:
 //! `cargo run --release --example extremes [docs/pictures/extremes.png]`.
 
-#[allow(dead_code, unused_imports, reason = "the tests ask more of it than this example does")]
+#[expect(dead_code, unused_imports, reason = "the tests ask more of it than this example does")]
 mod support {
     pub mod oracle;
 }
 
-#[allow(dead_code, reason = "as above")]
+#[expect(dead_code, reason = "as above")]
 mod conformance {
     pub mod aim;
     pub mod chance;

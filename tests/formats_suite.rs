@@ -1,6 +1,7 @@
 //! Files as programs and people write them: what they hold, what is wrong with them, and what they cost.
 
 mod support {
+    pub mod agreement;
     pub mod beside;
     pub mod cases;
     pub mod oracle;

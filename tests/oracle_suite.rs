@@ -2,10 +2,11 @@
 //! missed by the other, and depths agree to nine digits.
 
 mod support {
-    pub mod agreement;
     pub mod anything;
     pub mod beside;
+    pub mod cases;
     pub mod oracle;
+    pub mod oracle_agreement;
     pub mod rays;
     pub mod request;
     pub mod scenery;

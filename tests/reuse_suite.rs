@@ -2,9 +2,8 @@
 //! without.
 
 mod support {
+    pub mod agreement;
     pub mod request;
-    #[expect(dead_code, reason = "pictures are only compared here, by one engine")]
-    pub mod same;
     pub mod scenery;
 }
 

@@ -29,12 +29,8 @@ pub struct ViewerArguments {
     /// The scene: a file of the scene language, OpenSCAD's .csg or NFF, - for standard input, or the name of
     /// an embedded scene
     pub file: Option<String>,
-    /// Leave out what OpenSCAD can show and ray13 can not (the viewer always does)
-    #[arg(long)]
-    pub skip_unsupported: bool,
-    /// Memory that the scene may take, as in 500MiB or 2GiB [default: half of the machine's]
-    #[arg(long, value_name = "BYTES", value_parser = values::bytes)]
-    pub memory: Option<u64>,
+    #[command(flatten)]
+    pub reading: ReadingArguments,
     #[command(flatten)]
     pub picture: PictureArguments,
 }
@@ -73,16 +69,23 @@ pub enum Command {
     },
 }
 
+/// How a scene is read.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct ReadingArguments {
+    /// Leave out what OpenSCAD can show and ray13 can not (the viewer always does)
+    #[arg(long)]
+    pub skip_unsupported: bool,
+    /// Memory that a scene may take, as in 500MiB or 2GiB [default: half of the machine's]
+    #[arg(long, value_name = "BYTES", value_parser = values::bytes)]
+    pub memory: Option<u64>,
+}
+
 #[derive(Clone, Debug, Args)]
 pub struct SceneArguments {
     /// The scene: a file, - for standard input, or the name of an embedded scene
     pub file: String,
-    /// Leave out what OpenSCAD can show and ray13 can not
-    #[arg(long)]
-    pub skip_unsupported: bool,
-    /// Memory that the scene may take, as in 500MiB or 2GiB [default: half of the machine's]
-    #[arg(long, value_name = "BYTES", value_parser = values::bytes)]
-    pub memory: Option<u64>,
+    #[command(flatten)]
+    pub reading: ReadingArguments,
 }
 
 #[derive(Clone, Debug, Args)]
@@ -137,12 +140,8 @@ pub struct ComparisonArguments {
     /// Dots may differ by so many of the 13 levels
     #[arg(long, value_name = "LEVELS", value_parser = clap::value_parser!(u8).range(0..=12), default_value = "0")]
     pub tolerance: u8,
-    /// Leave out what OpenSCAD can show and ray13 can not
-    #[arg(long)]
-    pub skip_unsupported: bool,
-    /// Memory that a scene may take, as in 500MiB or 2GiB [default: half of the machine's]
-    #[arg(long, value_name = "BYTES", value_parser = values::bytes)]
-    pub memory: Option<u64>,
+    #[command(flatten)]
+    pub reading: ReadingArguments,
     #[command(flatten)]
     pub picture: PictureArguments,
 }

@@ -26,7 +26,7 @@ const TURN: f64 = 5.0;
 pub fn run(arguments: &BenchArguments) -> Result<(), CliError> {
     input::say(&effects::check(&arguments.picture, effects::Presentation::Cells)?);
     let reading = Instant::now();
-    let scene = input::read(&arguments.scene.file, arguments.scene.skip_unsupported, arguments.scene.memory)?;
+    let scene = input::read(&arguments.scene.file, &arguments.scene.reading)?;
     input::say(&scene.notes);
     let read = reading.elapsed();
     let studio = input::studio(scene)?;

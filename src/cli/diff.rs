@@ -1,12 +1,10 @@
 //! Two pictures, compared.
 
-use crate::math::Grid;
-use crate::tone::Level;
 use crate::trade::LevelDifference;
 
 use super::arguments::DiffArguments;
 use super::error::{CliError, visible};
-use super::levels;
+use super::levels::{self, Source};
 use super::write::print;
 use super::{effects, input, marked};
 
@@ -14,16 +12,23 @@ use super::{effects, input, marked};
 /// cells marked and exit code 1.
 pub fn run(arguments: &DiffArguments) -> Result<(), CliError> {
     let comparison = &arguments.comparison;
-    input::say(&effects::check(&comparison.picture, effects::Presentation::Cells)?);
+    input::say(&effects::check(&comparison.picture, effects::Presentation::Marked)?);
     let (before, after) = (&*arguments.before, &*arguments.after);
-    let kept = [levels::read(before)?, levels::read(after)?];
-    let like = kept.iter().flatten().next().map(Grid::size);
-    let [before_kept, after_kept] = kept;
-    let drawn = |kept: Option<Grid<Level>>, file: &str| match kept {
-        Some(levels) => Ok(levels),
-        None => comparison.levels(&comparison.studio(file)?, None, like),
+    let sources = [levels::read(before)?, levels::read(after)?];
+    let like = sources.iter().find_map(|source| match source {
+        Source::Levels(levels) => Some(levels.size()),
+        Source::Bytes(_) | Source::Name => None,
+    });
+    let drawn = |source: Source, file: &str| {
+        let studio = match source {
+            Source::Levels(levels) => return Ok(levels),
+            Source::Bytes(bytes) => comparison.studio(file, Some(&bytes))?,
+            Source::Name => comparison.studio(file, None)?,
+        };
+        comparison.levels(&studio, None, like)
     };
-    let (reference, own) = (drawn(before_kept, before)?, drawn(after_kept, after)?);
+    let [before_source, after_source] = sources;
+    let (reference, own) = (drawn(before_source, before)?, drawn(after_source, after)?);
     let Some(difference) = LevelDifference::between(&own, &reference) else {
         let (own, reference) = (levels::dots(&own), levels::dots(&reference));
         return Err(CliError::Input(format!(
@@ -37,6 +42,6 @@ pub fn run(arguments: &DiffArguments) -> Result<(), CliError> {
     if difference.beyond(comparison.tolerance) == 0 {
         return print(format!("{summary}\n").as_bytes());
     }
-    print(&marked::picture(&own, &reference, comparison.tolerance)?)?;
+    print(&marked::picture(&own, &reference, comparison.marking())?)?;
     Err(CliError::Different(summary))
 }

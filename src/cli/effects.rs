@@ -15,6 +15,8 @@ pub enum Presentation {
     Viewer,
     /// Characters that are counted or planned, and not written.
     Cells,
+    /// Levels that are compared, and shown where they differ with that marked.
+    Marked,
     /// A file or standard output.
     Still(Still),
 }
@@ -59,7 +61,7 @@ const fn row(option: &'static str, verdict: Verdict, holds: fn(&Given) -> bool, 
 
 /// The viewer's lines come when it has ended, too late to change anything: what it does not follow is
 /// refused.
-const ROWS: [Row; 28] = [
+const ROWS: [Row; 30] = [
     row("cells", Refused, |g| g.is_viewer() && g.picture.cells.is_some(), FILLS),
     row("dots", Refused, |g| g.is_viewer() && g.picture.dots.is_some(), FILLS),
     row(
@@ -124,6 +126,18 @@ const ROWS: [Row; 28] = [
         Said,
         |g| g.shows_colours() && g.is_ink() && g.palette(&[PaletteName::Mono, PaletteName::Color]),
         "braille and ascii are ink alone; --palette color has its colours",
+    ),
+    row(
+        "palette",
+        Said,
+        |g| g.is_marked() && g.palette(&[PaletteName::Mono, PaletteName::Color]),
+        "what differs is shown in the terminal's own ink",
+    ),
+    row(
+        "no-invert",
+        Said,
+        |g| g.is_marked() && g.picture.no_invert,
+        "no terminal is asked for its background",
     ),
     row(
         "invert",
@@ -191,6 +205,10 @@ pub fn check(picture: &PictureArguments, shown: Presentation) -> Result<Vec<Stri
 }
 
 impl Given<'_> {
+    fn is_marked(&self) -> bool {
+        matches!(self.shown, Presentation::Marked)
+    }
+
     fn is_viewer(&self) -> bool {
         matches!(self.shown, Presentation::Viewer)
     }
@@ -198,7 +216,7 @@ impl Given<'_> {
     fn still(&self) -> Option<Still> {
         match self.shown {
             Presentation::Still(still) => Some(still),
-            Presentation::Viewer | Presentation::Cells => None,
+            Presentation::Viewer | Presentation::Cells | Presentation::Marked => None,
         }
     }
 

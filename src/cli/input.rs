@@ -12,27 +12,29 @@ use crate::scene::{
 };
 use crate::stage::Progress;
 
+use super::arguments::ReadingArguments;
 use super::diagnostics;
 use super::error::{CliError, tell, visible};
 use super::memory;
 use super::terminal::capabilities;
 
 /// Reads a scene: a file, `-` for standard input, or an embedded scene where there is no file of that name.
-///
-/// `memory` is how many bytes it may take, where that is said.
-pub fn read(file: &str, skip_unsupported: bool, memory: Option<u64>) -> Result<Scene, CliError> {
-    read_watched(file, skip_unsupported, memory, None)
+pub fn read(file: &str, reading: &ReadingArguments) -> Result<Scene, CliError> {
+    read_watched(file, reading, None)
+}
+
+/// Reads a scene of which the bytes are here already; `file` is where they are from.
+pub fn read_bytes(file: &str, bytes: &[u8], reading: &ReadingArguments) -> Result<Scene, CliError> {
+    scene::read(file, bytes, &options(reading, None)).map_err(|e| no_scene(file, &e))
 }
 
 /// The same, where `progress` says how far this is.
 pub fn read_watched(
     file: &str,
-    skip_unsupported: bool,
-    memory: Option<u64>,
+    reading: &ReadingArguments,
     progress: Option<Progress>,
 ) -> Result<Scene, CliError> {
-    let memory = memory.or_else(memory::half_of_all);
-    let options = &ReadOptions { skip_unsupported, progress, memory, ..ReadOptions::default() };
+    let options = &options(reading, progress);
     if file == "-" {
         let mut bytes = Vec::new();
         let limited = std::io::stdin().lock().take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes);
@@ -41,18 +43,29 @@ pub fn read_watched(
     }
     match scene::read_file(Path::new(file), options) {
         Ok(scene) => Ok(scene),
-        Err(ReadError::Content(diagnostics)) => Err(match foreign(file) {
-            Some(format) => CliError::Input(format!(
-                "{file} looks like {format}, which ray13 does not read: give it a scene or OpenSCAD's .csg"
-            )),
-            None => rendered(&diagnostics),
-        }),
+        Err(ReadError::Content(diagnostics)) => Err(no_scene(file, &diagnostics)),
         Err(error @ ReadError::File { .. }) => match named(file) {
             Some(inside) => {
                 scene::read(inside.name, inside.text.as_bytes(), options).map_err(|e| rendered(&e))
             }
             None => Err(CliError::Scene(visible(&format!("{error}{}", embedded_names(file))))),
         },
+    }
+}
+
+fn options(reading: &ReadingArguments, progress: Option<Progress>) -> ReadOptions {
+    let ReadingArguments { skip_unsupported, memory } = *reading;
+    let memory = memory.or_else(memory::half_of_all);
+    ReadOptions { skip_unsupported, progress, memory, ..ReadOptions::default() }
+}
+
+/// Why a file is no scene, given what the reader says.
+fn no_scene(file: &str, diagnostics: &Diagnostics) -> CliError {
+    match foreign(file) {
+        Some(format) => CliError::Input(format!(
+            "{file} looks like {format}, which ray13 does not read: give it a scene or OpenSCAD's .csg"
+        )),
+        None => rendered(diagnostics),
     }
 }
 

@@ -20,9 +20,13 @@ use super::render::{refuse_over_budget, say_nothing};
 const CELLS: Size = Size::new(80, 25);
 
 impl ComparisonArguments {
-    /// Reads a scene and says what was left out.
-    pub fn studio(&self, file: &str) -> Result<Studio, CliError> {
-        let scene = input::read(file, self.skip_unsupported, self.memory)?;
+    /// Reads a scene and says what was left out. `bytes` are what the file holds, where they are read
+    /// already: a pipe is read once.
+    pub fn studio(&self, file: &str, bytes: Option<&[u8]>) -> Result<Studio, CliError> {
+        let scene = match bytes {
+            Some(bytes) => input::read_bytes(file, bytes, &self.reading)?,
+            None => input::read(file, &self.reading)?,
+        };
         input::say(&scene.notes);
         input::studio(scene)
     }
@@ -64,11 +68,20 @@ pub fn dots(levels: &Grid<Level>) -> String {
     format!("{} × {}", levels.size().width, levels.size().height)
 }
 
-/// The picture of levels that a file holds; `None` where it is something else, as a scene, or is not there.
-/// One whose name ends in `.levels` has to hold one.
-pub fn read(file: &str) -> Result<Option<Grid<Level>>, CliError> {
+/// What a name stands for that is compared.
+pub enum Source {
+    /// A picture of levels.
+    Levels(Grid<Level>),
+    /// Something else, as a scene, with the bytes of the file.
+    Bytes(Vec<u8>),
+    /// No file that can be read: standard input, a scene inside the program, or nothing.
+    Name,
+}
+
+/// What a name stands for. A file whose name ends in `.levels` has to be there and to hold a picture.
+pub fn read(file: &str) -> Result<Source, CliError> {
     if file == "-" {
-        return Ok(None);
+        return Ok(Source::Name);
     }
     let is_named = Path::new(file).extension().is_some_and(|ending| ending == "levels");
     let failed = |e: &dyn std::fmt::Display| CliError::Input(format!("{}: {e}", visible(file)));
@@ -76,15 +89,15 @@ pub fn read(file: &str) -> Result<Option<Grid<Level>>, CliError> {
     let read = File::open(file).and_then(|source| source.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes));
     match read {
         Err(e) if is_named => return Err(failed(&e)),
-        Err(_) => return Ok(None),
+        Err(_) => return Ok(Source::Name),
         Ok(_) if bytes.len() as u64 > MAX_FILE_BYTES => {
             return Err(failed(&format!("it is larger than {MAX_FILE_BYTES} bytes")));
         }
         Ok(_) => {}
     }
     match read_levels(&bytes) {
-        Ok(levels) => Ok(Some(levels)),
-        Err(LevelsError::Character { .. } | LevelsError::Empty) if !is_named => Ok(None),
+        Ok(levels) => Ok(Source::Levels(levels)),
+        Err(LevelsError::Character { .. } | LevelsError::Empty) if !is_named => Ok(Source::Bytes(bytes)),
         Err(e) => Err(failed(&e)),
     }
 }

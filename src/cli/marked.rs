@@ -7,6 +7,7 @@ use crate::output;
 use crate::tone::{Level, Tone};
 use crate::trade::{LevelDifference, cells_apart};
 
+use super::arguments::ComparisonArguments;
 use super::error::CliError;
 use super::picture::no_color;
 use super::terminal;
@@ -21,6 +22,25 @@ const MARK: [Paint; 2] = [Paint::Indexed(16), Paint::Indexed(226)];
 
 /// Where the edge of a picture cuts a cell.
 const BLANK: Cell = Cell { glyph: ' ', ink: Paint::Terminal, paper: Paint::Terminal };
+
+/// How a picture is shown in which changes are marked.
+#[derive(Clone, Copy, Debug)]
+pub struct Marking {
+    /// Dots that differ by no more levels count as the same.
+    pub tolerance: u8,
+    /// Characters.
+    pub glyphs: GlyphMode,
+    /// What the terminal's own paper is taken for.
+    pub ground: Ground,
+}
+
+impl ComparisonArguments {
+    /// How changes are marked.
+    pub fn marking(&self) -> Marking {
+        let glyphs = self.picture.look(None).glyphs;
+        Marking { tolerance: self.tolerance, glyphs, ground: self.picture.ground() }
+    }
+}
 
 /// A line that says how many dots differ, and by how much.
 pub fn summary(difference: &LevelDifference, tolerance: u8) -> String {
@@ -37,15 +57,16 @@ pub fn summary(difference: &LevelDifference, tolerance: u8) -> String {
     format!("{changed} of {all} dots differ ({share:.2} %), in levels: {}{within}", by.join(", "))
 }
 
-/// The picture, where a cell of which a dot differs by more than `tolerance` has in place of its character by
-/// how many levels, as a digit of 1 to C.
-pub fn picture(own: &Grid<Level>, reference: &Grid<Level>, tolerance: u8) -> Result<Vec<u8>, CliError> {
-    let per_cell = GlyphMode::Blocks.dots_per_cell();
+/// The picture, where a cell of which a dot differs by more than is tolerated has in place of its character
+/// by how many levels, as a digit of 1 to C.
+pub fn picture(own: &Grid<Level>, reference: &Grid<Level>, marking: Marking) -> Result<Vec<u8>, CliError> {
+    let Marking { tolerance, glyphs, ground } = marking;
+    let per_cell = glyphs.dots_per_cell();
     let Size { width, height } = own.size();
     let smaller =
         width.div_ceil(per_cell.width * COLUMNS).max(height.div_ceil(per_cell.height * ROWS)).max(1);
     let light = shrunk(own, smaller);
-    let shown = compose(&light, GlyphMode::Blocks, Palette::Mono(Ground::Dark), Tone::Lightness);
+    let shown = compose(&light, glyphs, Palette::Mono(ground), Tone::Lightness);
     let apart = cells_apart(own, reference, Size::new(per_cell.width * smaller, per_cell.height * smaller));
     let is_colored = !no_color() && terminal::of_output().is_some_and(output::Capabilities::has_256_colors);
     let size = apart.size();
@@ -83,6 +104,8 @@ mod tests {
     use super::*;
     use crate::output::read_levels;
 
+    const PLAIN: Marking = Marking { tolerance: 0, glyphs: GlyphMode::Blocks, ground: Ground::Dark };
+
     fn grid(text: &str) -> Grid<Level> {
         read_levels(text.as_bytes()).unwrap()
     }
@@ -91,16 +114,32 @@ mod tests {
     fn changed_cells_say_by_how_much() {
         let rows = |row: &str| grid(&format!("{row}\n").repeat(8));
         let (own, reference) = (rows("CC00000"), rows("CC0030B"));
-        let text = String::from_utf8(picture(&own, &reference, 0).unwrap()).unwrap();
+        let marked =
+            |marking: Marking| String::from_utf8(picture(&own, &reference, marking).unwrap()).unwrap();
+        let text = marked(PLAIN);
         assert_eq!(text.lines().map(str::trim_end).collect::<Vec<_>>(), ["█ 3B", "█ 3B"]);
-        let text = String::from_utf8(picture(&own, &reference, 3).unwrap()).unwrap();
+        let text = marked(Marking { tolerance: 3, ..PLAIN });
         assert_eq!(text.lines().next().map(str::trim_end), Some("█  B"));
+    }
+
+    #[test]
+    fn the_picture_has_the_characters_and_the_paper_that_are_asked_for() {
+        let own = grid(&"0000CCCC\n".repeat(8));
+        let marked = |glyphs, ground| {
+            String::from_utf8(picture(&own, &own, Marking { glyphs, ground, ..PLAIN }).unwrap()).unwrap()
+        };
+        let [dark, light] = [Ground::Dark, Ground::Light].map(|ground| marked(GlyphMode::Ascii, ground));
+        let backward =
+            |text: &str| text.lines().map(|line| line.chars().rev().collect()).collect::<Vec<String>>();
+        assert!(dark.is_ascii() && dark != light, "{dark}{light}");
+        assert_eq!(backward(&dark), light.lines().collect::<Vec<_>>());
+        assert!(marked(GlyphMode::Braille, Ground::Dark).contains('\u{28ff}'));
     }
 
     #[test]
     fn large_pictures_are_shown_smaller() {
         let own = grid(&format!("{}\n", "C".repeat(1000)).repeat(100));
-        let text = String::from_utf8(picture(&own, &own, 0).unwrap()).unwrap();
+        let text = String::from_utf8(picture(&own, &own, PLAIN).unwrap()).unwrap();
         let widths: Vec<usize> = text.lines().map(|line| line.chars().count()).collect();
         assert!(widths.iter().all(|&width| width <= COLUMNS as usize), "{widths:?}");
     }

@@ -35,7 +35,7 @@ use crate::frame::Studio;
 use crate::scene::embedded;
 use crate::stage::Progress;
 
-use arguments::{Arguments, Command, SceneArguments, ViewerArguments};
+use arguments::{Arguments, Command, ReadingArguments, SceneArguments, ViewerArguments};
 use error::{CliError, tell, visible};
 use write::print;
 
@@ -76,7 +76,7 @@ fn command(arguments: Arguments) -> Result<(), CliError> {
 fn view(arguments: &ViewerArguments) -> Result<(), CliError> {
     let file = arguments.file.as_deref().unwrap_or(FIRST_SCENE);
     let picture = &arguments.picture;
-    let still = || render::still(file, arguments.skip_unsupported, arguments.memory, picture);
+    let still = || render::still(file, &arguments.reading, picture);
     let Some(terminal) = terminal::of_output() else { return still() };
     if !terminal.cursor {
         // Behind the still, which fills the screen: what stands before it scrolls away.
@@ -113,7 +113,8 @@ fn load(
     progress: &Progress,
 ) -> Result<(Studio, Settings), CliError> {
     // The viewer shows what it can, and says on the screen what it left out.
-    let scene = input::read_watched(file, true, arguments.memory, Some(progress.clone()))?;
+    let reading = ReadingArguments { skip_unsupported: true, ..arguments.reading };
+    let scene = input::read_watched(file, &reading, Some(progress.clone()))?;
     let studio = input::watched_studio(scene, progress.clone())?;
     let picture = &arguments.picture;
     let view = picture.camera.view_index(studio.scene())?;
@@ -134,7 +135,7 @@ fn load(
 
 /// Reads and validates only.
 fn check(arguments: &SceneArguments) -> Result<(), CliError> {
-    let scene = input::read(&arguments.file, arguments.skip_unsupported, arguments.memory)?;
+    let scene = input::read(&arguments.file, &arguments.reading)?;
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
     let (scene, count) =

@@ -115,7 +115,7 @@ pub enum EngineName {
     Auto,
     /// Rays side by side, in tiles, through boxes
     Fast,
-    /// One ray after the other: the reference, which the fast one asks where it is unsure
+    /// One ray after the other: the reference, which the fast one asks where it is uncertain
     Exact,
 }
 

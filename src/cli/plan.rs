@@ -20,7 +20,7 @@ use super::{effects, input};
 pub fn run(arguments: &PlanArguments) -> Result<(), CliError> {
     input::say(&effects::check(&arguments.picture, effects::Presentation::Cells)?);
     let reading = Instant::now();
-    let scene = input::read(&arguments.scene.file, arguments.scene.skip_unsupported, arguments.scene.memory)?;
+    let scene = input::read(&arguments.scene.file, &arguments.scene.reading)?;
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
     let read = reading.elapsed();

@@ -13,7 +13,7 @@ use crate::output::{self, Capabilities, Pixels};
 use crate::plan::PrecisionChoice;
 use crate::tone::Tone;
 
-use super::arguments::{PictureArguments, RawChannel, RenderArguments, StillFormat};
+use super::arguments::{PictureArguments, RawChannel, ReadingArguments, RenderArguments, StillFormat};
 use super::effects::{self, Still};
 use super::error::{CliError, tell};
 use super::picture::{Look, Unsized};
@@ -29,7 +29,7 @@ pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
     let notes = effects::check(&arguments.picture, effects::Presentation::Still(still))?;
     input::say(&notes);
     let reading = Instant::now();
-    let scene = input::read(&arguments.scene.file, arguments.scene.skip_unsupported, arguments.scene.memory)?;
+    let scene = input::read(&arguments.scene.file, &arguments.scene.reading)?;
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
     let read = reading.elapsed();
@@ -58,16 +58,11 @@ pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
 }
 
 /// One still on standard output, which is no terminal, or one without a cursor: characters only.
-pub fn still(
-    file: &str,
-    skip_unsupported: bool,
-    memory: Option<u64>,
-    picture: &PictureArguments,
-) -> Result<(), CliError> {
+pub fn still(file: &str, reading: &ReadingArguments, picture: &PictureArguments) -> Result<(), CliError> {
     let still = Still { format: StillFormat::Txt, channel: None, levels: false };
     let notes = effects::check(picture, effects::Presentation::Still(still))?;
     input::say(&notes);
-    let scene = input::read(file, skip_unsupported, memory)?;
+    let scene = input::read(file, reading)?;
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
     let look = look(picture, StillFormat::Txt, terminal::of_output());

@@ -4,15 +4,16 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use crate::frame::Studio;
 use crate::math::Grid;
 use crate::output;
 use crate::tone::Level;
 use crate::trade::LevelDifference;
 
-use super::arguments::SnapshotArguments;
+use super::arguments::{ComparisonArguments, SnapshotArguments};
 use super::error::{CliError, visible};
-use super::levels;
-use super::write::{Destination, print};
+use super::levels::{self, Source};
+use super::write::{Destination, SceneFiles, print};
 use super::{effects, input, marked};
 
 /// What became of one view.
@@ -33,7 +34,8 @@ enum Outcome {
 }
 
 /// Compares each view of each scene with its picture beside the file; with `--update` keeps what has changed.
-/// Exit code 1 where any differs or is missing.
+/// Exit code 1 where any differs or is missing, 2 where any can not be compared: the others are, all the
+/// same.
 pub fn run(arguments: &SnapshotArguments) -> Result<(), CliError> {
     let comparison = &arguments.comparison;
     if comparison.picture.camera.replaces_anything() {
@@ -42,62 +44,112 @@ pub fn run(arguments: &SnapshotArguments) -> Result<(), CliError> {
                 .to_owned(),
         ));
     }
-    input::say(&effects::check(&comparison.picture, effects::Presentation::Cells)?);
-    let mut pictures = Pictures::default();
+    input::say(&effects::check(&comparison.picture, effects::Presentation::Marked)?);
+    let mut tally = Tally::default();
     let mut scenes = Vec::new();
     for file in &arguments.files {
-        if !Path::new(file).is_file() {
-            return Err(CliError::Input(format!(
-                "{}: snapshots are kept beside a scene's file, and there is no file of that name",
-                visible(file)
-            )));
+        match opened(comparison, file) {
+            Ok((studio, views)) => scenes.push((file, studio, views)),
+            Err(error) => tally.fail(&error),
         }
-        let studio = comparison.studio(file)?;
-        let views = match comparison.picture.camera.view.clone() {
-            Some(view) => vec![Some(view)],
-            None => named_views(studio.scene().views.iter().map(|view| view.name.as_deref())),
-        };
-        scenes.push((studio, pictures.places(file, views)?));
+    }
+    let mut pictures = Pictures::default();
+    let mut places = Vec::new();
+    for (file, studio, views) in scenes {
+        places.push((studio, pictures.places(file, views)?));
     }
     // No picture takes the place of a scene, by whatever link.
-    for path in scenes.iter().flat_map(|(_, places)| places).map(|place| &place.path) {
-        for scene in &arguments.files {
-            Destination::File(path.clone()).check(scene)?;
-        }
+    let sources = SceneFiles::new(arguments.files.iter().map(String::as_str));
+    for place in places.iter().flat_map(|(_, places)| places) {
+        sources.check(&place.path)?;
     }
-    let (mut all, mut failed) = (0, 0);
-    for (studio, places) in &scenes {
-        for Place { path, view } in places {
-            let kept = kept(path, arguments.update)?;
-            let shown = comparison.levels(studio, view.as_deref(), kept.as_ref().map(Grid::size))?;
-            let outcome = compare(arguments, path, &shown, kept.as_ref())?;
-            let line = match &outcome {
-                Outcome::Same => "same",
-                Outcome::Written => "written",
-                Outcome::Different { how, .. } => how,
-                Outcome::Missing => "not kept yet, --update keeps it",
-            };
-            print(
-                format!(
-                    "{}: {line}
-",
-                    visible(&path.to_string_lossy())
-                )
-                .as_bytes(),
-            )?;
-            if let Outcome::Different { picture, .. } = &outcome {
-                print(picture)?;
+    for (studio, places) in &places {
+        for place in places {
+            match compared(arguments, studio, place) {
+                Ok(outcome) => tally.count(place, &outcome)?,
+                Err(error) => tally.fail(&error),
             }
-            all += 1;
-            failed += usize::from(matches!(outcome, Outcome::Different { .. } | Outcome::Missing));
         }
     }
-    if failed == 0 {
-        return Ok(());
+    tally.verdict()
+}
+
+/// A scene that snapshots are kept of, and the views that are.
+fn opened(comparison: &ComparisonArguments, file: &str) -> Result<(Studio, Vec<Option<String>>), CliError> {
+    if !Path::new(file).is_file() {
+        return Err(CliError::Input(format!(
+            "{}: snapshots are kept beside a scene's file, and there is no file of that name",
+            visible(file)
+        )));
     }
-    Err(CliError::Different(format!(
-        "{failed} of {all} pictures not as kept: where that is right, --update keeps what the scenes show now"
-    )))
+    let studio = comparison.studio(file, None)?;
+    let views = match comparison.picture.camera.view.clone() {
+        Some(view) => vec![Some(view)],
+        None => named_views(studio.scene().views.iter().map(|view| view.name.as_deref())),
+    };
+    Ok((studio, views))
+}
+
+/// Compares one view of a scene with what is kept of it.
+fn compared(arguments: &SnapshotArguments, studio: &Studio, place: &Place) -> Result<Outcome, CliError> {
+    let Place { path, view } = place;
+    let kept = kept(path, arguments.update)?;
+    let shown = arguments.comparison.levels(studio, view.as_deref(), kept.as_ref().map(Grid::size))?;
+    compare(arguments, path, &shown, kept.as_ref())
+}
+
+/// How many pictures there are of which kind.
+#[derive(Debug, Default)]
+struct Tally {
+    /// Compared.
+    all: usize,
+    /// Of those, different or not kept yet.
+    changed: usize,
+    /// Scenes and pictures that could not be compared.
+    broken: usize,
+}
+
+impl Tally {
+    /// Says what became of a view.
+    fn count(&mut self, place: &Place, outcome: &Outcome) -> Result<(), CliError> {
+        let line = match outcome {
+            Outcome::Same => "same",
+            Outcome::Written => "written",
+            Outcome::Different { how, .. } => how,
+            Outcome::Missing => "not kept yet, --update keeps it",
+        };
+        print(format!("{}: {line}\n", visible(&place.path.to_string_lossy())).as_bytes())?;
+        if let Outcome::Different { picture, .. } = outcome {
+            print(picture)?;
+        }
+        self.all += 1;
+        self.changed += usize::from(matches!(outcome, Outcome::Different { .. } | Outcome::Missing));
+        Ok(())
+    }
+
+    /// Says why something could not be compared.
+    fn fail(&mut self, error: &CliError) {
+        error.report();
+        self.broken += 1;
+    }
+
+    /// What all come to.
+    fn verdict(&self) -> Result<(), CliError> {
+        let Self { all, changed, broken } = self;
+        let changed = (*changed > 0).then(|| {
+            format!("{changed} of {all} pictures not as kept: where that is right, --update keeps what the scenes show now")
+        });
+        match (broken, changed) {
+            (0, None) => Ok(()),
+            (0, Some(changed)) => Err(CliError::Different(changed)),
+            (broken, changed) => {
+                let changed = changed.map_or_else(String::new, |changed| format!("; {changed}"));
+                Err(CliError::Input(format!(
+                    "{broken} of the scenes and pictures could not be compared{changed}"
+                )))
+            }
+        }
+    }
 }
 
 /// The picture that is kept in a file; `None` where there is none. One that is broken, as a merge leaves it,
@@ -109,8 +161,10 @@ fn kept(path: &Path, update: bool) -> Result<Option<Grid<Level>>, CliError> {
         return Ok(None);
     }
     match levels::read(&name) {
+        Ok(Source::Levels(levels)) => Ok(Some(levels)),
+        Ok(Source::Bytes(_) | Source::Name) => Ok(None),
         Err(_) if update => Ok(None),
-        read => read,
+        Err(error) => Err(error),
     }
 }
 
@@ -147,7 +201,7 @@ fn compare(
     }
     Ok(Outcome::Different {
         how: marked::summary(&difference, arguments.comparison.tolerance),
-        picture: marked::picture(shown, kept, arguments.comparison.tolerance)?,
+        picture: marked::picture(shown, kept, arguments.comparison.marking())?,
     })
 }
 

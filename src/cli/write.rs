@@ -1,5 +1,6 @@
 //! Where a picture is written to: standard output, or a file that is whole or as it was.
 
+use std::collections::HashSet;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -47,9 +48,7 @@ impl Destination {
         if !is_source {
             return Ok(());
         }
-        Err(CliError::Input(format!(
-            "{name} is the file that the scene is read from, and would be lost: give the picture another name"
-        )))
+        Err(lost(&name))
     }
 
     fn path(&self) -> Option<&Path> {
@@ -82,6 +81,56 @@ fn is_same(_: &fs::Metadata, _: &fs::Metadata) -> bool {
 
 fn is_same_path(a: &Path, b: &Path) -> bool {
     matches!((fs::canonicalize(a), fs::canonicalize(b)), (Ok(a), Ok(b)) if a == b && a.is_file())
+}
+
+/// The files that scenes are read from, of which none may be written. What each is is asked of the system
+/// once.
+#[derive(Debug, Default)]
+pub struct SceneFiles(HashSet<FileId>);
+
+impl SceneFiles {
+    /// Those of some scenes.
+    pub fn new<'s>(scenes: impl Iterator<Item = &'s str>) -> Self {
+        Self(scenes.filter_map(|scene| FileId::of(Path::new(scene))).collect())
+    }
+
+    /// Refuses a place that is one of them, by whatever link.
+    pub fn check(&self, place: &Path) -> Result<(), CliError> {
+        match FileId::of(place) {
+            Some(id) if self.0.contains(&id) => Err(lost(&place.display().to_string())),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// What is the same for all names of a file: its numbers, or its path where std tells none.
+#[derive(Debug, PartialEq, Eq, Hash)]
+#[cfg(unix)]
+struct FileId(u64, u64);
+
+#[derive(Debug, PartialEq, Eq, Hash)]
+#[cfg(not(unix))]
+struct FileId(PathBuf);
+
+impl FileId {
+    /// That of a file; `None` where there is none, or something else.
+    #[cfg(unix)]
+    fn of(path: &Path) -> Option<Self> {
+        use std::os::unix::fs::MetadataExt;
+        fs::metadata(path).ok().filter(fs::Metadata::is_file).map(|found| Self(found.dev(), found.ino()))
+    }
+
+    #[cfg(not(unix))]
+    fn of(path: &Path) -> Option<Self> {
+        fs::canonicalize(path).ok().filter(|path| path.is_file()).map(Self)
+    }
+}
+
+/// Why a picture is not written to a file.
+fn lost(name: &str) -> CliError {
+    CliError::Input(format!(
+        "{name} is the file that the scene is read from, and would be lost: give the picture another name"
+    ))
 }
 
 /// What standard output is, as far as the system tells.

@@ -149,7 +149,7 @@ mod tests {
     use crate::integrate::TileIntegrator;
     use crate::plan::{EngineChoice, Options};
     use crate::scene::{self, ReadOptions};
-    use crate::stage::{Counts, TileProbe};
+    use crate::stage::{Counts, Stopwatch};
     use crate::tone::Tone;
     use crate::view::tiles;
 
@@ -189,7 +189,7 @@ mod tests {
             let own = tiles(self.dots).into_iter().skip(self.first).step_by(2);
             own.map(|tile| {
                 let mut finished = FinishedTile::new(self.wants);
-                renderer.render(&tile, TileProbe::Silent, &mut memory, &mut finished);
+                renderer.render(&tile, Stopwatch::still(), &mut memory, &mut finished);
                 finished
             })
             .collect()

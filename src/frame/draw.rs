@@ -11,7 +11,7 @@ use crate::integrate::TileIntegrator;
 use crate::math::{DVec3, Grid};
 use crate::plan::Channels;
 use crate::shade::Channel;
-use crate::stage::{Counts, Progress, Stage, StageTimes, Task, TileProbe};
+use crate::stage::{Counts, Progress, Stage, StageTimes, Stopwatch, Task};
 use crate::view::{TILE, Tile, tiles};
 
 use super::assemble::PictureDots;
@@ -160,7 +160,7 @@ impl<C: Channel> Work<C> for Whole<'_> {
             // Behind a pointer: it is large, and handed on with every tile.
             let mut worker = taken.unwrap_or_else(|| Box::new((renderer.memory(), FinishedTile::new(wants))));
             let (memory, finished) = &mut *worker;
-            let watch = if is_timed(&tile) { TileProbe::timed(Stage::Ray) } else { TileProbe::Silent };
+            let watch = if is_timed(&tile) { Stopwatch::start(Stage::Ray) } else { Stopwatch::still() };
             renderer.render(&tile, watch, memory, finished);
             picture.take(finished);
             let measured = (finished.counts, finished.times);

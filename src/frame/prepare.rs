@@ -84,7 +84,7 @@ impl Prepared<'_> {
             assembly,
             pinhole: &self.pinhole,
             eye,
-            way: farthest(eye, &assembly.limit),
+            longest_path: farthest(eye, &assembly.limit),
             samples: self.samples.clone(),
             hits: self.hits,
             spare: &self.studio.spare,

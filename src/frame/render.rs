@@ -7,7 +7,7 @@ use crate::integrate::{TileHits, TileIntegrator, TilePass};
 use crate::math::DVec3;
 use crate::shade::Channel;
 use crate::solid::Assembly;
-use crate::stage::{Meter, Probe, TileProbe};
+use crate::stage::{Meter, Probe, Stopwatch};
 use crate::view::{PinholeCamera, PointPacket, Tile, TileCamera, TileRays, sample_point};
 
 use super::finished_tile::FinishedTile;
@@ -24,7 +24,7 @@ pub(super) struct TileRenderer<'a, I> {
     /// Where rays start, in the assembly's coordinates.
     pub eye: DVec3,
     /// To the farthest point of the world, in the assembly's unit.
-    pub way: f64,
+    pub longest_path: f64,
     /// The numbers of the samples ([`sample_point`]) whose mean is the light of a dot; one at least.
     pub samples: Range<u32>,
     /// By tile: what the rays through the middles of its dots meet, where that is kept.
@@ -60,7 +60,7 @@ impl<I> TileRenderer<'_, I> {
     pub fn render<C: Channel>(
         &self,
         tile: &Tile,
-        watch: TileProbe,
+        watch: Stopwatch,
         memory: &mut RenderMemory<I::Memory, C>,
         finished: &mut FinishedTile<C>,
     ) where
@@ -137,8 +137,8 @@ impl<I> TileRenderer<'_, I> {
     }
 
     fn camera<'r>(&'r self, tile: &Tile, rays: TileRays<'r>) -> TileCamera<'r> {
-        let Self { pinhole, eye, way, .. } = *self;
-        TileCamera { pinhole, tile: *tile, rays, eye, path: way }
+        let Self { pinhole, eye, longest_path, .. } = *self;
+        TileCamera { pinhole, tile: *tile, rays, eye, longest_path }
     }
 
     /// Takes over what the dots saw in the last pass.

@@ -12,7 +12,7 @@ use crate::integrate::TileIntegrator;
 use crate::math::{DVec3, Grid, Size};
 use crate::plan::{Channels, Sample};
 use crate::shade::Channel;
-use crate::stage::{Stage, TileProbe};
+use crate::stage::{Stage, Stopwatch};
 use crate::view::{TILE, Tile, tiles};
 
 use super::Request;
@@ -79,7 +79,7 @@ impl<C: Channel> Work<C> for Sampling<'_> {
             if number >= LEAST && (rays >= RAYS || sample.times.total() > ENOUGH) {
                 break;
             }
-            renderer.render(&tile, TileProbe::timed(Stage::Ray), &mut memory, &mut dots);
+            renderer.render(&tile, Stopwatch::start(Stage::Ray), &mut memory, &mut dots);
             let shares = dots.times;
             sample.counts += dots.counts;
             let mut least = shares.total();
@@ -88,7 +88,7 @@ impl<C: Channel> Work<C> for Sampling<'_> {
                     break;
                 }
                 let start = Instant::now();
-                renderer.render(&tile, TileProbe::Silent, &mut memory, &mut dots);
+                renderer.render(&tile, Stopwatch::still(), &mut memory, &mut dots);
                 least = least.min(start.elapsed());
             }
             sample.times += shared_out(&shares, least);

@@ -132,7 +132,7 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
         }
     }
 
-    /// Which rays of a shadow packet reach the lamp; rays of which the packet left a doubt are traced one by
+    /// Which rays of a shadow packet reach the lamp; rays of which the packet is uncertain are traced one by
     /// one.
     fn reached(
         &self,
@@ -145,15 +145,15 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
         let (shadow_packet, lit) = (&shadow_packets[k], &mut lit[k]);
         let asked = shadow_packet.rays.live;
         let blocked = asked & shadow_packet.blocked;
-        let unsure = asked & !blocked & shadow_packet.unsure;
-        let tinted = asked & !blocked & !unsure & shadow_packet.tint.rays;
-        meter.counts.shadow_rays += u64::from((asked & !unsure).count_ones());
+        let uncertain = asked & !blocked & shadow_packet.uncertain;
+        let tinted = asked & !blocked & !uncertain & shadow_packet.tint.rays;
+        meter.counts.shadow_rays += u64::from((asked & !uncertain).count_ones());
         meter.counts.shadow_hits += u64::from((blocked | tinted).count_ones());
         let mut reached = Reached { lanes: asked & !blocked, dimmed: tinted != 0 };
         for at in places(k, tinted) {
             lit.visible.0[at.lane] = shadow_packet.tint.share.0[at.lane];
         }
-        for at in places(k, unsure) {
+        for at in places(k, uncertain) {
             let (ray, distance) = (shadow_packet.rays.ray(at.lane), shadow_packet.distance.0[at.lane]);
             let departure = waves[generation].departure(at);
             let visible = self.single.visibility(&ray, departure, distance, single, meter);

@@ -28,7 +28,7 @@ pub use history::History;
 pub use path::View;
 pub use ray_integrator::{PathMemory, RayIntegrator};
 pub use ray_tiles::RayTileMemory;
-pub use segments::{PathSegment, RayKind};
+pub use segments::PathSegment;
 pub use tile_hits::TileHits;
 pub use tile_integrator::{TileIntegrator, TilePass};
 pub use wavefront_integrator::WavefrontIntegrator;

@@ -6,7 +6,7 @@ use crate::shade::{
     ScatteredRays, SurfaceInteraction, Towards,
 };
 use crate::solid::{Crossing, Departure};
-use crate::stage::{Meter, Probe, Stage};
+use crate::stage::{Meter, Probe, RayEvent, RayKind, Stage};
 use crate::trace::{Hit, RayEngine};
 
 use super::history::History;
@@ -47,10 +47,13 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
         meter: &mut Meter<impl Probe>,
     ) -> Option<SurfaceInteraction> {
         meter.counts.primary_rays += 1;
+        meter.record(|| RayEvent::Sent { kind: RayKind::Eye, ray: *ray, weight: 1.0 });
         let hit = self.engine.first(ray, &mut memory.engine, meter)?;
         meter.counts.primary_hits += 1;
         meter.at(Stage::Shade);
-        Some(self.met(ray, hit, memory))
+        let met = self.met(ray, hit, memory);
+        meter.record(|| hit_event(&met.hit));
+        Some(met)
     }
 
     /// The surface of the last hit.
@@ -89,7 +92,7 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
         let departure = illumination.departure(&met.hit, met.p, met.normal);
         let normal = Vector::from(met.normal);
         let mut sum = [0.0; 3];
-        for lamp in &illumination.lamps {
+        for (number, lamp) in illumination.lamps.iter().enumerate() {
             let towards = Towards::new(lamp.at, Vector::from(met.p), normal);
             if !towards.shines() {
                 memory.history = memory.history.lit(0.0);
@@ -106,12 +109,14 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
                 let ray = Ray::new(met.p, towards.d.into());
                 let visible = self.visibility(&ray, departure, towards.distance, memory, meter);
                 memory.history = memory.history.lit(visible);
-                if visible == 0.0 {
-                    continue;
-                }
                 reflected.visible = Some(visible);
             } else {
                 memory.history = memory.history.lit(if material.is_lit() { 1.0 } else { 0.0 });
+            }
+            let Reflected { visible, .. } = reflected;
+            meter.record(|| RayEvent::Lit { lamp: number, diffuse, highlight, visible });
+            if visible == Some(0.0) {
+                continue;
             }
             for part in 0..C::PARTS {
                 sum[part] = reflected.add_to(sum[part], material.color.part(part), lamp.light.part(part));
@@ -188,8 +193,9 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
         let material = self.illumination.material_at(met);
         let mut light = own;
         let rays = ScatteredRays::new(sent.ray.d, met.normal, material, transition.before, transition.behind);
-        let mut arriving = |onward: Scattered, side: DVec3, inside: &MediumStack| {
+        let mut arriving = |kind, onward: Scattered, side: DVec3, inside: &MediumStack| {
             let next = sent.scattered(met, onward, inside.clone());
+            meter.record(|| RayEvent::Sent { kind, ray: next.ray, weight: next.weight });
             let departure = self.illumination.departure(&met.hit, met.p, side);
             let before = memory.history;
             let light = self.arriving(&next, departure, memory, meter) * onward.share;
@@ -197,10 +203,10 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
             light
         };
         if let Some(mirror) = rays.mirror {
-            light = (light + arriving(mirror, met.normal, &sent.inside)).limited();
+            light = (light + arriving(RayKind::Mirror, mirror, met.normal, &sent.inside)).limited();
         }
         if let Some(snell) = rays.snell {
-            light = (light + arriving(snell, -met.normal, &transition.list)).limited();
+            light = (light + arriving(RayKind::Snell, snell, -met.normal, &transition.list)).limited();
         }
         memory.media.forget(&transition.list);
         light
@@ -217,6 +223,7 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
     ) -> C {
         if !self.is_followed(sent.generation, sent.weight) {
             meter.counts.truncated_rays += 1;
+            meter.record(|| RayEvent::Truncated);
             memory.history = History::TRUNCATED;
             return self.illumination.ambient;
         }
@@ -229,6 +236,7 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
         };
         meter.counts.secondary_hits += 1;
         let met = self.met(&sent.ray, hit, memory);
+        meter.record(|| hit_event(&met.hit));
         self.light(sent, &met, memory, meter)
     }
 
@@ -237,4 +245,9 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
     pub(super) fn is_followed(&self, generation: u32, weight: f64) -> bool {
         generation <= self.generations && weight >= self.least_weight
     }
+}
+
+fn hit_event(hit: &Hit) -> RayEvent {
+    let Hit { object, primitive, surface, t, .. } = *hit;
+    RayEvent::Hit { object, primitive, surface, t }
 }

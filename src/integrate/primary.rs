@@ -63,8 +63,8 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
                 wave.surfaces[k].forget();
                 continue;
             }
-            let unsure = places(k, std::mem::take(&mut wave.nearest[k].unsure));
-            let met_singly = self.trace_singly(camera, goal, unsure, wave, single, meter);
+            let uncertain = places(k, std::mem::take(&mut wave.nearest[k].uncertain));
+            let met_singly = self.trace_singly(camera, goal, uncertain, wave, single, meter);
             self.interact(wave, k, &met_singly);
             let found = wave.found(k);
             meter.counts.primary_hits += u64::from(found.count_ones());

@@ -34,7 +34,7 @@ where
         let assembly = self.illumination.assembly;
         camera.points().map(move |[x, y]| {
             let ray = assembly.ray(&camera.pinhole.ray(x, y));
-            Ray::new(ray.o, settled(ray.d, camera.path))
+            Ray::new(ray.o, settled(ray.d, camera.longest_path))
         })
     }
 }

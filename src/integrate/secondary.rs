@@ -72,7 +72,7 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
         }
     }
 
-    /// Traces the rays of which packets left a doubt, one after the other.
+    /// Traces the rays of which packets are uncertain, one after the other.
     fn trace_unsure(
         &self,
         wave: &mut Wavefront<C>,
@@ -83,14 +83,14 @@ impl<C: Channel> WavefrontIntegrator<'_, C> {
         for queue in &queues {
             for (number, QueuedRay { sent, departure }) in queue.rays.iter().enumerate() {
                 let at = queue.place(number);
-                if wave.nearest[at.packet].unsure >> at.lane & 1 == 1 {
+                if wave.nearest[at.packet].uncertain >> at.lane & 1 == 1 {
                     let hit = self.single.engine.next(&sent.ray, *departure, &mut memory.engine, meter);
                     self.record_single(wave, &SingleRay { at, sent, hit }, Goal::Light, memory, meter);
                 }
             }
         }
         for nearest in &mut wave.nearest {
-            nearest.unsure = 0;
+            nearest.uncertain = 0;
         }
         wave.queues = queues;
     }

@@ -2,21 +2,10 @@
 
 use crate::math::Ray;
 use crate::shade::{Channel, ScatteredRays};
-use crate::stage::{Meter, Probe};
+use crate::stage::{Meter, Probe, RayKind};
 use crate::trace::{Hit, RayEngine};
 
 use super::ray_integrator::{PathMemory, RayIntegrator};
-
-/// Why a ray goes where it goes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RayKind {
-    /// From the eye.
-    Eye,
-    /// Along the mirror direction.
-    Mirror,
-    /// Along Snell's direction.
-    Snell,
-}
 
 /// One ray of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -69,7 +69,7 @@ impl BlockHits {
         nearest.object.0 = self.object;
         nearest.primitive.0 = self.primitive;
         nearest.surface.0 = self.surface;
-        (nearest.entering, nearest.unsure) = (self.entering, 0);
+        (nearest.entering, nearest.uncertain) = (self.entering, 0);
         let met = |&(lane, p): &(usize, DVec3)| {
             let hit = Hit {
                 t: self.t[lane],

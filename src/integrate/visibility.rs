@@ -3,7 +3,7 @@
 use crate::math::Ray;
 use crate::shade::Channel;
 use crate::solid::{Crossing, Departure};
-use crate::stage::{Meter, Probe, Stage};
+use crate::stage::{Meter, Probe, RayEvent, RayKind, Stage};
 use crate::trace::{Hit, OpacityClass, RayEngine};
 
 use super::ray_integrator::{PathMemory, RayIntegrator};
@@ -20,6 +20,7 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
         meter: &mut Meter<impl Probe>,
     ) -> f64 {
         meter.counts.shadow_rays += 1;
+        meter.record(|| RayEvent::Sent { kind: RayKind::Shadow, ray: *ray, weight: 1.0 });
         let share = if self.illumination.glass {
             self.transmittance(ray, departure, distance, memory, meter)
         } else {

@@ -183,7 +183,7 @@ impl<C: Channel> Wavefront<C> {
     /// The light that arrives along the rays of a row.
     #[inline]
     pub fn row_of_light(&self, packet: usize, row: usize) -> [C; LANES] {
-        C::row(&self.light[packet * C::PARTS..][..C::PARTS], row)
+        C::of_register(&self.light[packet * C::PARTS..][..C::PARTS], row)
     }
 
     /// Sets the light that arrives along one ray.

@@ -12,7 +12,7 @@ use super::ray_integrator::RayIntegrator;
 #[derive(Debug)]
 pub struct WavefrontIntegrator<'a, C> {
     pub(super) engine: &'a Fast<'a>,
-    /// For rays of which packets leave a doubt.
+    /// For rays of which packets are uncertain.
     pub(super) single: RayIntegrator<'a, Exact<'a>, C>,
 }
 

@@ -2,7 +2,7 @@
 
 use fearless_simd::{Simd, SimdBase, SimdMask, f32x8, f64x8};
 
-use crate::math::{DVec3, LaneVector, Lanes, Number, ROWS, RayPacket};
+use crate::math::{DVec3, LaneVector, Lanes, Number, REGISTERS, RayPacket};
 use crate::solid::WORLD;
 
 use super::slopes::{Basis, COHERENT, Slopes, Spread, highest, lowest};
@@ -100,8 +100,8 @@ impl Extents {
     fn of<S: Simd>(simd: S, packet: &RayPacket, basis: &Basis) -> Self {
         let infinite = f64x8::splat(simd, f64::INFINITY);
         let (mut nearest, mut farthest) = (infinite, -infinite);
-        for row in 0..ROWS {
-            let at = packet.o.load(simd, row).dot_one(basis.axis);
+        for register in 0..REGISTERS {
+            let at = packet.o.load(simd, register).dot_one(basis.axis);
             nearest = at.smaller(nearest);
             farthest = at.larger(farthest);
         }
@@ -212,11 +212,11 @@ impl Frustum {
         let mut offsets = [infinite; 4];
         let (mut first, mut last, mut start) = (infinite, -infinite, -infinite);
         for (packet, reach) in packets.filter(|(packet, _)| packet.live != 0) {
-            for row in 0..ROWS {
-                let rays = packet.load(simd, row);
+            for register in 0..REGISTERS {
+                let rays = packet.load(simd, register);
                 let mut length = f64x8::splat(simd, LONGEST_PATH);
                 if let Some(reach) = reach {
-                    length = reach.load(simd, row).smaller(length);
+                    length = reach.load(simd, register).smaller(length);
                 }
                 // Of a segment the ends are the outermost.
                 for k in 0..4 {

@@ -17,7 +17,7 @@ mod structure;
 mod sub;
 mod tree;
 
-pub use bvh::{BoundingSphere, Bvh8, BvhChild, Candidate, Node, ROOM, Stream, StreamRays, WIDE};
+pub use bvh::{BoundingSphere, BoxVisitor, Bvh8, BvhChild, Candidate, Node, ROOM, Stream, StreamRays, WIDE};
 pub use clip::{Outcode, entry};
 pub use frusta::{FRUSTA, FrustaHits, FrustumSoa};
 pub use frustum::{Frustum, FrustumHits, LONGEST_PATH};
@@ -101,7 +101,6 @@ impl Lattice {
         ray: &Ray,
         from: f64,
         to: f64,
-        cells_visited: &mut u64,
         mut visit: impl FnMut(&[u32], CellStep) -> ControlFlow<B, f64>,
     ) -> Option<B> {
         let mut farthest = to;
@@ -109,7 +108,6 @@ impl Lattice {
             if step.from > farthest {
                 return ControlFlow::Break(None);
             }
-            *cells_visited += 1;
             match visit(self.objects_in(step.cell), step) {
                 ControlFlow::Break(value) => ControlFlow::Break(Some(value)),
                 ControlFlow::Continue(still) => {

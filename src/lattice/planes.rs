@@ -14,11 +14,11 @@ const SAME: f64 = 4.0 * ROUNDING;
 /// margin.
 pub const SLACK: f64 = 16.0 * ROUNDING;
 
-/// How far the surfaces of solids may seem to be from each other that are one place, where each may be `off`
-/// its own: twice that from the front, and as much again for rays that meet them aslant. Past a hundredth of
-/// the world it is no rounding.
-pub fn slack(off: f64) -> f64 {
-    (4.0 * off).clamp(SLACK, 0.01)
+/// How far the surfaces of solids may seem to be from each other that are one place, where each may be
+/// `place_error` its own: twice that from the front, and as much again for rays that meet them aslant. Past a
+/// hundredth of the world it is no rounding.
+pub fn slack(place_error: f64) -> f64 {
+    (4.0 * place_error).clamp(SLACK, 0.01)
 }
 
 /// Planes across each axis, ascending; cell i holds `X(i) ≤ x < X(i+1)`.

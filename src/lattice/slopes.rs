@@ -3,7 +3,7 @@
 
 use fearless_simd::{Simd, SimdBase, f64x8};
 
-use crate::math::{DVec3, LaneVector, Number, ROWS, RayPacket};
+use crate::math::{DVec3, LaneVector, Number, REGISTERS, RayPacket};
 
 /// The least cosine between a ray and the frustum's axis: past 78° off the slopes, and with them the planes,
 /// say little.
@@ -68,8 +68,8 @@ impl Slopes {
     pub fn of<S: Simd>(simd: S, packet: &RayPacket, basis: &Basis) -> Self {
         let infinite = f64x8::splat(simd, f64::INFINITY);
         let (mut low, mut high, mut least) = ([infinite; 2], [-infinite; 2], infinite);
-        for row in 0..ROWS {
-            let d = packet.d.load(simd, row);
+        for register in 0..REGISTERS {
+            let d = packet.d.load(simd, register);
             let w = d.dot_one(basis.axis);
             least = w.smaller(least);
             let inverse = w.same(1.0) / w;

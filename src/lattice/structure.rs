@@ -23,22 +23,21 @@ impl<'a> Structure<'a> {
     /// Calls `visit` with the objects of each cell that the ray passes between `from` and `to` until it
     /// breaks: in order where cells are disjoint, nearly so where boxes overlap. `visit` returns how far the
     /// ray still matters: cells that begin beyond that are not visited. Without a structure there are no
-    /// cells.
+    /// cells; of boxes, each that holds an object is one.
     pub fn walk<B>(
         &self,
         ray: &Ray,
         from: f64,
         to: f64,
-        cells_visited: &mut u64,
         visit: impl FnMut(&[u32], CellStep) -> ControlFlow<B, f64>,
     ) -> Option<B> {
         match self {
             Self::None => None,
-            Self::Lattice(lattice, _) => lattice.walk(ray, from, to, cells_visited, visit),
-            Self::Tree(tree, _) => tree.walk(ray, from, to, cells_visited, visit),
+            Self::Lattice(lattice, _) => lattice.walk(ray, from, to, visit),
+            Self::Tree(tree, _) => tree.walk(ray, from, to, visit),
             Self::Boxes(boxes, _) => {
                 let mut visit = visit;
-                boxes.walk(ray, from, to, cells_visited, |object, from| {
+                boxes.walk(ray, from, to, &mut |object: u32, from: f64| {
                     visit(&[object], CellStep { cell: object as usize, from, to })
                 })
             }

@@ -140,8 +140,8 @@ impl SubLattice {
             return None;
         }
         let cells = vec![NOTHING; planes.cells() as usize];
-        let off = leaves.iter().map(|leaf| form(leaf).off()).fold(0.0, f64::max);
-        let (parts, pruning, slack) = (HashMap::new(), Pruning::default(), slack(off));
+        let place_error = leaves.iter().map(|leaf| form(leaf).place_error()).fold(0.0, f64::max);
+        let (parts, pruning, slack) = (HashMap::new(), Pruning::default(), slack(place_error));
         let mut building = Building { primitives, planes: &planes, slack, cells, parts, pruning };
         let [nx, ny, nz] = planes.dimensions();
         building.fill(ExprView::from(whole), [(0, nx - 1), (0, ny - 1), (0, nz - 1)], budget.leaves);
@@ -152,21 +152,17 @@ impl SubLattice {
         Some(Self { planes, cells, parts, bounds: *bounds })
     }
 
-    /// Calls `visit` with each stretch of the ray that has surfaces, and the expression there, in order,
+    /// Calls `visit` with each stretch of the ray, and the expression there where it has surfaces, in order,
     /// until it breaks. Cells that share an expression are not joined: a stretch is at most a cell.
     pub fn walk<B>(
         &self,
         ray: &Ray,
-        cells_visited: &mut u64,
-        mut visit: impl FnMut(&Expression, CellStep) -> ControlFlow<B>,
+        mut visit: impl FnMut(Option<&Expression>, CellStep) -> ControlFlow<B>,
     ) -> Option<B> {
         let start = super::clip::entry(ray, &self.bounds.padded(DVec3::splat(SLACK)))?;
         self.planes.walk(ray, start, f64::INFINITY, |step| {
-            *cells_visited += 1;
-            match self.cells[step.cell] {
-                NOTHING => ControlFlow::Continue(()),
-                part => visit(&self.parts[part as usize], step),
-            }
+            let part = self.cells[step.cell];
+            visit((part != NOTHING).then(|| &self.parts[part as usize]), step)
         })
     }
 

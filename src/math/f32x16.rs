@@ -51,8 +51,8 @@ operators! {
 impl<S: Simd> Number for F32x16<S> {
     type Mask = F32x16Mask<S>;
 
-    const COARSER: f64 = <f32 as Real>::COARSER;
-    const DECIDES: bool = <f32 as Real>::DECIDES;
+    const EPSILON_RATIO: f64 = <f32 as Real>::EPSILON_RATIO;
+    const IS_DOUBLE: bool = <f32 as Real>::IS_DOUBLE;
     const LEAST: f64 = f32::MIN_POSITIVE as f64;
 
     #[inline(always)]
@@ -101,8 +101,8 @@ impl Real for f32 {
     type SimdReal<S: Simd> = F32x16<S>;
 
     const LANES: usize = 2 * LANES;
-    const COARSER: f64 = (Self::EPSILON as f64) / f64::EPSILON;
-    const DECIDES: bool = false;
+    const EPSILON_RATIO: f64 = (Self::EPSILON as f64) / f64::EPSILON;
+    const IS_DOUBLE: bool = false;
     const ZERO: Self = 0.0;
     const INFINITY: Self = Self::INFINITY;
 
@@ -116,8 +116,8 @@ impl<S: Simd> SimdRegister for F32x16<S> {
     type Real = f32;
 
     #[inline(always)]
-    fn put_into(self, row: &mut [f32]) {
-        self.0.store_slice(row);
+    fn put_into(self, lanes: &mut [f32]) {
+        self.0.store_slice(lanes);
     }
     #[inline(always)]
     fn least(self) -> f64 {
@@ -137,8 +137,8 @@ impl<S: Simd> SimdReal<S> for F32x16<S> {
         Self(f32x16::splat(simd, x as f32))
     }
     #[inline(always)]
-    fn of_row(simd: S, row: &[f32]) -> Self {
-        Self(f32x16::from_slice(simd, row))
+    fn from_lanes(simd: S, lanes: &[f32]) -> Self {
+        Self(f32x16::from_slice(simd, lanes))
     }
     #[inline(always)]
     fn answers(simd: S, bits: u64) -> F32x16Mask<S> {

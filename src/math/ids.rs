@@ -13,13 +13,13 @@ macro_rules! ids {
                 Self::splat(simd, id)
             }
             #[inline(always)]
-            fn of_row(simd: S, row: &[u32]) -> Self {
-                Self::from_slice(simd, row)
+            fn from_lanes(simd: S, lanes: &[u32]) -> Self {
+                Self::from_slice(simd, lanes)
             }
             #[inline(always)]
-            fn put_into(self, simd: S, row: &mut [u32], bits: u64) {
-                let kept = Self::from_slice(simd, row);
-                $mask::from_bitmask(simd, bits).select(self, kept).store_slice(row);
+            fn put_into(self, simd: S, lanes: &mut [u32], bits: u64) {
+                let kept = Self::from_slice(simd, lanes);
+                $mask::from_bitmask(simd, bits).select(self, kept).store_slice(lanes);
             }
             #[inline(always)]
             fn equal_bits(self, other: Self) -> u64 {
@@ -32,17 +32,17 @@ ids!(u32x8 mask32x8);
 ids!(u32x16 mask32x16);
 
 impl Lanes<u32> {
-    /// Those of row `row`, below [`Real::ROWS`] of `T`.
+    /// Those of register `register`, below [`Real::REGISTERS`] of `T`.
     #[inline(always)]
-    pub fn ids<T: Real, S: Simd>(&self, simd: S, row: usize) -> RealIds<T, S> {
-        RealIds::<T, S>::of_row(simd, &self.0[row * T::LANES..][..T::LANES])
+    pub fn ids<T: Real, S: Simd>(&self, simd: S, register: usize) -> RealIds<T, S> {
+        RealIds::<T, S>::from_lanes(simd, &self.0[register * T::LANES..][..T::LANES])
     }
 
-    /// Sets those of a row of `T` that are among `rays`, a bit for each of the packet.
+    /// Sets those of a register of `T` that are among `rays`, a bit for each of the packet.
     #[inline(always)]
-    pub fn put_ids<T: Real, S: Simd>(&mut self, simd: S, row: usize, rays: u64, ids: RealIds<T, S>) {
-        let shift = row * T::LANES;
-        ids.put_into(simd, &mut self.0[shift..][..T::LANES], rays >> shift & T::ROW);
+    pub fn put_ids<T: Real, S: Simd>(&mut self, simd: S, register: usize, rays: u64, ids: RealIds<T, S>) {
+        let shift = register * T::LANES;
+        ids.put_into(simd, &mut self.0[shift..][..T::LANES], rays >> shift & T::REGISTER_BITS);
     }
 
     /// Which of the packet's rays have an id, a bit for each.
@@ -50,8 +50,8 @@ impl Lanes<u32> {
     pub fn rays_of<S: Simd>(&self, simd: S, id: u32) -> u64 {
         let id = u32x16::splat(simd, id);
         let mut rays = 0;
-        for row in 0..<f32 as Real>::ROWS {
-            rays |= self.ids::<f32, S>(simd, row).equal_bits(id) << (row * <f32 as Real>::LANES);
+        for register in 0..<f32 as Real>::REGISTERS {
+            rays |= self.ids::<f32, S>(simd, register).equal_bits(id) << (register * <f32 as Real>::LANES);
         }
         rays
     }

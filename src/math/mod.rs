@@ -18,7 +18,7 @@ pub use exact::{product_rest, two_product_in_range, two_sum};
 pub use glam::{DAffine3, DMat3, DVec2, DVec3};
 pub use grid::{Grid, Size};
 pub use number::{LANES, Mask, Number, PACKET, Powers};
-pub use packet::{LaneVector, Lanes, ROWS, RayIndex, RayPacket, lanes, places, row_of};
+pub use packet::{LaneVector, Lanes, REGISTERS, RayIndex, RayPacket, lanes, mask_of, places};
 pub use placement::{Placement, is_singular};
 pub use ray::Ray;
 pub use real::{Real, RealIds, RealMask, SimdIds, SimdReal, SimdRegister};

@@ -43,10 +43,11 @@ pub trait Number:
     /// Answers to a question about each.
     type Mask: Mask<Self>;
 
-    /// How many times as much is lost by a rounding as of an `f64`.
-    const COARSER: f64 = 1.0;
-    /// Whether these are double precision: if not, double precision decides where they leave a doubt.
-    const DECIDES: bool = true;
+    /// How many times as much is lost by a rounding as of an `f64`: the ratio of their machine epsilons.
+    const EPSILON_RATIO: f64 = 1.0;
+    /// Whether these are double precision. Single precision is a filter: where its answer is uncertain,
+    /// double precision decides.
+    const IS_DOUBLE: bool = true;
     /// Below this numbers lose digits.
     const LEAST: f64 = f64::MIN_POSITIVE;
 

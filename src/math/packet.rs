@@ -8,9 +8,9 @@ use super::vector::{Rays, Vector};
 use super::{DVec3, Ray};
 
 /// Registers of numbers in a packet.
-pub const ROWS: usize = PACKET / LANES;
+pub const REGISTERS: usize = PACKET / LANES;
 
-/// The most numbers of a row.
+/// The most numbers that a register holds.
 const MOST_LANES: usize = 2 * LANES;
 
 /// One number of each ray of a packet.
@@ -38,42 +38,42 @@ impl<T: Copy> Lanes<T> {
 }
 
 impl<T: Real> Lanes<T> {
-    /// Those of row `row`, below [`Real::ROWS`], in a register.
+    /// The numbers of register `register`, below [`Real::REGISTERS`].
     #[inline(always)]
-    pub fn load<S: Simd>(&self, simd: S, row: usize) -> T::SimdReal<S> {
-        T::SimdReal::<S>::of_row(simd, &self.0[row * T::LANES..][..T::LANES])
+    pub fn load<S: Simd>(&self, simd: S, register: usize) -> T::SimdReal<S> {
+        T::SimdReal::<S>::from_lanes(simd, &self.0[register * T::LANES..][..T::LANES])
     }
 
-    /// The numbers of a row of `U`, below `U::ROWS`, each rounded to the nearest `U`.
+    /// The numbers of a register of `U`, below `U::REGISTERS`, each rounded to the nearest `U`.
     #[inline(always)]
-    pub fn load_nearest<U: Real, S: Simd>(&self, simd: S, row: usize) -> U::SimdReal<S> {
+    pub fn load_nearest<U: Real, S: Simd>(&self, simd: S, register: usize) -> U::SimdReal<S> {
         let mut numbers = [U::ZERO; MOST_LANES];
-        let own = &self.0[row * U::LANES..][..U::LANES];
+        let own = &self.0[register * U::LANES..][..U::LANES];
         for (to, from) in numbers.iter_mut().zip(own) {
             *to = U::nearest((*from).into());
         }
-        U::SimdReal::<S>::of_row(simd, &numbers[..U::LANES])
+        U::SimdReal::<S>::from_lanes(simd, &numbers[..U::LANES])
     }
 
-    /// Sets a row of them.
+    /// Sets those of a register.
     #[inline(always)]
-    pub fn store(&mut self, row: usize, x: impl SimdRegister<Real = T>) {
-        x.put_into(&mut self.0[row * T::LANES..][..T::LANES]);
+    pub fn store(&mut self, register: usize, x: impl SimdRegister<Real = T>) {
+        x.put_into(&mut self.0[register * T::LANES..][..T::LANES]);
     }
 
-    /// Sets some of a row.
+    /// Sets those of a register that are among `which`.
     #[inline(always)]
-    pub fn put<S: Simd>(&mut self, simd: S, row: usize, which: RealMask<T, S>, x: T::SimdReal<S>) {
-        self.store(row, which.choose(x, self.load(simd, row)));
+    pub fn put<S: Simd>(&mut self, simd: S, register: usize, which: RealMask<T, S>, x: T::SimdReal<S>) {
+        self.store(register, which.choose(x, self.load(simd, register)));
     }
 
     /// Gives those whose bit is not among `kept` the number of another, `from`.
     #[inline(always)]
     pub fn fill_rest<S: Simd>(&mut self, simd: S, kept: u64, from: usize) {
         let x = T::SimdReal::<S>::all(simd, self.0[from].into());
-        for row in 0..T::ROWS {
-            if T::has_any(!kept, row) {
-                self.put(simd, row, T::row_of(simd, !kept, row), x);
+        for register in 0..T::REGISTERS {
+            if T::has_any(!kept, register) {
+                self.put(simd, register, T::mask_of(simd, !kept, register), x);
             }
         }
     }
@@ -88,11 +88,11 @@ impl<T: Real> Lanes<T> {
 }
 
 impl Lanes {
-    /// Eight of them: those of row `row`, below [`ROWS`].
+    /// The eight numbers of register `register`, below [`REGISTERS`].
     #[inline(always)]
-    pub fn row(&self, row: usize) -> [f64; LANES] {
+    pub fn register(&self, register: usize) -> [f64; LANES] {
         let mut numbers = [0.0; LANES];
-        numbers.copy_from_slice(&self.0[row * LANES..][..LANES]);
+        numbers.copy_from_slice(&self.0[register * LANES..][..LANES]);
         numbers
     }
 
@@ -100,8 +100,8 @@ impl Lanes {
     #[inline(always)]
     pub fn largest<S: Simd>(&self, simd: S) -> f64 {
         let mut most = self.load(simd, 0);
-        for row in 1..ROWS {
-            most = most.max(self.load(simd, row));
+        for register in 1..REGISTERS {
+            most = most.max(self.load(simd, register));
         }
         most.reduce_max()
     }
@@ -133,18 +133,18 @@ pub fn places(packet: usize, bits: u64) -> impl Iterator<Item = RayIndex> {
     lanes(bits).map(move |lane| RayIndex { packet, lane })
 }
 
-/// The answers of a row, below [`ROWS`], out of a bit for each ray of a packet.
+/// The answers of a register, below [`REGISTERS`], out of a bit for each ray of a packet.
 #[inline(always)]
-pub fn row_of<S: Simd>(simd: S, bits: u64, row: usize) -> mask64x8<S> {
-    mask64x8::from_bitmask(simd, bits >> (row * LANES) & 0xFF)
+pub fn mask_of<S: Simd>(simd: S, bits: u64, register: usize) -> mask64x8<S> {
+    mask64x8::from_bitmask(simd, bits >> (register * LANES) & 0xFF)
 }
 
 /// A vector of each ray of a packet.
 pub trait LaneVector<T: Real> {
-    /// Those of row `row`, below [`Real::ROWS`].
-    fn load<S: Simd>(&self, simd: S, row: usize) -> Vector<T::SimdReal<S>>;
-    /// Sets a row of them.
-    fn store(&mut self, row: usize, v: Vector<impl SimdRegister<Real = T>>);
+    /// Those of register `register`, below [`Real::REGISTERS`].
+    fn load<S: Simd>(&self, simd: S, register: usize) -> Vector<T::SimdReal<S>>;
+    /// Sets those of a register.
+    fn store(&mut self, register: usize, v: Vector<impl SimdRegister<Real = T>>);
     /// One of them.
     fn get(&self, lane: usize) -> DVec3;
     /// Sets one of them.
@@ -153,16 +153,16 @@ pub trait LaneVector<T: Real> {
 
 impl<T: Real> LaneVector<T> for [Lanes<T>; 3] {
     #[inline(always)]
-    fn load<S: Simd>(&self, simd: S, row: usize) -> Vector<T::SimdReal<S>> {
+    fn load<S: Simd>(&self, simd: S, register: usize) -> Vector<T::SimdReal<S>> {
         let [x, y, z] = self;
-        Vector { x: x.load(simd, row), y: y.load(simd, row), z: z.load(simd, row) }
+        Vector { x: x.load(simd, register), y: y.load(simd, register), z: z.load(simd, register) }
     }
 
     #[inline(always)]
-    fn store(&mut self, row: usize, v: Vector<impl SimdRegister<Real = T>>) {
-        self[0].store(row, v.x);
-        self[1].store(row, v.y);
-        self[2].store(row, v.z);
+    fn store(&mut self, register: usize, v: Vector<impl SimdRegister<Real = T>>) {
+        self[0].store(register, v.x);
+        self[1].store(register, v.y);
+        self[2].store(register, v.z);
     }
 
     #[inline(always)]
@@ -183,10 +183,10 @@ impl<T: Real> RayPacket<T> {
     /// No rays.
     pub const EMPTY: Self = Self { o: [Lanes::filled(T::ZERO); 3], d: [Lanes::filled(T::ZERO); 3], live: 0 };
 
-    /// The rays of row `row`, below [`Real::ROWS`].
+    /// The rays of register `register`, below [`Real::REGISTERS`].
     #[inline(always)]
-    pub fn load<S: Simd>(&self, simd: S, row: usize) -> Rays<T::SimdReal<S>> {
-        Rays { o: self.o.load(simd, row), d: self.d.load(simd, row) }
+    pub fn load<S: Simd>(&self, simd: S, register: usize) -> Rays<T::SimdReal<S>> {
+        Rays { o: self.o.load(simd, register), d: self.d.load(simd, register) }
     }
 
     /// One of the rays.
@@ -227,9 +227,9 @@ impl<T: Real> RayPacket<T> {
         self.live = other.live;
     }
 
-    /// Whether any of the live rays is in a row.
+    /// Whether any of the live rays is in a register.
     #[inline(always)]
-    pub fn has_live(&self, row: usize) -> bool {
-        T::has_any(self.live, row)
+    pub fn has_live(&self, register: usize) -> bool {
+        T::has_any(self.live, register)
     }
 }

@@ -18,14 +18,14 @@ pub trait Real: Copy + Debug + Default + Into<f64> + Send + Sync + 'static {
     /// How many rays are computed side by side.
     const LANES: usize;
     /// Registers of numbers in a packet.
-    const ROWS: usize = PACKET / Self::LANES;
-    /// A bit for each ray of the first row.
-    const ROW: u64 = (1 << Self::LANES) - 1;
-    /// How many times as much is lost by a rounding as of an `f64`. Maps, starts and directions come rounded
-    /// once from `f64`; the rest of each chain of roundings is the same.
-    const COARSER: f64;
-    /// [`Number::DECIDES`].
-    const DECIDES: bool;
+    const REGISTERS: usize = PACKET / Self::LANES;
+    /// A bit for each ray of the first register.
+    const REGISTER_BITS: u64 = (1 << Self::LANES) - 1;
+    /// [`Number::EPSILON_RATIO`]. Maps, starts and directions come rounded once from `f64`; the rest of each
+    /// chain of roundings is the same.
+    const EPSILON_RATIO: f64;
+    /// [`Number::IS_DOUBLE`].
+    const IS_DOUBLE: bool;
     /// 0.
     const ZERO: Self;
     /// What is beyond all numbers.
@@ -34,71 +34,71 @@ pub trait Real: Copy + Debug + Default + Into<f64> + Send + Sync + 'static {
     /// The nearest.
     fn nearest(x: f64) -> Self;
 
-    /// The same number for all rays of a row.
+    /// The same number for all rays of a register.
     #[inline(always)]
     fn all<S: Simd>(simd: S, x: f64) -> Self::SimdReal<S> {
         Self::SimdReal::<S>::all(simd, x)
     }
 
-    /// The answers of a row, below [`Real::ROWS`], out of a bit for each ray of a packet.
+    /// The answers of a register, below [`Real::REGISTERS`], out of a bit for each ray of a packet.
     #[inline(always)]
-    fn row_of<S: Simd>(simd: S, bits: u64, row: usize) -> RealMask<Self, S> {
-        Self::SimdReal::<S>::answers(simd, bits >> (row * Self::LANES) & Self::ROW)
+    fn mask_of<S: Simd>(simd: S, bits: u64, register: usize) -> RealMask<Self, S> {
+        Self::SimdReal::<S>::answers(simd, bits >> (register * Self::LANES) & Self::REGISTER_BITS)
     }
 
-    /// A bit for each ray of a packet, out of the answers of a row.
+    /// A bit for each ray of a packet, out of the answers of a register.
     #[inline(always)]
-    fn bits_of<M: Mask<Self::SimdReal<S>>, S: Simd>(_: S, answers: M, row: usize) -> u64 {
-        answers.bits() << (row * Self::LANES)
+    fn bits_of<M: Mask<Self::SimdReal<S>>, S: Simd>(_: S, answers: M, register: usize) -> u64 {
+        answers.bits() << (register * Self::LANES)
     }
 
-    /// Whether any ray of a row is among these.
+    /// Whether any ray of a register is among these.
     #[inline(always)]
-    fn has_any(bits: u64, row: usize) -> bool {
-        bits >> (row * Self::LANES) & Self::ROW != 0
+    fn has_any(bits: u64, register: usize) -> bool {
+        bits >> (register * Self::LANES) & Self::REGISTER_BITS != 0
     }
 }
 
-/// Answers to a question about the rays of a row.
+/// Answers to a question about the rays of a register.
 pub type RealMask<T, S> = <<T as Real>::SimdReal<S> as Number>::Mask;
 
-/// The ids of the rays of a row.
+/// The ids of the rays of a register.
 pub type RealIds<T, S> = <<T as Real>::SimdReal<S> as SimdReal<S>>::Ids;
 
-/// Numbers that fill a row.
+/// Numbers that fill a register.
 pub trait SimdRegister {
     /// One of them.
     type Real;
 
-    /// Puts them into a row, all of it.
-    fn put_into(self, row: &mut [Self::Real]);
+    /// Writes them to as many lanes as a register has.
+    fn put_into(self, lanes: &mut [Self::Real]);
     /// The least; none may be not-a-number.
     fn least(self) -> f64;
     /// The greatest; none may be not-a-number.
     fn greatest(self) -> f64;
 }
 
-/// The ids of a row, in a register.
+/// As many ids as a register has lanes.
 pub trait SimdIds<S: Simd>: Copy {
     /// The same for all.
     fn all(simd: S, id: u32) -> Self;
-    /// Those of a row, all of it.
-    fn of_row(simd: S, row: &[u32]) -> Self;
-    /// Puts those whose bits are set into a row.
-    fn put_into(self, simd: S, row: &mut [u32], bits: u64);
+    /// Those of as many lanes as a register has.
+    fn from_lanes(simd: S, lanes: &[u32]) -> Self;
+    /// Writes those whose bits are set to as many lanes as a register has.
+    fn put_into(self, simd: S, lanes: &mut [u32], bits: u64);
     /// A bit for each that is the same as in another register.
     fn equal_bits(self, other: Self) -> u64;
 }
 
-/// The numbers of a row, in a register.
+/// A register of numbers.
 pub trait SimdReal<S: Simd>: Number + SimdRegister {
     /// An id for each.
     type Ids: SimdIds<S>;
 
     /// The same for all.
     fn all(simd: S, x: f64) -> Self;
-    /// Those of a row, all of it.
-    fn of_row(simd: S, row: &[Self::Real]) -> Self;
+    /// Those of as many lanes as a register has.
+    fn from_lanes(simd: S, lanes: &[Self::Real]) -> Self;
     /// Answers out of a bit for each.
     fn answers(simd: S, bits: u64) -> Self::Mask;
     /// Numbers that are ids, whole and 0 or more, as ids: below 2²⁴ in single precision, below 2³² in double.
@@ -109,8 +109,8 @@ impl Real for f64 {
     type SimdReal<S: Simd> = f64x8<S>;
 
     const LANES: usize = LANES;
-    const COARSER: f64 = 1.0;
-    const DECIDES: bool = true;
+    const EPSILON_RATIO: f64 = 1.0;
+    const IS_DOUBLE: bool = true;
     const ZERO: Self = 0.0;
     const INFINITY: Self = Self::INFINITY;
 
@@ -124,8 +124,8 @@ impl<S: Simd> SimdRegister for f64x8<S> {
     type Real = f64;
 
     #[inline(always)]
-    fn put_into(self, row: &mut [f64]) {
-        self.store_slice(row);
+    fn put_into(self, lanes: &mut [f64]) {
+        self.store_slice(lanes);
     }
     #[inline(always)]
     fn least(self) -> f64 {
@@ -145,8 +145,8 @@ impl<S: Simd> SimdReal<S> for f64x8<S> {
         Self::splat(simd, x)
     }
     #[inline(always)]
-    fn of_row(simd: S, row: &[f64]) -> Self {
-        Self::from_slice(simd, row)
+    fn from_lanes(simd: S, lanes: &[f64]) -> Self {
+        Self::from_slice(simd, lanes)
     }
     #[inline(always)]
     fn answers(simd: S, bits: u64) -> mask64x8<S> {

@@ -123,7 +123,7 @@ impl Plan {
             PrecisionReason::Near => "the eye may be as near to a solid as can be → f64".into(),
             PrecisionReason::Dots(dots) => format!("a hit would be off by up to {dots:.2} dots → f64"),
             PrecisionReason::Unseen(dots) => {
-                format!("a hit is off by {dots:.4} dots at most → f32, and f64 where that leaves a doubt")
+                format!("a hit is off by {dots:.4} dots at most → f32, and f64 where that is uncertain")
             }
         };
         Term { name: "f32", needed: self.precision == Precision::Single, why }

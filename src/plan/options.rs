@@ -66,7 +66,7 @@ impl Options {
     /// What traces a picture of these options; never [`EngineChoice::Auto`].
     ///
     /// The fast engine finds the bits of the exact one whatever the scene, the view and their scales, since
-    /// it asks that one wherever it is unsure. So nothing but a wish decides.
+    /// it asks that one wherever it is uncertain. So nothing but a wish decides.
     pub fn traced_by(&self) -> EngineChoice {
         match self.engine {
             EngineChoice::Auto if self.structure.allows_boxes() => EngineChoice::Fast,

@@ -1,11 +1,11 @@
 //! In which precision rays from the eye are asked what they meet.
 //!
 //! Of solids that are cut, and of convex ones but balls, numbers of 24 bits say it in less time than those of
-//! 53. Which surface is met stays certain: where single precision leave a doubt, at silhouettes and edges and
-//!     where two surfaces are near each other, all are asked. But where it is met is off by up to
-//!     [`Real::COARSER`] times as much, some 2·10⁻⁵ in the unit in which the world reaches to ±2. That is
-//!     allowed where it is so small a part of a dot, of what is nearest to the eye, that light is off by less
-//!     than a quarter of a level.
+//! 53. Which surface is met stays certain: where single precision is uncertain, at silhouettes and edges and
+//! where two surfaces are near each other, all are asked. But where it is met is off by up to
+//! [`Real::EPSILON_RATIO`] times as much, some 2·10⁻⁵ in the unit in which the world reaches to ±2. That is
+//! allowed where it is so small a part of a dot, of what is nearest to the eye, that light is off by less
+//! than a quarter of a level.
 //!
 //! Rays that start on surfaces need double precision: between two curved mirrors what is off grows with each
 //! generation, and the edge of a shadow shows where a point is.
@@ -19,7 +19,7 @@ use super::{EngineChoice, Options, PrecisionChoice};
 /// In which precision rays from the eye are asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Precision {
-    /// Those of `f32`; of `f64` where these leave a doubt.
+    /// Those of `f32`; of `f64` where these are uncertain.
     Single,
     /// Those of `f64`.
     Double,
@@ -42,9 +42,9 @@ const UNSEEN: f64 = 0.25 / LEVELS;
 /// Steps from black to white.
 const LEVELS: f64 = 12.0;
 
-/// A chord is at least as long as a solid is thick, and its two ends are off by twice `off` over the sine of
-/// the angle between ray and face. So in a solid 16 `off` thick all chords are certain whose rays meet its
-/// faces at a sine of an eighth or more.
+/// A chord is at least as long as a solid is thick, and its two ends are off by twice `place_error` over the
+/// sine of the angle between ray and face. So in a solid 16 `place_error` thick all chords are certain whose
+/// rays meet its faces at a sine of an eighth or more.
 const THICK: f64 = 16.0;
 
 /// Of more objects around the eye none is asked how near it is: a few nanoseconds each are a tenth of a
@@ -115,15 +115,15 @@ impl PrecisionReason {
         if stats.surfaces > 0 || stats.balls == assembly.objects.len() {
             return Self::NoGain;
         }
-        let off = assembly.off * f32::COARSER;
-        if stats.thinnest < THICK * off {
+        let place_error = assembly.place_error * f32::EPSILON_RATIO;
+        if stats.thinnest < THICK * place_error {
             return Self::Thin;
         }
         let least_dot = nearest(assembly, pinhole) * pinhole.least_dot();
         if least_dot == 0.0 {
             return Self::Near;
         }
-        let dots = off / least_dot;
+        let dots = place_error / least_dot;
         if dots <= UNSEEN { Self::Unseen(dots) } else { Self::Dots(dots) }
     }
 }

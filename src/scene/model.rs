@@ -115,7 +115,7 @@ impl Solid {
         while let Some(both) = open.pop() {
             match both {
                 (Self::Primitive(a), Self::Primitive(b))
-                    if (&a.shape, &a.map, &a.map_error) == (&b.shape, &b.map, &b.map_error) => {}
+                    if (&a.shape, &a.map, &a.map_error_share) == (&b.shape, &b.map, &b.map_error_share) => {}
                 (Self::Union(a), Self::Union(b))
                 | (Self::Intersection(a), Self::Intersection(b))
                 | (Self::Difference(a), Self::Difference(b))
@@ -140,7 +140,7 @@ pub struct Primitive {
     /// How far a point of the shape may lie from where exact arithmetic would put it, along each axis, as a
     /// share of how far the primitive reaches from the origin along that axis: what was rounded when the map
     /// was written down and composed. Surfaces nearer to each other than that are one place.
-    pub map_error: [f32; 3],
+    pub map_error_share: [f32; 3],
     /// Its surface.
     pub material: MaterialId,
 }
@@ -152,23 +152,25 @@ impl Primitive {
         // Both numbers of a product, the product and three sums, of three products and an entry: 6 half-ulps,
         // rounded up to 8.
         const COMPOSED: f32 = 4.0 * f64::EPSILON as f32;
-        Self { shape, map, map_error: [COMPOSED; 3], material }
+        Self { shape, map, map_error_share: [COMPOSED; 3], material }
     }
 
-    /// The primitive with a [`Primitive::map_error`] of this much along each axis, in the scene's unit.
+    /// The primitive with a [`Primitive::map_error`] of this much.
     #[must_use]
-    pub fn displaced(mut self, by: DVec3) -> Self {
+    pub fn with_map_error(mut self, by: DVec3) -> Self {
         let reach = self.shape.bounds().mapped(&self.map).farthest();
         // Half an ulp of an f32 is of no account to a bound, nor is what is beyond all of them: a bound stays
         // a number.
         let share = |axis: usize| (by[axis] / reach[axis]).min(f64::from(f32::MAX)) as f32;
-        self.map_error = [0, 1, 2].map(|axis| if reach[axis] > 0.0 { share(axis) } else { 0.0 });
+        self.map_error_share = [0, 1, 2].map(|axis| if reach[axis] > 0.0 { share(axis) } else { 0.0 });
         self
     }
 
-    /// [`Primitive::map_error`] along each axis in the scene's unit.
-    pub fn displacement(&self) -> DVec3 {
-        DVec3::from_array(self.map_error.map(f64::from)) * self.shape.bounds().mapped(&self.map).farthest()
+    /// How far a point of the shape may lie from where exact arithmetic would put it, along each axis, in the
+    /// scene's unit.
+    pub fn map_error(&self) -> DVec3 {
+        DVec3::from_array(self.map_error_share.map(f64::from))
+            * self.shape.bounds().mapped(&self.map).farthest()
     }
 }
 
@@ -179,8 +181,9 @@ pub enum Shape {
     /// `x² + y² + z² ≤ 1`.
     Sphere,
     /// `x² + y² ≤ r(z)²`, `|z| ≤ 1`, with `r` linear from `bottom` at z = −1 to `top` at z = 1.
-    /// Both are in `0..=1` and the larger is exactly 1. Both 1 is a cylinder, one 0 a cone.
-    Frustum {
+    /// Both are in `0..=1` and the larger is exactly 1. Both 1 is a cylinder; one 0 comes to a point; else
+    /// it is a truncated cone.
+    Cone {
         /// Radius at z = −1.
         bottom: f64,
         /// Radius at z = 1.
@@ -199,7 +202,7 @@ pub enum Shape {
     Face(Arc<[DVec3]>),
     /// A surface: a polygon whose normal is interpolated between those of its corners.
     Patch(Arc<[Corner]>),
-    /// A surface: the side of a [`Shape::Frustum`], without its caps.
+    /// A surface: the side of a [`Shape::Cone`], without its caps.
     Tube {
         /// Radius at z = −1.
         bottom: f64,
@@ -217,7 +220,7 @@ impl Shape {
     /// A box around the shape, in its own coordinates.
     pub fn bounds(&self) -> Bounds {
         match self {
-            Self::Sphere | Self::Frustum { .. } | Self::Cube | Self::Tube { .. } => {
+            Self::Sphere | Self::Cone { .. } | Self::Cube | Self::Tube { .. } => {
                 Bounds::new(DVec3::NEG_ONE, DVec3::ONE)
             }
             Self::Facets(facets) => facets.bounds,

@@ -47,8 +47,9 @@ pub trait Channel:
     /// The amount whose numbers are the first of these.
     fn from_parts(parts: [f64; 3]) -> Self;
 
-    /// Those of a row of rays, `row` below [`ROWS`](crate::math::ROWS), out of a column for each part.
-    fn row(columns: &[Lanes], row: usize) -> [Self; LANES];
+    /// The light of the rays of a register, below [`REGISTERS`](crate::math::REGISTERS), out of a column for
+    /// each part.
+    fn of_register(columns: &[Lanes], register: usize) -> [Self; LANES];
 
     /// From the three primaries.
     fn from_rgb(rgb: DVec3) -> Self;
@@ -86,8 +87,8 @@ impl Channel for f64 {
     }
 
     #[inline(always)]
-    fn row(columns: &[Lanes], row: usize) -> [Self; LANES] {
-        columns[0].row(row)
+    fn of_register(columns: &[Lanes], register: usize) -> [Self; LANES] {
+        columns[0].register(register)
     }
 
     #[inline]
@@ -127,8 +128,9 @@ impl Channel for DVec3 {
     }
 
     #[inline(always)]
-    fn row(columns: &[Lanes], row: usize) -> [Self; LANES] {
-        let [red, green, blue] = [columns[0].row(row), columns[1].row(row), columns[2].row(row)];
+    fn of_register(columns: &[Lanes], register: usize) -> [Self; LANES] {
+        let [red, green, blue] =
+            [columns[0].register(register), columns[1].register(register), columns[2].register(register)];
         let mut lights = [Self::ZERO; LANES];
         for (lane, light) in lights.iter_mut().enumerate() {
             *light = Self::new(red[lane], green[lane], blue[lane]);

@@ -6,7 +6,7 @@
 use crate::math::DVec3;
 use crate::view::settled;
 
-/// The way of a ray within the world, whose size is about 1.
+/// How far a ray goes at most within the world, whose size is about 1.
 pub const WITHIN: f64 = 1.0;
 
 /// The mirror direction.

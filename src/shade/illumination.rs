@@ -115,6 +115,6 @@ impl<'a, C: Channel> Illumination<'a, C> {
     pub fn departure(&self, hit: &Hit, p: DVec3, toward: DVec3) -> Departure {
         let form: &WorldShape = &self.assembly.primitives[hit.primitive as usize].form;
         let inward = form.normal(p, hit.surface).dot(toward) < 0.0;
-        Departure { primitive: hit.primitive, surface: hit.surface, inward, off: form.off() }
+        Departure { primitive: hit.primitive, surface: hit.surface, inward, place_error: form.place_error() }
     }
 }

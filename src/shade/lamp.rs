@@ -16,7 +16,7 @@ pub(crate) struct Lamp<C> {
     pub light: C,
 }
 
-/// The way from a surface to a lamp, or from as many as a [`Number`] has.
+/// Direction and distance from a surface to a lamp, or from as many as a [`Number`] has.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Towards<N> {
     /// The direction, of length 1.
@@ -30,9 +30,9 @@ impl<N: Number> Towards<N> {
     /// From the surface at `p` to a lamp at `lamp`; both in the assembly's coordinates.
     #[inline(always)]
     pub fn new(lamp: DVec3, p: Vector<N>, normal: Vector<N>) -> Self {
-        let way = p.same(lamp) - p;
-        let distance = way.length();
-        let d = all_settled(way / distance, WITHIN);
+        let to_lamp = p.same(lamp) - p;
+        let distance = to_lamp.length();
+        let d = all_settled(to_lamp / distance, WITHIN);
         Self { d, distance, facing: d.dot(normal) }
     }
 
@@ -44,8 +44,8 @@ impl<N: Number> Towards<N> {
         self.facing.is_above(zero) & !self.distance.is_below(zero.same(NEAREST))
     }
 
-    /// The cosine of the angle between the mirrored light and the way to the eye, at most 1. `seen_along` is
-    /// the direction of the ray that met the surface.
+    /// The cosine of the angle between the mirrored light and the direction to the eye, at most 1.
+    /// `seen_along` is the direction of the ray that met the surface.
     #[inline(always)]
     pub fn mirrored_cosine(&self, normal: Vector<N>, seen_along: Vector<N>) -> N {
         let mirrored = normal * (self.facing * 2.0) - self.d;

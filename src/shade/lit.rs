@@ -3,7 +3,7 @@
 
 use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
 
-use crate::math::{DVec3, LANES, LaneVector, Lanes, Mask, Number, ROWS, RayPacket, row_of};
+use crate::math::{DVec3, LANES, LaneVector, Lanes, Mask, Number, REGISTERS, RayPacket, mask_of};
 use crate::trace::ShadowPacket;
 
 use super::channel::{Channel, limited};
@@ -29,7 +29,7 @@ pub(crate) struct LitQuery {
 pub(crate) struct Lit {
     /// `L·N`.
     facing: Lanes,
-    /// The cosine of the angle between the mirrored light and the way to the eye, at most 1.
+    /// The cosine of the angle between the mirrored light and the direction to the eye, at most 1.
     cosine: Lanes,
     /// V, where anything lets light through.
     pub visible: Lanes,
@@ -39,7 +39,7 @@ impl Lit {
     pub const NONE: Self =
         Self { facing: Lanes::filled(0.0), cosine: Lanes::filled(0.0), visible: Lanes::filled(1.0) };
 
-    /// Finds the ways from the surfaces to a lamp. Those that it shines on become the rays of
+    /// Finds the directions from the surfaces to a lamp. Those that it shines on become the rays of
     /// `shadow_packet`.
     pub fn light(
         &mut self,
@@ -64,23 +64,23 @@ impl Lit {
         surfaces: &Surfaces,
         shadow_packet: &mut ShadowPacket,
     ) {
-        for row in 0..ROWS {
-            if (query.lanes >> (row * LANES)) as u8 == 0 {
+        for register in 0..REGISTERS {
+            if (query.lanes >> (register * LANES)) as u8 == 0 {
                 continue;
             }
-            let p = surfaces.p.load(simd, row);
-            let normal = surfaces.normal.load(simd, row);
+            let p = surfaces.p.load(simd, register);
+            let normal = surfaces.normal.load(simd, register);
             let towards = Towards::new(query.lamp, p, normal);
-            self.facing.store(row, towards.facing);
+            self.facing.store(register, towards.facing);
             if query.highlights {
-                self.cosine.store(row, towards.mirrored_cosine(normal, packet.d.load(simd, row)));
+                self.cosine.store(register, towards.mirrored_cosine(normal, packet.d.load(simd, register)));
             }
             if query.shadows {
-                shadow_packet.rays.o.store(row, p);
-                shadow_packet.rays.d.store(row, towards.d);
-                shadow_packet.distance.store(row, towards.distance);
+                shadow_packet.rays.o.store(register, p);
+                shadow_packet.rays.d.store(register, towards.d);
+                shadow_packet.distance.store(register, towards.distance);
             }
-            shadow_packet.rays.live |= towards.shines().bits() << (row * LANES);
+            shadow_packet.rays.live |= towards.shines().bits() << (register * LANES);
         }
         shadow_packet.rays.live &= query.lanes;
         if query.shadows {
@@ -112,22 +112,22 @@ impl Lit {
         dimmed: bool,
         sum: &mut [Lanes],
     ) {
-        for row in 0..ROWS {
-            if (lanes >> (row * LANES)) as u8 == 0 {
+        for register in 0..REGISTERS {
+            if (lanes >> (register * LANES)) as u8 == 0 {
                 continue;
             }
-            let which = row_of(simd, lanes, row);
-            let diffuse = material.diffuse(self.facing.load(simd, row));
+            let which = mask_of(simd, lanes, register);
+            let diffuse = material.diffuse(self.facing.load(simd, register));
             let mut highlight = f64x8::splat(simd, 0.0);
             if material.ks > 0.0 {
-                highlight = material.highlight(self.cosine.load(simd, row), which);
+                highlight = material.highlight(self.cosine.load(simd, register), which);
             }
-            let visible = if dimmed { Some(self.visible.load(simd, row)) } else { None };
+            let visible = if dimmed { Some(self.visible.load(simd, register)) } else { None };
             let reflected = Reflected { diffuse, highlight, visible };
             for part in 0..C::PARTS {
-                let before = sum[part].load(simd, row);
+                let before = sum[part].load(simd, register);
                 let after = reflected.add_to(before, material.color.part(part), light.part(part));
-                sum[part].put(simd, row, which, after);
+                sum[part].put(simd, register, which, after);
             }
         }
     }
@@ -139,9 +139,9 @@ pub(crate) fn before_lamps(missed: f64, hits: u64, known: u64, light: &mut Lanes
     #[inline(always)]
     fn set<S: Simd>(simd: S, missed: f64, hits: u64, known: u64, light: &mut Lanes) {
         let zero = f64x8::splat(simd, 0.0);
-        for row in 0..ROWS {
-            let own = row_of(simd, hits, row).choose(zero, zero.same(missed));
-            light.put(simd, row, row_of(simd, !known, row), own);
+        for register in 0..REGISTERS {
+            let own = mask_of(simd, hits, register).choose(zero, zero.same(missed));
+            light.put(simd, register, mask_of(simd, !known, register), own);
         }
     }
     dispatch!(level, simd => set(simd, missed, hits, known, light));
@@ -151,8 +151,13 @@ pub(crate) fn before_lamps(missed: f64, hits: u64, known: u64, light: &mut Lanes
 pub(crate) fn add_everywhere<C: Channel>(light: C, lanes: u64, sum: &mut [Lanes], level: Level) {
     #[inline(always)]
     fn added<S: Simd>(simd: S, light: f64, lanes: u64, sum: &mut Lanes) {
-        for row in 0..ROWS {
-            sum.put(simd, row, row_of(simd, lanes, row), limited(sum.load(simd, row) + light));
+        for register in 0..REGISTERS {
+            sum.put(
+                simd,
+                register,
+                mask_of(simd, lanes, register),
+                limited(sum.load(simd, register) + light),
+            );
         }
     }
     for (part, sum) in sum.iter_mut().enumerate() {
@@ -190,13 +195,13 @@ impl<C: Channel> Gathering<C> {
 
     #[inline(always)]
     fn gathered<S: Simd>(&self, simd: S, lanes: u64, path_length: &Lanes, sum: &mut [Lanes]) {
-        for row in 0..ROWS {
-            if (lanes >> (row * LANES)) as u8 == 0 {
+        for register in 0..REGISTERS {
+            if (lanes >> (register * LANES)) as u8 == 0 {
                 continue;
             }
             for part in 0..C::PARTS {
-                let light = self.part(part, sum[part].load(simd, row), path_length.load(simd, row));
-                sum[part].put(simd, row, row_of(simd, lanes, row), light);
+                let light = self.part(part, sum[part].load(simd, register), path_length.load(simd, register));
+                sum[part].put(simd, register, mask_of(simd, lanes, register), light);
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
 
-use crate::math::{DVec3, LANES, LaneVector, Lanes, Mask, Number, ROWS, RayPacket, Vector, row_of};
+use crate::math::{DVec3, LANES, LaneVector, Lanes, Mask, Number, REGISTERS, RayPacket, Vector, mask_of};
 use crate::solid::{Assembly, Departures, WorldShape};
 use crate::trace::PacketHits;
 
@@ -49,7 +49,7 @@ impl Surfaces {
         level: Level,
     ) {
         dispatch!(level, simd => self.set_all_points(simd, packet, before, nearest));
-        self.hits &= packet.live & !nearest.unsure;
+        self.hits &= packet.live & !nearest.uncertain;
     }
 
     #[inline(always)]
@@ -61,12 +61,13 @@ impl Surfaces {
         nearest: &PacketHits,
     ) {
         self.hits = 0;
-        for row in 0..ROWS {
-            let t = nearest.t.load(simd, row);
+        for register in 0..REGISTERS {
+            let t = nearest.t.load(simd, register);
             let met = t.is_below(t.same(f64::INFINITY));
-            self.hits |= met.bits() << (row * LANES);
-            self.p.store(row, packet.load(simd, row).at(t));
-            self.path_length.store(row, before[0].load(simd, row) + (before[1].load(simd, row) + t));
+            self.hits |= met.bits() << (register * LANES);
+            self.p.store(register, packet.load(simd, register).at(t));
+            self.path_length
+                .store(register, before[0].load(simd, register) + (before[1].load(simd, register) + t));
         }
     }
 
@@ -106,9 +107,9 @@ impl Surfaces {
             rest &= !group;
             let own = &assembly.primitives[primitive as usize];
             self.made_of(own.material.0, group);
-            let off = f64x8::splat(simd, own.form.off());
-            for row in lane / LANES..ROWS {
-                departures.off.put(simd, row, row_of(simd, group, row), off);
+            let place_error = f64x8::splat(simd, own.form.place_error());
+            for register in lane / LANES..REGISTERS {
+                departures.place_error.put(simd, register, mask_of(simd, group, register), place_error);
             }
             match &own.form {
                 WorldShape::Ball(ball) => self.face(
@@ -117,11 +118,11 @@ impl Surfaces {
                     #[inline(always)]
                     |p| ball.normals(p),
                 ),
-                WorldShape::Round(round) => self.face(
+                WorldShape::Quadric(quadric) => self.face(
                     simd,
                     group,
                     #[inline(always)]
-                    |p| round.normals(p, surface),
+                    |p| quadric.normals(p, surface),
                 ),
                 WorldShape::Tube(tube) => self.face(
                     simd,
@@ -155,11 +156,11 @@ impl Surfaces {
     /// Sets the normals of the rays of `group`, which met one face.
     #[inline(always)]
     fn face<S: Simd>(&mut self, simd: S, group: u64, normals: impl Fn(Vector<f64x8<S>>) -> Vector<f64x8<S>>) {
-        for row in 0..ROWS {
-            if (group >> (row * LANES)) as u8 != 0 {
-                let normal = normals(self.p.load(simd, row));
-                let others = self.normal.load(simd, row);
-                self.normal.store(row, Vector::choose(row_of(simd, group, row), normal, others));
+        for register in 0..REGISTERS {
+            if (group >> (register * LANES)) as u8 != 0 {
+                let normal = normals(self.p.load(simd, register));
+                let others = self.normal.load(simd, register);
+                self.normal.store(register, Vector::choose(mask_of(simd, group, register), normal, others));
             }
         }
     }
@@ -168,15 +169,15 @@ impl Surfaces {
     #[inline(always)]
     fn turned<S: Simd>(&mut self, simd: S, packet: &RayPacket) -> u64 {
         let mut inward = 0;
-        for row in 0..ROWS {
-            if (self.hits >> (row * LANES)) as u8 == 0 {
+        for register in 0..REGISTERS {
+            if (self.hits >> (register * LANES)) as u8 == 0 {
                 continue;
             }
-            let d = packet.d.load(simd, row);
-            let normal = self.normal.load(simd, row).normalized_or(-d);
+            let d = packet.d.load(simd, register);
+            let normal = self.normal.load(simd, register).normalized_or(-d);
             let away = normal.dot(d).is_above(d.x.same(0.0));
-            self.normal.store(row, Vector::choose(away, -normal, normal));
-            inward |= away.bits() << (row * LANES);
+            self.normal.store(register, Vector::choose(away, -normal, normal));
+            inward |= away.bits() << (register * LANES);
         }
         inward
     }

@@ -60,8 +60,8 @@ pub struct Assembly {
     alone: Vec<(u32, BatchKind)>,
     /// The world limit: the box of all objects. Within −2..=2 on every axis.
     pub limit: Bounds,
-    /// How far any primitive may be off its place: the greatest [`WorldShape::off`].
-    pub off: f64,
+    /// How far any primitive may be off its place: the greatest [`WorldShape::place_error`].
+    pub place_error: f64,
     /// From the scene's coordinates to those of the assembly.
     pub scene_frame: SceneFrame,
     /// What there is of what.
@@ -217,7 +217,7 @@ impl SceneFrame {
         let map = DAffine3 { matrix3, translation: self.inward(p.map.translation) };
         // The scale is exact; a shift is rounded.
         let shifted = if self.origin == DVec3::ZERO { DVec3::ZERO } else { ROUNDING * map.translation.abs() };
-        let error = p.displacement() / self.unit + shifted;
+        let error = p.map_error() / self.unit + shifted;
         if let Some(ball) = WorldShape::ball(&p.shape, &map, error) {
             return Some(ball);
         }
@@ -319,9 +319,11 @@ impl Assembly {
             }
         }
         let limit = objects.iter().fold(Bounds::EMPTY, |limit, object| limit.join(&object.bounds));
-        let numbers = |p: &WorldPrimitive| (p.form.off(), p.form.thickness());
-        let join = |(off, thinnest): (f64, f64), other: (f64, f64)| (off.max(other.0), thinnest.min(other.1));
-        let (off, thinnest) = if primitives.len() < STRETCH {
+        let numbers = |p: &WorldPrimitive| (p.form.place_error(), p.form.thickness());
+        let join = |(place_error, thinnest): (f64, f64), other: (f64, f64)| {
+            (place_error.max(other.0), thinnest.min(other.1))
+        };
+        let (place_error, thinnest) = if primitives.len() < STRETCH {
             primitives.iter().map(numbers).fold((0.0, f64::INFINITY), join)
         } else {
             primitives.par_iter().map(numbers).reduce(|| (0.0, f64::INFINITY), join)
@@ -338,7 +340,7 @@ impl Assembly {
         let balls = alone.iter().filter(|(_, kind)| *kind == BatchKind::Ball).count();
         let surfaces = objects.iter().filter(|o| matches!(o.body, Body::Surface(_))).count();
         let stats = AssemblyStats { thinnest, balls, surfaces };
-        Ok(Self { primitives, objects, alone, limit, off, scene_frame, stats })
+        Ok(Self { primitives, objects, alone, limit, place_error, scene_frame, stats })
     }
 
     /// The primitive of an object that is a [`Body::Single`] or a [`Body::Surface`]. A list of its own:

@@ -13,7 +13,7 @@
 use std::ops::{Div, Mul};
 
 use crate::math::{Number, Ray, Rays};
-use crate::stage::{Meter, Probe, Stage};
+use crate::stage::{Meter, Probe, RayEvent, Stage};
 
 use super::expression::Expression;
 use super::primitive::{WorldPrimitive, WorldShape};
@@ -73,19 +73,19 @@ impl TRange {
 }
 
 /// Whether a crossing of `form` lies at the start of a ray. For a ray that leaves a surface it counts how far
-/// either may be off its place: where they are one place they have one slope, so that `error` is to `off` as
-/// the start's to its own. The eye is where it is: for a ray from there only rounding counts, not how far the
-/// map of the primitive may be off.
+/// either may be off its place: where they are one place they have one slope, so that `error` is to
+/// `place_error` as the start's to its own. The eye is where it is: for a ray from there only rounding
+/// counts, not how far the map of the primitive may be off.
 #[inline]
 pub fn at_start(end: &End, form: &WorldShape, departure: Option<Departure>) -> bool {
-    end.t <= start_of(end.error, PlaceError::of(form), departure.map(|d| d.off))
+    end.t <= start_of(end.error, PlaceError::of(form), departure.map(|d| d.place_error))
 }
 
 /// How far a primitive may be off its place, in the world's unit, and which share of that our own rounding
 /// may have made.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PlaceError<N> {
-    pub off: N,
+    pub bound: N,
     pub rounding_share: N,
 }
 
@@ -93,19 +93,19 @@ impl PlaceError<f64> {
     /// That of a primitive.
     #[inline(always)]
     pub fn of(form: &WorldShape) -> Self {
-        Self { off: form.off(), rounding_share: form.rounding_share() }
+        Self { bound: form.place_error(), rounding_share: form.rounding_share() }
     }
 }
 
 /// Up to which distance a crossing with this error lies at the start of its ray, given how far its primitive
 /// is off, and rounding's share of that.
 #[inline(always)]
-pub(super) fn start_of<N, M>(error: N, own: PlaceError<M>, departure_off: Option<N>) -> N
+pub(super) fn start_of<N, M>(error: N, own: PlaceError<M>, departure_error: Option<N>) -> N
 where
     N: Number + Div<M, Output = N> + Mul<M, Output = N>,
 {
-    match departure_off {
-        Some(off) => error * (off / own.off + 1.0),
+    match departure_error {
+        Some(theirs) => error * (theirs / own.bound + 1.0),
         None => error * 2.0 * own.rounding_share,
     }
 }
@@ -117,8 +117,8 @@ pub struct RayStarts<N: Number> {
     pub here: N::Mask,
     /// Which of these go to its inside.
     pub inward: N::Mask,
-    /// [`Departure::off`] of each; `None` for rays from the eye.
-    pub off: Option<N>,
+    /// [`Departure::place_error`] of each; `None` for rays from the eye.
+    pub place_error: Option<N>,
 }
 
 impl<N: Number> RayStarts<N> {
@@ -128,7 +128,7 @@ impl<N: Number> RayStarts<N> {
         end.t.is_at_most(self.reach(end, form))
     }
 
-    /// Whether numbers that do not decide leave a doubt which of these they do.
+    /// Whether it is uncertain in single precision which of these they do.
     #[inline(always)]
     pub fn near(&self, end: &Ends<N>, form: &WorldShape) -> N::Mask {
         end.t.magnitude().is_at_most(self.reach(end, form))
@@ -138,8 +138,11 @@ impl<N: Number> RayStarts<N> {
     fn reach(&self, end: &Ends<N>, form: &WorldShape) -> N {
         start_of(
             end.error,
-            PlaceError { off: form.off() * N::COARSER, rounding_share: form.rounding_share() },
-            self.off,
+            PlaceError {
+                bound: form.place_error() * N::EPSILON_RATIO,
+                rounding_share: form.rounding_share(),
+            },
+            self.place_error,
         )
     }
 }
@@ -183,11 +186,19 @@ pub fn first_of_span(
 ) -> Option<Crossing> {
     meter.counts.primitive_tests += 1;
     let here = departure.filter(|d| d.primitive == index);
-    if here.is_some_and(|d| !d.inward) {
-        return None;
-    }
-    let spans = primitive.form.spans(&Rays::from(ray)).filter(|spans| spans.any)?;
-    let starts = RayStarts { here: here.is_some(), inward: here.is_some(), off: departure.map(|d| d.off) };
+    let is_left = here.is_some_and(|d| !d.inward);
+    let spans = if is_left { None } else { primitive.form.spans(&Rays::from(ray)) };
+    let spans = spans.filter(|spans| spans.any);
+    meter.record(|| {
+        let span = spans.map(|spans| [if here.is_some() { 0.0 } else { spans.enter.t }, spans.leave.t]);
+        RayEvent::Tested { primitive: index, span }
+    });
+    let spans = spans?;
+    let starts = RayStarts {
+        here: here.is_some(),
+        inward: here.is_some(),
+        place_error: departure.map(|d| d.place_error),
+    };
     let first = firsts_of_spans(spans, &primitive.form, &starts);
     let End { t, error, surface } = first.end.one();
     first.any.then_some(Crossing { t, error, primitive: index, surface, entering: first.entering })
@@ -206,19 +217,20 @@ pub fn first_of_expression(
     let Scratch { events, state } = scratch;
     meter.at(Stage::Solid);
     meter.counts.primitive_tests += expression.leaves.len() as u64;
-    gather(ray, expression, primitives, departure, reach, events);
+    gather(ray, expression, primitives, departure, reach, events, meter);
     if events.is_empty() {
         return None;
     }
     meter.at(Stage::Csg);
     meter.counts.csg_evaluations += 1;
+    meter.record(|| RayEvent::Evaluated { leaves: expression.leaves.len(), crossings: events.len() });
     events.sort_unstable_by(|a, b| a.end.t.total_cmp(&b.end.t).then(a.leaf.cmp(&b.leaf)));
     state.start(expression);
     let mut value = state.value(expression);
     let form = |event: &Event| &primitives[expression.leaves[event.leaf as usize].primitive as usize].form;
     let mut rest = &mut events[..];
     while let Some(first) = rest.first().copied() {
-        let length = gather_cluster(rest, |event| form(event).off());
+        let length = gather_cluster(rest, |event| form(event).place_error());
         let (cluster, behind) = rest.split_at_mut(length);
         rest = behind;
         if first.end.t > reach.to {
@@ -251,7 +263,7 @@ pub fn first_of_expression(
 ///
 /// Where surfaces coincide they have one slope, but for what their maps lost, which counts where a ray all
 /// but skims them. What is crossed steeply on a way that skims a face has a sine farther from the face's than
-/// this, unless the face's crossing is known within 256 times `off`, too little to be seen.
+/// this, unless the face's crossing is known within 256 times `place_error`, too little to be seen.
 const SAME_SLOPE: f64 = 256.0;
 
 /// Whether the sines of the angles at which rays meet two surfaces are as near as those of one place are.
@@ -262,11 +274,11 @@ pub(super) fn have_one_slope<N: Number>(a: N, b: N) -> N::Mask {
 
 /// Brings those of the sorted events that are one place with the first of them to the front, and counts them;
 /// the others keep their order.
-fn gather_cluster(events: &mut [Event], off: impl Fn(&Event) -> f64) -> usize {
+fn gather_cluster(events: &mut [Event], place_error: impl Fn(&Event) -> f64) -> usize {
     let first = events[0].end;
     let limit = first.t + first.error;
-    // An error is `off` over the sine of the angle between ray and surface.
-    let sine = |event: &Event| off(event) / event.end.error;
+    // An error is `place_error` over the sine of the angle between ray and surface.
+    let sine = |event: &Event| place_error(event) / event.end.error;
     let mut length = 1;
     for i in 1..events.len() {
         let end = events[i].end;
@@ -284,6 +296,15 @@ fn gather_cluster(events: &mut [Event], off: impl Fn(&Event) -> f64) -> usize {
     length
 }
 
+/// The event of a ray that crosses a primitive at these distances, in any order.
+fn tested(primitive: u32, crossings: impl Iterator<Item = f64>) -> RayEvent {
+    let span = crossings.fold(None, |span, t| {
+        let [first, last] = span.unwrap_or([t; 2]);
+        Some([t.min(first), t.max(last)])
+    });
+    RayEvent::Tested { primitive, span }
+}
+
 /// Collects the crossings of every primitive of the expression that can matter within `reach`.
 fn gather(
     ray: &Ray,
@@ -292,6 +313,7 @@ fn gather(
     departure: Option<Departure>,
     reach: TRange,
     events: &mut Vec<Event>,
+    meter: &mut Meter<impl Probe>,
 ) {
     events.clear();
     for (leaf, place) in expression.leaves.iter().enumerate() {
@@ -301,17 +323,21 @@ fn gather(
         let zero = End { t: 0.0, error: 0.0, surface: 0 };
         if !form.is_convex() {
             let start = here.map(|d| d.surface);
+            let before = events.len();
             form.crossings(ray, |end| {
                 let end = if Some(end.surface) == start { zero } else { end };
                 events.push(Event { end, leaf });
             });
+            meter.record(|| tested(place.primitive, events[before..].iter().map(|event| event.end.t)));
             continue;
         }
         let outward = here.is_some_and(|d| !d.inward);
-        let Some(mut span) = (if outward { None } else { form.span(ray) }) else { continue };
-        if here.is_some() {
+        let mut span = if outward { None } else { form.span(ray) };
+        if let (Some(span), true) = (&mut span, here.is_some()) {
             span.enter = zero;
         }
+        meter.record(|| tested(place.primitive, span.iter().flat_map(|span| [span.enter.t, span.leave.t])));
+        let Some(span) = span else { continue };
         // Far outside the reach only the state inside it matters: none for a span that ends before it or
         // starts behind it.
         let ends_before = span.leave.t + span.leave.error < reach.from;

@@ -41,7 +41,7 @@ impl<T: Real> PacketScratch<T> {
 
 /// The first crossings of an expression of convex primitives.
 ///
-/// Rays whose expression has a primitive that is not convex are unsure, all of them.
+/// Rays whose expression has a primitive that is not convex are uncertain, all of them.
 pub fn first_of_expressions<S: Simd, T: Real>(
     simd: S,
     asked: &CsgQuery<T>,
@@ -51,23 +51,23 @@ pub fn first_of_expressions<S: Simd, T: Real>(
     found: &mut PacketCrossings<T>,
 ) {
     let wanted = asked.wanted;
-    (found.any, found.unsure, found.entering) = (0, 0, 0);
+    (found.any, found.uncertain, found.entering) = (0, 0, 0);
     let form = |leaf: usize| &primitives[expression.leaves[leaf].primitive as usize].form;
     let leaves = expression.leaves.len();
     if (0..leaves).any(|leaf| !form(leaf).is_convex()) {
-        found.unsure = wanted;
+        found.uncertain = wanted;
         return;
     }
-    let (mut some, mut doubtful) = (0, 0);
+    let (mut some, mut uncertain) = (0, 0);
     scratch.places.clear();
     for (leaf, place) in expression.leaves.iter().enumerate() {
         let (place, [ahead, may]) = scratch.known.look(simd, asked, place.primitive, form(leaf));
         scratch.places.push(place);
         some |= ahead;
-        doubtful |= may;
+        uncertain |= may;
     }
-    found.unsure = doubtful;
-    some &= !doubtful;
+    found.uncertain = uncertain;
+    some &= !uncertain;
     if some == 0 {
         return;
     }
@@ -124,12 +124,12 @@ fn decide<S: Simd, T: Real>(
     while open != 0 {
         let mut done = 0;
         let mut early = 0;
-        for row in 0..T::ROWS {
+        for row in 0..T::REGISTERS {
             if T::has_any(open, row) {
-                let [ended, earlier, doubtful] = next_place(simd, row, open, &mut sides, departures, reach);
-                done |= ended | doubtful;
+                let [ended, earlier, uncertain] = next_place(simd, row, open, &mut sides, departures, reach);
+                done |= ended | uncertain;
                 early |= earlier;
-                found.unsure |= doubtful;
+                found.uncertain |= uncertain;
             }
         }
         open &= !done;
@@ -158,7 +158,7 @@ fn decide<S: Simd, T: Real>(
                     }
                 }
             }
-            found.unsure |= left;
+            found.uncertain |= left;
             found.any |= shown & !left;
             found.entering |= shown & now;
             open &= !shown;
@@ -181,7 +181,7 @@ fn next_place<S: Simd, T: Real>(
 ) -> [u64; 3] {
     let shift = row * T::LANES;
     let (infinite, zero) = (T::all(simd, f64::INFINITY), T::all(simd, 0.0));
-    let (mut t, mut error, mut off, mut rounding_share) = (infinite, zero, zero, zero);
+    let (mut t, mut error, mut place_error, mut rounding_share) = (infinite, zero, zero, zero);
     for leaf in 0..sides.places.len() {
         let known = sides.of(leaf);
         for side in known.sides() {
@@ -189,46 +189,49 @@ fn next_place<S: Simd, T: Real>(
                 continue;
             }
             let their_t = side.t.load(simd, row);
-            let sooner = T::row_of(simd, side.ahead, row) & their_t.is_below(t);
+            let sooner = T::mask_of(simd, side.ahead, row) & their_t.is_below(t);
             t = sooner.choose(their_t, t);
             error = sooner.choose(side.error.load(simd, row), error);
-            off = sooner.choose(T::all(simd, known.off), off);
+            place_error = sooner.choose(T::all(simd, known.place_error), place_error);
             rounding_share = sooner.choose(T::all(simd, known.rounding_share), rounding_share);
         }
     }
-    let start =
-        start_of(error, PlaceError { off, rounding_share }, departures.map(|d| d.off.load(simd, row)));
-    let open = T::row_of(simd, open, row);
+    let start = start_of(
+        error,
+        PlaceError { bound: place_error, rounding_share },
+        departures.map(|d| d.place_error.load(simd, row)),
+    );
+    let open = T::mask_of(simd, open, row);
     let ended = open & (t.is_equal(infinite) | t.is_above(T::all(simd, reach.to)));
     let (asking, limit) = (open & !ended, t + error);
     // The first itself reaches back to its place; mostly no other does.
-    let none = T::row_of(simd, 0, row);
+    let none = T::mask_of(simd, 0, row);
     let (mut some, mut more) = (none, none);
     for leaf in 0..sides.places.len() {
         for side in sides.of_mut(leaf).sides_mut() {
             if !T::has_any(side.ahead, row) {
-                side.crossing &= !(T::ROW << shift);
+                side.crossing &= !(T::REGISTER_BITS << shift);
                 continue;
             }
             let earliest = side.t.load(simd, row) - side.error.load(simd, row);
-            let reaches = T::row_of(simd, side.ahead, row) & asking & earliest.is_at_most(limit);
+            let reaches = T::mask_of(simd, side.ahead, row) & asking & earliest.is_at_most(limit);
             more = more | (some & reaches);
             some = some | reaches;
-            side.crossing = side.crossing & !(T::ROW << shift) | reaches.bits() << shift;
+            side.crossing = side.crossing & !(T::REGISTER_BITS << shift) | reaches.bits() << shift;
         }
     }
-    let mut doubtful = 0;
-    let all_before = if !T::DECIDES {
+    let mut uncertain = 0;
+    let all_before = if !T::IS_DOUBLE {
         let at_start = asking & t.magnitude().is_at_most(start);
-        doubtful = T::bits_of(simd, more | at_start, row);
+        uncertain = T::bits_of(simd, more | at_start, row);
         t.is_below(T::all(simd, reach.from))
     } else if more.any() {
-        one_place(simd, row, asking, sides, FirstEnds { t, error, off }, reach)
+        one_place(simd, row, asking, sides, FirstEnds { t, error, place_error }, reach)
     } else {
         t.is_below(T::all(simd, reach.from))
     };
     let early = asking & (t.is_at_most(start) | all_before);
-    [T::bits_of(simd, ended, row), T::bits_of(simd, early, row), doubtful]
+    [T::bits_of(simd, ended, row), T::bits_of(simd, early, row), uncertain]
 }
 
 /// The first crossing that is yet to come on each ray of a row: where, how far that may be off, and how far
@@ -237,7 +240,7 @@ fn next_place<S: Simd, T: Real>(
 struct FirstEnds<N> {
     t: N,
     error: N,
-    off: N,
+    place_error: N,
 }
 
 /// Which crossings of those that reach back to the first of a row, where several do, are one place with it.
@@ -251,7 +254,7 @@ fn one_place<S: Simd, T: Real>(
     first: FirstEnds<T::SimdReal<S>>,
     reach: TRange,
 ) -> RealMask<T, S> {
-    let FirstEnds { t, error, off } = first;
+    let FirstEnds { t, error, place_error } = first;
     let shift = row * T::LANES;
     let (infinite, zero) = (T::all(simd, f64::INFINITY), T::all(simd, 0.0));
     let limit = t + error;
@@ -261,25 +264,25 @@ fn one_place<S: Simd, T: Real>(
         for side in sides.of(leaf).sides() {
             let their_t = side.t.load(simd, row);
             let apart =
-                T::row_of(simd, side.ahead, row) & (their_t - side.error.load(simd, row)).is_above(limit);
+                T::mask_of(simd, side.ahead, row) & (their_t - side.error.load(simd, row)).is_above(limit);
             end = (apart & their_t.is_below(end)).choose(their_t, end);
         }
     }
     let mut all_before = asking;
     for leaf in 0..sides.places.len() {
         let known = sides.of_mut(leaf);
-        let own = T::all(simd, known.off);
+        let own = T::all(simd, known.place_error);
         for side in known.sides_mut() {
             if !T::has_any(side.crossing, row) {
                 continue;
             }
             let (their_t, their_error) = (side.t.load(simd, row), side.error.load(simd, row));
             let exact = error.is_equal(zero) | their_error.is_equal(zero);
-            let now = T::row_of(simd, side.crossing, row)
+            let now = T::mask_of(simd, side.crossing, row)
                 & their_t.is_below(end)
-                & (have_one_slope(off / error, own / their_error) | exact);
+                & (have_one_slope(place_error / error, own / their_error) | exact);
             all_before = all_before & (!now | their_t.is_below(T::all(simd, reach.from)));
-            side.crossing = side.crossing & !(T::ROW << shift) | now.bits() << shift;
+            side.crossing = side.crossing & !(T::REGISTER_BITS << shift) | now.bits() << shift;
         }
     }
     all_before
@@ -345,11 +348,11 @@ fn take<S: Simd, T: Real>(
     if lanes == 0 {
         return;
     }
-    for row in 0..T::ROWS {
+    for row in 0..T::REGISTERS {
         if !T::has_any(lanes, row) {
             continue;
         }
-        let which = T::row_of(simd, lanes, row);
+        let which = T::mask_of(simd, lanes, row);
         found.t.put(simd, row, which, side.t.load(simd, row));
         found.error.put(simd, row, which, side.error.load(simd, row));
         found.surface.put_ids::<T, S>(simd, row, lanes, side.surface.load(simd, row).ids());

@@ -28,7 +28,7 @@ pub struct Departures<T = f64> {
     /// Which rays go to the inside of it, a bit for each.
     pub inward: u64,
     /// How far it may be off its place.
-    pub off: Lanes<T>,
+    pub place_error: Lanes<T>,
 }
 
 impl Departures {
@@ -37,12 +37,12 @@ impl Departures {
 
     /// No ray leaves a surface.
     pub const NONE: Self =
-        Self { primitive: Lanes::filled(Self::NOWHERE), inward: 0, off: Lanes::filled(0.0) };
+        Self { primitive: Lanes::filled(Self::NOWHERE), inward: 0, place_error: Lanes::filled(0.0) };
 
     /// Sets the surface that one ray starts on, and whether it goes inward.
     pub fn set(&mut self, lane: usize, departure: &Departure) {
         self.primitive.0[lane] = departure.primitive;
-        self.off.0[lane] = departure.off;
+        self.place_error.0[lane] = departure.place_error;
         self.inward = self.inward & !(1 << lane) | u64::from(departure.inward) << lane;
     }
 
@@ -52,7 +52,7 @@ impl Departures {
             primitive: self.primitive.0[lane],
             surface: 0,
             inward: self.inward >> lane & 1 == 1,
-            off: self.off.0[lane],
+            place_error: self.place_error.0[lane],
         }
     }
 }
@@ -83,7 +83,7 @@ pub struct PacketCrossings<T = f64> {
     pub any: u64,
     /// Which rays are to be asked one by one: theirs is a place where no primitive alone makes the change; or
     /// by double precision.
-    pub unsure: u64,
+    pub uncertain: u64,
     /// Which rays go into the solid there.
     pub entering: u64,
     /// Where, and how far that may be off.
@@ -100,7 +100,7 @@ impl<T: Real> PacketCrossings<T> {
     /// None.
     pub const NONE: Self = Self {
         any: 0,
-        unsure: 0,
+        uncertain: 0,
         entering: 0,
         t: Lanes::filled(T::INFINITY),
         error: Lanes::filled(T::ZERO),

@@ -36,7 +36,7 @@ pub struct Face {
     /// A point of that plane: the mean of the corners.
     middle: DVec3,
     /// How far corners may seem off the plane: by their own rounding, and by that of ours.
-    off: f64,
+    place_error: f64,
     /// The box of a polygon so bent that its plane leads out of it.
     bent_box: Option<Box<Bounds>>,
 }
@@ -63,8 +63,8 @@ impl Face {
             Box::default()
         };
         let bent_box = (bent > rounding_at(reach)).then(|| Box::new(Bounds::around(outline.iter().copied())));
-        let off = bent.min(WRITTEN) + rounding_at(reach) + map_error.length();
-        Self { outline: outline.into(), groups, normal, middle, off, bent_box }
+        let place_error = bent.min(WRITTEN) + rounding_at(reach) + map_error.length();
+        Self { outline: outline.into(), groups, normal, middle, place_error, bent_box }
     }
 
     /// Where the line of the ray meets the polygon.
@@ -74,7 +74,7 @@ impl Face {
         if !self.surrounds(&across) {
             return None;
         }
-        let (t, error) = plane_crossing(ray, self.corners(), self.normal, self.middle, self.off);
+        let (t, error) = plane_crossing(ray, self.corners(), self.normal, self.middle, self.place_error);
         let t = self.bent_box.as_ref().map_or(t, |b| nearest_within(b, &Rays::from(ray), t));
         Some(End { t, error, surface: 0 })
     }
@@ -83,7 +83,7 @@ impl Face {
     /// for their plane to say it.
     #[inline(always)]
     pub(super) fn steep_crossings<N: Number>(&self, rays: &Rays<N>) -> SteepCrossings<N> {
-        let OnPlane { towards, t, error } = on_plane(rays, self.normal, self.middle, self.off);
+        let OnPlane { towards, t, error } = on_plane(rays, self.normal, self.middle, self.place_error);
         let t = match &self.bent_box {
             Some(b) => nearest_within(b, rays, t),
             None => t,
@@ -131,8 +131,8 @@ impl Face {
     }
 
     /// How far a corner may be off its place, by its map and by our own rounding.
-    pub fn off(&self) -> f64 {
-        self.off
+    pub fn place_error(&self) -> f64 {
+        self.place_error
     }
 
     /// How far it reaches along `v`: the greatest `p · v` of its points.
@@ -143,7 +143,7 @@ impl Face {
     /// Whether the box is certainly off the polygon.
     pub fn misses(&self, b: &Bounds) -> bool {
         let distance = self.normal.dot(b.center() - self.middle).abs() - self.normal.abs().dot(b.half());
-        distance > self.off || self.bounds().meet(b).is_empty()
+        distance > self.place_error || self.bounds().meet(b).is_empty()
     }
 }
 

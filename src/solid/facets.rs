@@ -16,10 +16,10 @@ pub struct ConvexPolyhedron {
     bounds: Bounds,
     /// Where they are known: else those of the box stand for them.
     corners: Box<[DVec3]>,
-    /// By face: how far it may be off its place, by the map and by our own rounding.
-    off: Box<[f64]>,
+    /// By face: how far it may be from its place, by the map and by our own rounding.
+    face_errors: Box<[f64]>,
     /// The largest of them.
-    displacement: f64,
+    place_error: f64,
     /// The least share of it that is our own rounding.
     rounding_share: f64,
     thickness: f64,
@@ -47,14 +47,15 @@ impl ConvexPolyhedron {
         let map = crate::math::DAffine3 { matrix3: place.linear, translation: place.center };
         let bounds = unit.bounds.mapped(&map);
         let seen = rounding_at(place.center.length());
-        let off: Box<[f64]> = faces.iter().map(|face| seen + face.normal.abs().dot(map_error)).collect();
-        let rounding_share = off.iter().map(|off| seen / off).fold(1.0, f64::min);
-        let displacement = off.iter().fold(0.0, |most: f64, &off| most.max(off));
+        let face_errors: Box<[f64]> =
+            faces.iter().map(|face| seen + face.normal.abs().dot(map_error)).collect();
+        let rounding_share = face_errors.iter().map(|error| seen / error).fold(1.0, f64::min);
+        let place_error = face_errors.iter().fold(0.0, |most: f64, &error| most.max(error));
         // The narrowest unit solid, a prism of three sides, is 1.5 thick, a pyramid over it more than a third
         // of that.
         let thickness = 0.5 / norm(&place.inverse);
         let (center, corners) = (place.center, Box::default());
-        Self { faces, center, bounds, corners, off, displacement, rounding_share, thickness }
+        Self { faces, center, bounds, corners, face_errors, place_error, rounding_share, thickness }
     }
 
     /// The same solid, with its corners.
@@ -80,13 +81,16 @@ impl ConvexPolyhedron {
         let from_center = rays.o - self.center;
         let mut spans = Spans::line(like);
         let (before, behind) = (like.same(f64::NEG_INFINITY), like.same(f64::INFINITY));
-        let still = STILL * N::COARSER;
-        for (surface, (face, off)) in self.faces.iter().zip(&self.off).enumerate() {
+        let still = STILL * N::EPSILON_RATIO;
+        for (surface, (face, face_error)) in self.faces.iter().zip(&self.face_errors).enumerate() {
             let above = from_center.dot_one(face.normal) - face.offset;
             let d = rays.d.dot_one(face.normal);
             let inverse = like.same(1.0) / d;
-            let (t, error, surface) =
-                (-above * inverse, inverse.magnitude() * (*off * N::COARSER), like.same(surface as f64));
+            let (t, error, surface) = (
+                -above * inverse,
+                inverse.magnitude() * (*face_error * N::EPSILON_RATIO),
+                like.same(surface as f64),
+            );
             let (against, along) = (d.is_below(like.same(-still)), d.is_above(like.same(still)));
             let enter = Ends { t: against.choose(t, before), error, surface };
             let leave = Ends { t: along.choose(t, behind), error, surface };
@@ -97,7 +101,10 @@ impl ConvexPolyhedron {
             spans.keep(
                 against | along | !outside,
                 #[inline(always)]
-                || !(against | along) & above.magnitude().is_at_most(like.same(*off * N::COARSER)),
+                || {
+                    !(against | along)
+                        & above.magnitude().is_at_most(like.same(*face_error * N::EPSILON_RATIO))
+                },
             );
         }
         spans.if_any(
@@ -108,8 +115,8 @@ impl ConvexPolyhedron {
     }
 
     /// How far a point of it may be off its place, by its map and by our own rounding.
-    pub fn off(&self) -> f64 {
-        self.displacement
+    pub fn place_error(&self) -> f64 {
+        self.place_error
     }
 
     /// The share of its errors that our own rounding may have made.

@@ -18,7 +18,7 @@ pub struct TriangleMesh {
     triangles: Vec<Triangle>,
     nodes: Vec<Node>,
     /// How far a corner may seem off its place.
-    off: f64,
+    place_error: f64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,7 +57,7 @@ impl TriangleMesh {
         let mut nodes = Vec::new();
         let count = triangles.len();
         build(&mut nodes, &mut triangles, 0, count);
-        Self { triangles, nodes, off: rounding_at(reach) + map_error.length() }
+        Self { triangles, nodes, place_error: rounding_at(reach) + map_error.length() }
     }
 
     /// Every crossing of the line with the surface, in no order.
@@ -66,7 +66,7 @@ impl TriangleMesh {
         let mut stack = vec![0_u32];
         while let Some(index) = stack.pop() {
             let node = &self.nodes[index as usize];
-            if !line_meets(ray, &node.bounds, self.off) {
+            if !line_meets(ray, &node.bounds, self.place_error) {
                 continue;
             }
             if node.count == 0 {
@@ -76,7 +76,7 @@ impl TriangleMesh {
             }
             for surface in node.first..node.first + node.count {
                 let triangle = &self.triangles[surface as usize];
-                if let Some(end) = triangle.crossing(ray, &across, self.off, surface) {
+                if let Some(end) = triangle.crossing(ray, &across, self.place_error, surface) {
                     found(end);
                 }
             }
@@ -89,8 +89,8 @@ impl TriangleMesh {
     }
 
     /// How far a corner may be off its place, by its map and by our own rounding.
-    pub fn off(&self) -> f64 {
-        self.off
+    pub fn place_error(&self) -> f64 {
+        self.place_error
     }
 
     /// How far it reaches along `v`: the greatest `p · v` of its points.
@@ -131,11 +131,11 @@ fn build(nodes: &mut Vec<Node>, triangles: &mut [Triangle], from: usize, to: usi
     nodes[index].count = 0;
 }
 
-/// Whether the line passes the box, its faces moved outward by `off`.
-fn line_meets(ray: &Ray, b: &Bounds, off: f64) -> bool {
+/// Whether the line passes the box, its faces moved outward by `margin`.
+fn line_meets(ray: &Ray, b: &Bounds, margin: f64) -> bool {
     let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
     for axis in 0..3 {
-        let (lo, hi) = (b.lo[axis] - off - ray.o[axis], b.hi[axis] + off - ray.o[axis]);
+        let (lo, hi) = (b.lo[axis] - margin - ray.o[axis], b.hi[axis] + margin - ray.o[axis]);
         let d = ray.d[axis];
         if d == 0.0 {
             if lo > 0.0 || hi < 0.0 {
@@ -152,11 +152,12 @@ fn line_meets(ray: &Ray, b: &Bounds, off: f64) -> bool {
 }
 
 impl Triangle {
-    fn crossing(&self, ray: &Ray, across: &RayShear, off: f64, surface: u32) -> Option<End> {
+    fn crossing(&self, ray: &Ray, across: &RayShear, place_error: f64, surface: u32) -> Option<End> {
         if !across.meets_triangle(&self.corners) {
             return None;
         }
-        let (t, error) = plane_crossing(ray, &self.corners, self.normal, nearest(ray, &self.corners), off);
+        let (t, error) =
+            plane_crossing(ray, &self.corners, self.normal, nearest(ray, &self.corners), place_error);
         Some(End { t, error, surface })
     }
 }

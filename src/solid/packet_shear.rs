@@ -6,7 +6,7 @@
 
 use fearless_simd::{Simd, SimdMask, f64x8, mask64x8};
 
-use crate::math::{Bounds, DVec3, LANES, Lanes, Mask, Number, ROWS, RayPacket};
+use crate::math::{Bounds, DVec3, LANES, Lanes, Mask, Number, REGISTERS, RayPacket};
 
 /// An area that is a difference of two products has the sign of its rounded value where that is larger than
 /// this share of their sum: three roundings of half an ulp (Ozaki et al.: Simple floating-point filters for
@@ -22,20 +22,20 @@ pub struct PacketShear {
     shear: [Lanes; 2],
 }
 
-/// The planes across the rays of a row that go farthest along axis `MAIN`.
+/// The planes across the rays of a register that go farthest along axis `MAIN`.
 pub(super) struct Row<S: Simd, const MAIN: usize> {
     /// Where they start: along the main axis, and the next two.
     o: [f64x8<S>; 3],
     shear: [f64x8<S>; 2],
 }
 
-/// How an outline lies around the rays of a row.
+/// How an outline lies around the rays of a register.
 #[derive(Clone, Copy)]
 pub(super) struct Around<S: Simd> {
     /// Which rays it goes around an odd number of times.
     pub odd: mask64x8<S>,
     /// Which are to be asked one by one.
-    pub unsure: mask64x8<S>,
+    pub uncertain: mask64x8<S>,
 }
 
 impl PacketShear {
@@ -53,19 +53,19 @@ impl PacketShear {
         if self.main != [0; 3] {
             return;
         }
-        for row in 0..ROWS {
-            let d = packet.load(simd, row).d;
+        for register in 0..REGISTERS {
+            let d = packet.load(simd, register).d;
             let size = d.magnitude();
             // The same axis of several that are equally long as for one ray.
             let x = size.x.is_at_least(size.y) & size.x.is_at_least(size.z);
             let y = !x & size.y.is_at_least(size.z);
             let z = !x & !y;
             for (main, mask) in [x, y, z].into_iter().enumerate() {
-                self.main[main] |= mask.bits() << (row * LANES);
+                self.main[main] |= mask.bits() << (register * LANES);
             }
             let main = x.choose(d.x, y.choose(d.y, d.z));
-            self.shear[0].store(row, x.choose(d.y, y.choose(d.z, d.x)) / main);
-            self.shear[1].store(row, x.choose(d.z, y.choose(d.x, d.y)) / main);
+            self.shear[0].store(register, x.choose(d.y, y.choose(d.z, d.x)) / main);
+            self.shear[1].store(register, x.choose(d.z, y.choose(d.x, d.y)) / main);
         }
     }
 
@@ -75,18 +75,18 @@ impl PacketShear {
         self.main[axis]
     }
 
-    /// One row of them; those of the packet's rays that go farthest along another axis mean nothing.
+    /// One register of them; those of the packet's rays that go farthest along another axis mean nothing.
     #[inline(always)]
-    pub(super) fn row<S: Simd, const MAIN: usize>(
+    pub(super) fn load<S: Simd, const MAIN: usize>(
         &self,
         simd: S,
         packet: &RayPacket,
-        row: usize,
+        register: usize,
     ) -> Row<S, MAIN> {
         let [main, first, second] = [&packet.o[MAIN], &packet.o[(MAIN + 1) % 3], &packet.o[(MAIN + 2) % 3]];
         Row {
-            o: [main.load(simd, row), first.load(simd, row), second.load(simd, row)],
-            shear: [self.shear[0].load(simd, row), self.shear[1].load(simd, row)],
+            o: [main.load(simd, register), first.load(simd, register), second.load(simd, register)],
+            shear: [self.shear[0].load(simd, register), self.shear[1].load(simd, register)],
         }
     }
 }
@@ -119,7 +119,7 @@ impl<S: Simd, const MAIN: usize> Row<S, MAIN> {
                 let bound = (left + right).magnitude() * ROUNDED;
                 // From above to below it is the area's negative that has to be above 0.
                 around.odd ^= crosses & (area.is_above(zero) ^ p_above);
-                around.unsure |= crosses & !area.magnitude().is_above(bound);
+                around.uncertain |= crosses & !area.magnitude().is_above(bound);
             }
             (p, p_above) = (q, q_above);
         }
@@ -144,6 +144,6 @@ impl<S: Simd> Around<S> {
     #[inline(always)]
     pub fn nothing(simd: S) -> Self {
         let no = mask64x8::splat(simd, false);
-        Self { odd: no, unsure: no }
+        Self { odd: no, uncertain: no }
     }
 }

@@ -12,7 +12,7 @@ use super::facets::ConvexPolyhedron;
 use super::hull::convex;
 use super::mesh::TriangleMesh;
 use super::patch::Patch;
-use super::round::Round;
+use super::quadric::Quadric;
 use super::slabs::{AxisBox, SkewBox};
 use super::span::{End, ROUNDING, Span, Spans};
 use super::tube::Tube;
@@ -37,7 +37,7 @@ pub enum WorldShape {
     /// A box in any position.
     SkewBox(Box<SkewBox>),
     /// An ellipsoid or truncated cone in any position.
-    Round(Box<Round>),
+    Quadric(Box<Quadric>),
     /// A convex solid of flat faces.
     Facets(Box<ConvexPolyhedron>),
     /// A closed surface of triangles.
@@ -69,10 +69,10 @@ impl WorldShape {
         match shape {
             Shape::Sphere => match similarity(&place.linear) {
                 Some(radius) => Self::Ball(Ball::new(place.center, radius, error)),
-                None => Self::Round(Box::new(Round::ellipsoid(&place, error))),
+                None => Self::Quadric(Box::new(Quadric::ellipsoid(&place, error))),
             },
-            Shape::Frustum { bottom, top } => {
-                Self::Round(Box::new(Round::cone(&place, *bottom, *top, error)))
+            Shape::Cone { bottom, top } => {
+                Self::Quadric(Box::new(Quadric::cone(&place, *bottom, *top, error)))
             }
             Shape::Cube => match axis_half(&place.linear) {
                 Some(half) => Self::AxisBox(Box::new(AxisBox::new(place.center, half, error))),
@@ -102,7 +102,7 @@ impl WorldShape {
             Self::Ball(ball) => Some(ball.spans(rays)),
             Self::AxisBox(slabs) => Some(slabs.spans(rays)),
             Self::SkewBox(slabs) => Some(slabs.spans(rays)),
-            Self::Round(round) => Some(round.spans(rays)),
+            Self::Quadric(quadric) => Some(quadric.spans(rays)),
             Self::Facets(facets) => Some(facets.spans(rays)),
             Self::Mesh(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => None,
         }
@@ -110,17 +110,17 @@ impl WorldShape {
 
     /// How far a point of it may be off its place, by its map and by our own rounding.
     #[inline]
-    pub fn off(&self) -> f64 {
+    pub fn place_error(&self) -> f64 {
         match self {
-            Self::Ball(ball) => ball.off(),
-            Self::AxisBox(slabs) => slabs.off(),
-            Self::SkewBox(slabs) => slabs.off(),
-            Self::Round(round) => round.off(),
-            Self::Facets(facets) => facets.off(),
-            Self::Mesh(mesh) => mesh.off(),
-            Self::Face(face) => face.off(),
-            Self::Patch(patch) => patch.face.off(),
-            Self::Tube(tube) => tube.off(),
+            Self::Ball(ball) => ball.place_error(),
+            Self::AxisBox(slabs) => slabs.place_error(),
+            Self::SkewBox(slabs) => slabs.place_error(),
+            Self::Quadric(quadric) => quadric.place_error(),
+            Self::Facets(facets) => facets.place_error(),
+            Self::Mesh(mesh) => mesh.place_error(),
+            Self::Face(face) => face.place_error(),
+            Self::Patch(patch) => patch.face.place_error(),
+            Self::Tube(tube) => tube.place_error(),
         }
     }
 
@@ -131,7 +131,7 @@ impl WorldShape {
             Self::Ball(ball) => 2.0 * ball.radius,
             Self::AxisBox(slabs) => 2.0 * slabs.bounds().half().min_element(),
             Self::SkewBox(slabs) => slabs.thickness(),
-            Self::Round(round) => round.thickness(),
+            Self::Quadric(quadric) => quadric.thickness(),
             Self::Facets(facets) => facets.thickness(),
             Self::Mesh(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => f64::INFINITY,
         }
@@ -145,7 +145,7 @@ impl WorldShape {
             Self::Ball(ball) => ball.rounding_share(),
             Self::AxisBox(slabs) => slabs.rounding_share(),
             Self::SkewBox(slabs) => slabs.rounding_share(),
-            Self::Round(round) => round.rounding_share(),
+            Self::Quadric(quadric) => quadric.rounding_share(),
             Self::Facets(facets) => facets.rounding_share(),
             Self::Mesh(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => 1.0,
         }
@@ -167,7 +167,7 @@ impl WorldShape {
     #[inline]
     pub fn is_convex(&self) -> bool {
         match self {
-            Self::Ball(_) | Self::AxisBox(_) | Self::SkewBox(_) | Self::Round(_) | Self::Facets(_) => true,
+            Self::Ball(_) | Self::AxisBox(_) | Self::SkewBox(_) | Self::Quadric(_) | Self::Facets(_) => true,
             Self::Mesh(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => false,
         }
     }
@@ -200,7 +200,7 @@ impl WorldShape {
     pub fn normals<N: Number>(&self, p: Vector<N>, surface: u32) -> Vector<N> {
         let flat = match self {
             Self::Ball(ball) => return ball.normals(p),
-            Self::Round(round) => return round.normals(p, surface),
+            Self::Quadric(quadric) => return quadric.normals(p, surface),
             Self::Tube(tube) => return tube.normals(p),
             Self::AxisBox(_) => AxisBox::normal(surface),
             Self::SkewBox(slabs) => slabs.normal(surface),
@@ -219,7 +219,7 @@ impl WorldShape {
             Self::AxisBox(slabs) => return slabs.bounds(),
             Self::Ball(ball) => ball.bounds(),
             Self::SkewBox(slabs) => slabs.bounds(),
-            Self::Round(round) => round.bounds(),
+            Self::Quadric(quadric) => quadric.bounds(),
             Self::Facets(facets) => facets.bounds(),
             Self::Mesh(mesh) => mesh.bounds(),
             Self::Face(face) => face.bounds(),
@@ -233,7 +233,7 @@ impl WorldShape {
     pub fn support(&self, v: DVec3) -> f64 {
         match self {
             Self::Ball(ball) => ball.support(v),
-            Self::Round(round) => round.support(v),
+            Self::Quadric(quadric) => quadric.support(v),
             Self::SkewBox(slabs) => slabs.support(v),
             Self::Mesh(mesh) => mesh.support(v),
             Self::Face(face) => face.support(v),
@@ -257,7 +257,7 @@ impl WorldShape {
                 })
             }
             Self::SkewBox(slabs) => slabs.classify(b),
-            Self::Round(round) => round.classify(b),
+            Self::Quadric(quadric) => quadric.classify(b),
             Self::Facets(facets) => facets.classify(b),
             Self::Mesh(mesh) => Classification::of(mesh.misses(b), || false),
             Self::Face(face) => Classification::of(face.misses(b), || false),
@@ -274,10 +274,11 @@ fn similarity(linear: &DMat3) -> Option<f64> {
     let even = columns.map(|c| c / longest);
     let radius = even[0].length();
     // A column of three rounded numbers: its length and its products are off by 4 roundings at most.
-    let off = 4.0 * f64::EPSILON;
-    let same_length = even.iter().all(|c| (c.length() - radius).abs() <= off * radius);
-    let right_angles =
-        [(0, 1), (1, 2), (2, 0)].iter().all(|&(i, j)| even[i].dot(even[j]).abs() <= off * radius * radius);
+    let tolerance = 4.0 * f64::EPSILON;
+    let same_length = even.iter().all(|c| (c.length() - radius).abs() <= tolerance * radius);
+    let right_angles = [(0, 1), (1, 2), (2, 0)]
+        .iter()
+        .all(|&(i, j)| even[i].dot(even[j]).abs() <= tolerance * radius * radius);
     (same_length && right_angles).then_some(radius * longest)
 }
 

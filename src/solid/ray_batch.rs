@@ -146,7 +146,7 @@ impl RayBatch {
         let lane = lane % LANES;
         let here = departure.is_some_and(|d| d.primitive == index);
         let inward = here && departure.is_some_and(|d| d.inward);
-        let starts = RayStarts { here, inward, off: departure.map(|d| d.off) };
+        let starts = RayStarts { here, inward, place_error: departure.map(|d| d.place_error) };
         // Balls and tubes have one face.
         let enter = Ends { t: self.enter[0][lane], error: self.enter[1][lane], surface: 0.0 };
         let leave = Ends { t: self.leave[0][lane], error: self.leave[1][lane], surface: 0.0 };

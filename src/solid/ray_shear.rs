@@ -120,10 +120,15 @@ pub(super) struct OnPlane<N> {
 /// Where lines meet the plane through `anchor` across `normal`, and how far that may be off, given how far
 /// coordinates may be.
 #[inline(always)]
-pub(super) fn on_plane<N: Number>(rays: &Rays<N>, normal: DVec3, anchor: DVec3, off: f64) -> OnPlane<N> {
+pub(super) fn on_plane<N: Number>(
+    rays: &Rays<N>,
+    normal: DVec3,
+    anchor: DVec3,
+    place_error: f64,
+) -> OnPlane<N> {
     let towards = rays.d.dot_one(normal);
     let t = (rays.o.same(anchor) - rays.o).dot_one(normal) / towards;
-    OnPlane { towards, t, error: t.same(off) / towards.magnitude() }
+    OnPlane { towards, t, error: t.same(place_error) / towards.magnitude() }
 }
 
 /// Where a line that passes through an outline meets the plane through `anchor` across `normal`, and how far
@@ -134,16 +139,16 @@ pub(super) fn plane_crossing(
     corners: &[DVec3],
     normal: DVec3,
     anchor: DVec3,
-    off: f64,
+    place_error: f64,
 ) -> (f64, f64) {
-    let OnPlane { towards, t, error } = on_plane(&Rays::from(ray), normal, anchor, off);
+    let OnPlane { towards, t, error } = on_plane(&Rays::from(ray), normal, anchor, place_error);
     if towards.abs() > STEEP {
         return (t, error);
     }
     let along = corners.iter().map(|&p| (p - ray.o).dot(ray.d));
     let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
-    let half = 0.5 * high - 0.5 * low + off;
-    if (low - off..=high + off).contains(&t) && error < half {
+    let half = 0.5 * high - 0.5 * low + place_error;
+    if (low - place_error..=high + place_error).contains(&t) && error < half {
         return (t, error);
     }
     (0.5 * low + 0.5 * high, half)

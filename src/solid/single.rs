@@ -26,31 +26,33 @@ pub(super) fn decide_single<S: Simd, T: Real>(
     let (from, to) = (T::all(simd, reach.from), T::all(simd, reach.to));
     let primitive = RealIds::<T, S>::all(simd, primitive);
     let mut inward = 0;
-    for row in 0..T::ROWS {
+    for register in 0..T::REGISTERS {
         // Both ends of a span are ahead, or none.
-        if !T::has_any(open, row) {
+        if !T::has_any(open, register) {
             continue;
         }
-        let (enter, leave) = (known.enter.row(simd, row), known.leave.row(simd, row));
-        let mut open = T::row_of(simd, open, row) & !enter.t.is_above(to);
+        let (enter, leave) = (known.enter.load(simd, register), known.leave.load(simd, register));
+        let mut open = T::mask_of(simd, open, register) & !enter.t.is_above(to);
         let one_place = open & (leave.t - leave.error).is_at_most(enter.t + enter.error);
-        if one_place.any() && !T::DECIDES {
-            found.unsure |= T::bits_of(simd, one_place, row);
+        if one_place.any() && !T::IS_DOUBLE {
+            found.uncertain |= T::bits_of(simd, one_place, register);
             open = open & !one_place;
         } else if one_place.any() {
-            let off = T::all(simd, known.off);
+            let place_error = T::all(simd, known.place_error);
             let exact = enter.error.is_equal(zero) | leave.error.is_equal(zero);
-            open = open & !(one_place & (have_one_slope(off / enter.error, off / leave.error) | exact));
+            open = open
+                & !(one_place
+                    & (have_one_slope(place_error / enter.error, place_error / leave.error) | exact));
         }
-        let offs = departures.map(
+        let errors = departures.map(
             #[inline(always)]
-            |d| d.off.load(simd, row),
+            |d| d.place_error.load(simd, register),
         );
-        let own = PlaceError { off: known.off, rounding_share: known.rounding_share };
-        let starts = [start_of(enter.error, own, offs), start_of(leave.error, own, offs)];
-        if !T::DECIDES {
+        let own = PlaceError { bound: known.place_error, rounding_share: known.rounding_share };
+        let starts = [start_of(enter.error, own, errors), start_of(leave.error, own, errors)];
+        if !T::IS_DOUBLE {
             let near = enter.t.magnitude().is_at_most(starts[0]) | leave.t.magnitude().is_at_most(starts[1]);
-            found.unsure |= T::bits_of(simd, open & near, row);
+            found.uncertain |= T::bits_of(simd, open & near, register);
             open = open & !near;
         }
         let goes_in = open & !(enter.t.is_at_most(starts[0]) | enter.t.is_below(from));
@@ -61,13 +63,13 @@ pub(super) fn decide_single<S: Simd, T: Real>(
             continue;
         }
         let Ends { t, error, surface } = Ends::choose(goes_in, enter, leave);
-        found.t.store(row, t);
-        found.error.store(row, error);
-        let met = T::bits_of(simd, any, row);
-        found.surface.put_ids::<T, S>(simd, row, met, surface.ids());
-        found.primitive.put_ids::<T, S>(simd, row, met, primitive);
+        found.t.store(register, t);
+        found.error.store(register, error);
+        let met = T::bits_of(simd, any, register);
+        found.surface.put_ids::<T, S>(simd, register, met, surface.ids());
+        found.primitive.put_ids::<T, S>(simd, register, met, primitive);
         found.any |= met;
-        inward |= T::bits_of(simd, goes_in, row);
+        inward |= T::bits_of(simd, goes_in, register);
     }
     found.entering = if negated { found.any & !inward } else { inward };
 }

@@ -14,7 +14,7 @@ pub struct AxisBox {
     bounds: Bounds,
     /// How far a face within the world may be off its place: by what its numbers lost, and by our own
     /// rounding.
-    off: f64,
+    place_error: f64,
 }
 
 /// How far our own rounding may make a face of a box along the axes seem off its place: a [`rounding_at`]
@@ -27,17 +27,17 @@ impl AxisBox {
     /// A face that cuts the world is as exact as it was written, however far the box reaches: what its sum of
     /// centre and half lost is known, and beyond that only coordinates within [`WORLD`] are computed with.
     pub fn new(center: DVec3, half: DVec3, map_error: DVec3) -> Self {
-        let (mut bounds, mut off) = (Bounds::EMPTY, 0.0_f64);
+        let (mut bounds, mut place_error) = (Bounds::EMPTY, 0.0_f64);
         for axis in 0..3 {
             let (lo, hi) = (two_sum(center[axis], -half[axis]), two_sum(center[axis], half[axis]));
             (bounds.lo[axis], bounds.hi[axis]) = (lo.0, hi.0);
             for (face, lost) in [lo, hi] {
                 if face.abs() <= WORLD {
-                    off = off.max(lost.abs() + map_error[axis]);
+                    place_error = place_error.max(lost.abs() + map_error[axis]);
                 }
             }
         }
-        Self { bounds, off: SEEN + off }
+        Self { bounds, place_error: SEEN + place_error }
     }
 
     /// Where each ray is inside.
@@ -45,7 +45,12 @@ impl AxisBox {
     pub fn spans<N: Number>(&self, rays: &Rays<N>) -> Spans<N> {
         let mut spans = Spans::line(rays.o.x);
         for axis in 0..3 {
-            let slab = Slab { lo: self.bounds.lo[axis], hi: self.bounds.hi[axis], off: self.off, still: 0.0 };
+            let slab = Slab {
+                lo: self.bounds.lo[axis],
+                hi: self.bounds.hi[axis],
+                face_error: self.place_error,
+                still: 0.0,
+            };
             slab.clip(&mut spans, rays.o.along(axis), rays.d.along(axis), axis);
             if !spans.may.any() {
                 return spans;
@@ -60,13 +65,13 @@ impl AxisBox {
     }
 
     /// How far a point of it may be off its place, by its map and by our own rounding.
-    pub fn off(&self) -> f64 {
-        self.off
+    pub fn place_error(&self) -> f64 {
+        self.place_error
     }
 
     /// The share of its errors that our own rounding may have made.
     pub fn rounding_share(&self) -> f64 {
-        SEEN / self.off
+        SEEN / self.place_error
     }
 
     /// The outward normal of a face.
@@ -88,9 +93,9 @@ pub struct SkewBox {
     rows: [DVec3; 3],
     /// How far a face of each pair may be off its place, by its map and by our own rounding, in units of its
     /// row.
-    off: [f64; 3],
+    face_errors: [f64; 3],
     /// The same in the world, for all of it.
-    displacement: f64,
+    place_error: f64,
     /// The least share of it that is our own rounding.
     rounding_share: f64,
     /// What rounding may make of the 0 of a direction in the plane of such a face.
@@ -103,12 +108,12 @@ impl SkewBox {
         let rows = [place.inverse.row(0), place.inverse.row(1), place.inverse.row(2)];
         let lengths = rows.map(DVec3::length);
         let seen = rounding_at(place.center.length());
-        let off = [0, 1, 2].map(|i| seen * lengths[i] + rows[i].abs().dot(map_error));
-        let rounding_share = (0..3).map(|i| seen * lengths[i] / off[i]).fold(1.0, f64::min);
-        let displacement = seen + map_error.length();
+        let face_errors = [0, 1, 2].map(|i| seen * lengths[i] + rows[i].abs().dot(map_error));
+        let rounding_share = (0..3).map(|i| seen * lengths[i] / face_errors[i]).fold(1.0, f64::min);
+        let place_error = seen + map_error.length();
         // A dot product of three terms and the row itself: 4 half-ulps.
         let still = lengths.map(|length| 2.0 * f64::EPSILON * length);
-        Self { place, rows, off, displacement, rounding_share, still }
+        Self { place, rows, face_errors, place_error, rounding_share, still }
     }
 
     /// Where each ray is inside.
@@ -119,7 +124,8 @@ impl SkewBox {
         let speeds =
             [rays.d.dot_one(self.rows[0]), rays.d.dot_one(self.rows[1]), rays.d.dot_one(self.rows[2])];
         for axis in 0..3 {
-            let slab = Slab { lo: -1.0, hi: 1.0, off: self.off[axis], still: self.still[axis] };
+            let slab =
+                Slab { lo: -1.0, hi: 1.0, face_error: self.face_errors[axis], still: self.still[axis] };
             slab.clip(&mut spans, from_center.dot_one(self.rows[axis]), speeds[axis], axis);
             if !spans.may.any() {
                 return spans;
@@ -136,8 +142,8 @@ impl SkewBox {
     }
 
     /// How far a point of it may be off its place, by its map and by our own rounding.
-    pub fn off(&self) -> f64 {
-        self.displacement
+    pub fn place_error(&self) -> f64 {
+        self.place_error
     }
 
     /// The share of its errors that our own rounding may have made.
@@ -199,7 +205,7 @@ struct Slab {
     lo: f64,
     hi: f64,
     /// How far a ray's start and the faces may be off.
-    off: f64,
+    face_error: f64,
     /// A ray slower than this across the slab runs in the plane of its faces, as far as the map lets it be
     /// known.
     still: f64,
@@ -210,15 +216,16 @@ impl Slab {
     /// surface until [`with_sides`] says which of the two it is.
     #[inline(always)]
     fn clip<N: Number>(&self, spans: &mut Spans<N>, o: N, d: N, axis: usize) {
-        let still = d.magnitude().is_below(o.same((self.still * N::COARSER).max(STILL * N::LEAST)));
+        let still = d.magnitude().is_below(o.same((self.still * N::EPSILON_RATIO).max(STILL * N::LEAST)));
         let inside = o.is_at_least(o.same(self.lo)) & o.is_below(o.same(self.hi));
         spans.keep(
             !still | inside,
             #[inline(always)]
             || {
-                let off = o.same(self.off * N::COARSER);
+                let error = o.same(self.face_error * N::EPSILON_RATIO);
                 still
-                    & ((o - self.lo).magnitude().is_at_most(off) | (o - self.hi).magnitude().is_at_most(off))
+                    & ((o - self.lo).magnitude().is_at_most(error)
+                        | (o - self.hi).magnitude().is_at_most(error))
             },
         );
         let inverse = d.same(1.0) / d;
@@ -227,7 +234,8 @@ impl Slab {
         // A ray along the slab crosses neither face.
         let enter = still.choose(o.same(f64::NEG_INFINITY), forward.choose(low, high));
         let leave = still.choose(o.same(f64::INFINITY), forward.choose(high, low));
-        let (error, surface) = (inverse.magnitude() * (self.off * N::COARSER), o.same(axis as f64));
+        let (error, surface) =
+            (inverse.magnitude() * (self.face_error * N::EPSILON_RATIO), o.same(axis as f64));
         spans.clip(Ends { t: enter, error, surface }, Ends { t: leave, error, surface });
     }
 }

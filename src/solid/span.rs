@@ -9,7 +9,7 @@ use crate::math::{Mask, Number};
 /// (8), moving the ray into the unit space (a difference and a dot product of three terms, 4, for the start
 /// and again for the direction), and re-centring it twice (5 each): 30, rounded up to 32 half-ulps of
 /// `f64::EPSILON / 2`. What composing the map took is
-/// [`scene::Primitive::displacement`](crate::scene::Primitive::displacement).
+/// [`scene::Primitive::map_error`](crate::scene::Primitive::map_error).
 pub const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// How far from the assembly's origin everything lies that is computed with, in the assembly's unit: the
@@ -23,7 +23,7 @@ pub const LIMIT: f64 = 3.5;
 /// How far from its place our own rounding may make a point of a solid seem to a ray, where the solid's own
 /// origin lies `from_origin` away from the assembly's. A ray that passes no deeper than that below a surface
 /// misses it: rounding alone could have made the chord. How far the solid's map is off comes on top
-/// ([`scene::Primitive::displacement`](crate::scene::Primitive::displacement)).
+/// ([`scene::Primitive::map_error`](crate::scene::Primitive::map_error)).
 #[inline]
 pub fn rounding_at(from_origin: f64) -> f64 {
     ROUNDING * (WORLD + from_origin)
@@ -73,7 +73,7 @@ pub struct Spans<N: Number> {
     pub leave: Ends<N>,
     /// Which have a span at all: of the others the numbers mean nothing.
     pub any: N::Mask,
-    /// Which may have one: these, and where numbers do not [decide](Number::DECIDES) also those of which
+    /// Which may have one: these, and in single precision also those of which
     /// double precision might say otherwise.
     pub may: N::Mask,
 }
@@ -123,10 +123,10 @@ impl<N: Number> Spans<N> {
     }
 
     /// Cuts each span to `enter..leave`. Of two faces crossed at the same `t` the one clipped first stays;
-    /// numbers that do not decide leave a doubt which of them it is.
+    /// in single precision it is uncertain which of them it is.
     #[inline(always)]
     pub(super) fn clip(&mut self, enter: Ends<N>, leave: Ends<N>) {
-        if !N::DECIDES {
+        if !N::IS_DOUBLE {
             self.any = self.any & !(self.enter.may_be(&enter) | self.leave.may_be(&leave));
         }
         self.enter = Ends::choose(enter.t.is_above(self.enter.t), enter, self.enter);
@@ -140,10 +140,10 @@ impl<N: Number> Spans<N> {
     pub(super) fn if_any(mut self, rounding_share: f64, pair: impl Fn(N) -> N) -> Self {
         let length = self.leave.t - self.enter.t;
         let same_pair = pair(self.enter.surface).is_equal(pair(self.leave.surface));
-        let off = self.enter.error + self.leave.error;
-        let long = length.is_above(if N::DECIDES { off * rounding_share } else { off });
+        let error = self.enter.error + self.leave.error;
+        let long = length.is_above(if N::IS_DOUBLE { error * rounding_share } else { error });
         self.any = self.any & length.is_above(length.same(0.0)) & (same_pair | long);
-        self.may = if N::DECIDES { self.any } else { self.may & length.is_above(-off) };
+        self.may = if N::IS_DOUBLE { self.any } else { self.may & length.is_above(-error) };
         self
     }
 
@@ -151,7 +151,7 @@ impl<N: Number> Spans<N> {
     /// keep only `may`: double precision decides.
     #[inline(always)]
     pub(super) fn keep(&mut self, inside: N::Mask, near: impl FnOnce() -> N::Mask) {
-        if N::DECIDES {
+        if N::IS_DOUBLE {
             self.any = self.any & inside;
             self.may = self.any;
         } else {
@@ -188,6 +188,6 @@ pub struct Departure {
     /// Whether the ray goes to the inside of the primitive.
     pub inward: bool,
     /// How far the primitive, and with it the start, may be off its place:
-    /// [`WorldShape::off`](super::WorldShape::off).
-    pub off: f64,
+    /// [`WorldShape::place_error`](super::WorldShape::place_error).
+    pub place_error: f64,
 }

@@ -10,22 +10,22 @@ use super::csg_query::CsgQuery;
 use super::primitive::WorldShape;
 use super::span::{Ends, Spans};
 
-/// Calls `$rows($simd, $args…, spans)` with the spans of a convex form, compiled for each form by itself and
-/// for the SIMD width. Other forms have none.
+/// Calls `$kernel($simd, $args…, spans)` with the spans of a convex form, compiled for each form by itself
+/// and for the SIMD width. Other forms have none.
 macro_rules! with_spans {
-    ($simd:expr, $form:expr, $rows:ident, $($arg:expr),* $(,)?) => {
-        with_spans!(@each $simd, $form, $rows, ($($arg),*), Ball, AxisBox, SkewBox, Round, Facets)
+    ($simd:expr, $form:expr, $kernel:ident, $($arg:expr),* $(,)?) => {
+        with_spans!(@each $simd, $form, $kernel, ($($arg),*), Ball, AxisBox, SkewBox, Quadric, Facets)
     };
-    (@each $simd:expr, $form:expr, $rows:ident, $args:tt, $($kind:ident),*) => {
+    (@each $simd:expr, $form:expr, $kernel:ident, $args:tt, $($kind:ident),*) => {
         match $form {
-            $($crate::solid::WorldShape::$kind(solid) => with_spans!(@one $simd, $rows, $args, solid),)*
+            $($crate::solid::WorldShape::$kind(solid) => with_spans!(@one $simd, $kernel, $args, solid),)*
             _ => {}
         }
     };
-    (@one $simd:expr, $rows:ident, ($($arg:expr),*), $solid:ident) => {
+    (@one $simd:expr, $kernel:ident, ($($arg:expr),*), $solid:ident) => {
         $simd.vectorize(
             #[inline(always)]
-            || $rows($simd, $($arg,)* #[inline(always)] |rays| $solid.spans(rays)),
+            || $kernel($simd, $($arg,)* #[inline(always)] |rays| $solid.spans(rays)),
         )
     };
 }
@@ -47,13 +47,13 @@ pub(super) struct SpanEnds<T> {
 #[derive(Clone, Debug)]
 pub(super) struct CachedSpans<T> {
     primitive: u32,
-    /// How far its crossings may be off: [`WorldShape::off`]; and the share of that which is our own
+    /// How far its crossings may be off: [`WorldShape::place_error`]; and the share of that which is our own
     /// rounding.
-    pub off: f64,
+    pub place_error: f64,
     pub rounding_share: f64,
     /// Which rays have one; and which may have one, as far as double precision might say.
     any: u64,
-    doubtful: u64,
+    uncertain: u64,
     pub enter: SpanEnds<T>,
     pub leave: SpanEnds<T>,
 }
@@ -67,13 +67,13 @@ impl<T: Real> SpanEnds<T> {
         crossing: 0,
     };
 
-    /// Those of a row.
+    /// Those of a register.
     #[inline(always)]
-    pub fn row<S: Simd>(&self, simd: S, row: usize) -> Ends<T::SimdReal<S>> {
+    pub fn load<S: Simd>(&self, simd: S, register: usize) -> Ends<T::SimdReal<S>> {
         Ends {
-            t: self.t.load(simd, row),
-            error: self.error.load(simd, row),
-            surface: self.surface.load(simd, row),
+            t: self.t.load(simd, register),
+            error: self.error.load(simd, register),
+            surface: self.surface.load(simd, register),
         }
     }
 }
@@ -81,10 +81,10 @@ impl<T: Real> SpanEnds<T> {
 impl<T: Real> CachedSpans<T> {
     const NONE: Self = Self {
         primitive: 0,
-        off: 0.0,
+        place_error: 0.0,
         rounding_share: 0.0,
         any: 0,
-        doubtful: 0,
+        uncertain: 0,
         enter: SpanEnds::NONE,
         leave: SpanEnds::NONE,
     };
@@ -108,14 +108,14 @@ impl<T: Real> CachedSpans<T> {
         let mut ahead = 0;
         let rays = wanted & self.any;
         let (from, to) = (T::all(simd, reach.from), T::all(simd, reach.to));
-        for row in 0..T::ROWS {
-            if !T::has_any(rays, row) {
+        for register in 0..T::REGISTERS {
+            if !T::has_any(rays, register) {
                 continue;
             }
-            let (leave, enter) = (self.leave.t.load(simd, row), self.enter.t.load(simd, row));
-            let ends_before = (leave + self.leave.error.load(simd, row)).is_below(from);
-            let starts_behind = (enter - self.enter.error.load(simd, row)).is_above(to);
-            ahead |= T::bits_of(simd, !(ends_before | starts_behind), row);
+            let (leave, enter) = (self.leave.t.load(simd, register), self.enter.t.load(simd, register));
+            let ends_before = (leave + self.leave.error.load(simd, register)).is_below(from);
+            let starts_behind = (enter - self.enter.error.load(simd, register)).is_above(to);
+            ahead |= T::bits_of(simd, !(ends_before | starts_behind), register);
         }
         ahead &= rays;
         (self.enter.ahead, self.leave.ahead) = (ahead, ahead);
@@ -161,8 +161,9 @@ impl<T: Real> SpanCache<T> {
             }
             self.count += 1;
             let known = &mut self.spans[self.count - 1];
-            (known.primitive, known.any, known.doubtful) = (primitive, 0, 0);
-            (known.off, known.rounding_share) = (form.off() * T::COARSER, form.rounding_share());
+            (known.primitive, known.any, known.uncertain) = (primitive, 0, 0);
+            (known.place_error, known.rounding_share) =
+                (form.place_error() * T::EPSILON_RATIO, form.rounding_share());
             let (here, inward) = departures.map_or((0, 0), |d| d.here(simd, primitive));
             with_spans!(simd, form, learn, packet, wanted, here, inward, known);
             self.count - 1
@@ -172,7 +173,7 @@ impl<T: Real> SpanCache<T> {
             #[inline(always)]
             || spans.look(simd, wanted, reach),
         );
-        (place as u32, [ahead, spans.doubtful & wanted])
+        (place as u32, [ahead, spans.uncertain & wanted])
     }
 }
 
@@ -186,14 +187,14 @@ fn learn<S: Simd, T: Real>(
     known: &mut CachedSpans<T>,
     spans: impl Fn(&Rays<T::SimdReal<S>>) -> Spans<T::SimdReal<S>>,
 ) {
-    for row in 0..T::ROWS {
-        if !T::has_any(wanted, row) {
+    for register in 0..T::REGISTERS {
+        if !T::has_any(wanted, register) {
             continue;
         }
-        let mut spans = spans(&packet.load(simd, row));
-        let any = spans.any & !T::row_of(simd, here & !inward, row);
-        if !T::DECIDES {
-            known.doubtful |= T::bits_of(simd, spans.may & !spans.any, row);
+        let mut spans = spans(&packet.load(simd, register));
+        let any = spans.any & !T::mask_of(simd, here & !inward, register);
+        if !T::IS_DOUBLE {
+            known.uncertain |= T::bits_of(simd, spans.may & !spans.any, register);
         }
         if !any.any() {
             continue;
@@ -202,14 +203,14 @@ fn learn<S: Simd, T: Real>(
             // A start on a surface is 0 by construction.
             let zero = T::all(simd, 0.0);
             let start = Ends { t: zero, error: zero, surface: zero };
-            spans.enter = Ends::choose(T::row_of(simd, inward, row), start, spans.enter);
+            spans.enter = Ends::choose(T::mask_of(simd, inward, register), start, spans.enter);
         }
         let any = any & spans.enter.t.is_below(spans.leave.t);
-        known.any |= T::bits_of(simd, any, row);
+        known.any |= T::bits_of(simd, any, register);
         for (side, end) in [(&mut known.enter, spans.enter), (&mut known.leave, spans.leave)] {
-            side.t.store(row, end.t);
-            side.error.store(row, end.error);
-            side.surface.store(row, end.surface);
+            side.t.store(register, end.t);
+            side.error.store(register, end.error);
+            side.surface.store(register, end.surface);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Stage 7, SOLID: the first place along a ray where it meets a surface that bounds no solid.
 
 use crate::math::{Number, Ray, Rays};
-use crate::stage::{Meter, Probe};
+use crate::stage::{Meter, Probe, RayEvent};
 
 use super::crossing::{Crossing, FirstCrossings, RayStarts, at_start};
 use super::primitive::{WorldPrimitive, WorldShape};
@@ -27,7 +27,7 @@ pub fn first_of_surface(
         entering,
     };
     let at_start = |end: &End| at_start(end, &primitive.form, departure);
-    match &primitive.form {
+    let found = match &primitive.form {
         WorldShape::Face(face) => {
             // A plane is not met again by a ray that leaves it.
             let end = if here.is_some() { None } else { face.crossing(ray) };
@@ -41,13 +41,15 @@ pub fn first_of_surface(
             let starts = RayStarts {
                 here: here.is_some(),
                 inward: here.is_some_and(|d| d.inward),
-                off: departure.map(|d| d.off),
+                place_error: departure.map(|d| d.place_error),
             };
             let first = firsts_of_tube(&Rays::from(ray), tube, &primitive.form, &starts);
             first.any.then(|| crossing(first.end.one(), first.entering))
         }
         _ => None,
-    }
+    };
+    meter.record(|| RayEvent::Tested { primitive: index, span: found.map(|crossing| [crossing.t; 2]) });
+    found
 }
 
 /// The first crossings of a tube, which is the form itself.
@@ -105,7 +107,7 @@ mod tests {
     fn first(shape: Shape, o: [f64; 3], d: [f64; 3], inward: Option<bool>) -> Option<(f64, bool)> {
         let assembly = Assembly::new(&scene(part(shape))).unwrap();
         let ray = assembly.ray(&Ray::new(o.into(), DVec3::from(d).normalize()));
-        let departure = inward.map(|inward| Departure { primitive: 0, surface: 0, inward, off: 0.0 });
+        let departure = inward.map(|inward| Departure { primitive: 0, surface: 0, inward, place_error: 0.0 });
         let mut meter = Meter::new(Silent);
         let found = first_of_surface(&ray, &assembly.primitives[0], 0, departure, &mut meter)?;
         Some((found.t * assembly.scene_frame.unit, found.entering))

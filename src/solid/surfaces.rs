@@ -7,7 +7,7 @@
 
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask64x8, u32x8};
 
-use crate::math::{LANES, Mask, Number, ROWS, RayPacket, SimdReal};
+use crate::math::{LANES, Mask, Number, REGISTERS, RayPacket, SimdReal};
 use crate::stage::{Meter, Silent};
 
 use super::crossing::{FirstCrossings, PlaceError, RayStarts, start_of};
@@ -40,7 +40,7 @@ pub fn firsts_of_surface<S: Simd>(
     found: &mut PacketCrossings,
 ) {
     let SurfaceQuery { packet, wanted, departures } = *asked;
-    (found.any, found.unsure, found.entering) = (0, 0, 0);
+    (found.any, found.uncertain, found.entering) = (0, 0, 0);
     simd.vectorize(
         #[inline(always)]
         || {
@@ -54,7 +54,7 @@ pub fn firsts_of_surface<S: Simd>(
             }
         },
     );
-    let mut rest = std::mem::take(&mut found.unsure);
+    let mut rest = std::mem::take(&mut found.uncertain);
     while rest != 0 {
         let lane = rest.trailing_zeros() as usize;
         rest &= rest - 1;
@@ -66,10 +66,10 @@ pub fn firsts_of_surface<S: Simd>(
     }
 }
 
-/// Those of a row among some rays of a packet.
+/// Those of a register among some rays of a packet.
 #[inline(always)]
-fn rays_of_row<S: Simd>(simd: S, row: usize, rays: u64) -> mask64x8<S> {
-    mask64x8::from_bitmask(simd, rays >> (row * LANES) & 0xFF)
+fn rays_of_row<S: Simd>(simd: S, register: usize, rays: u64) -> mask64x8<S> {
+    mask64x8::from_bitmask(simd, rays >> (register * LANES) & 0xFF)
 }
 
 /// One surface, and the rays of a packet that may meet it.
@@ -115,74 +115,78 @@ impl SurfaceRays<'_> {
         if rays == 0 {
             return;
         }
-        for row in 0..ROWS {
-            let asking = rays_of_row(simd, row, rays);
+        for register in 0..REGISTERS {
+            let asking = rays_of_row(simd, register, rays);
             if !asking.any_true() {
                 continue;
             }
-            let across = sheared.row::<S, MAIN>(simd, self.packet, row);
+            let across = sheared.load::<S, MAIN>(simd, self.packet, register);
             let mut around = Around::nothing(simd);
             for (b, corners) in face.stretches() {
                 if b.is_none_or(|b| across.may_cross(b)) {
                     across.add(&mut around, corners);
                 }
             }
-            let mut unsure = around.unsure & asking;
-            let odd = around.odd & asking & !unsure;
+            let mut uncertain = around.uncertain & asking;
+            let odd = around.odd & asking & !uncertain;
             if odd.any_true() {
                 let SteepCrossings { end, against, steep } =
-                    face.steep_crossings(&self.packet.load(simd, row));
-                unsure |= odd & !steep;
-                let before =
-                    end.t.is_at_most(start_of(end.error, PlaceError::of(self.form), self.off(simd, row)));
+                    face.steep_crossings(&self.packet.load(simd, register));
+                uncertain |= odd & !steep;
+                let before = end.t.is_at_most(start_of(
+                    end.error,
+                    PlaceError::of(self.form),
+                    self.place_error(simd, register),
+                ));
                 let any = odd & steep & !before;
-                self.put(simd, row, &FirstCrossings { end, entering: against, any }, found);
+                self.put(simd, register, &FirstCrossings { end, entering: against, any }, found);
             }
-            found.unsure |= unsure.bits() << (row * LANES);
+            found.uncertain |= uncertain.bits() << (register * LANES);
         }
     }
 
     #[inline(always)]
     fn tube<S: Simd>(&self, simd: S, tube: &Tube, wanted: u64, found: &mut PacketCrossings) {
-        for row in 0..ROWS {
-            let asking = rays_of_row(simd, row, wanted);
+        for register in 0..REGISTERS {
+            let asking = rays_of_row(simd, register, wanted);
             if asking.any_true() {
-                let (here, inward) = (rays_of_row(simd, row, self.here), rays_of_row(simd, row, self.inward));
-                let starts = RayStarts { here, inward, off: self.off(simd, row) };
-                let firsts = firsts_of_tube(&self.packet.load(simd, row), tube, self.form, &starts);
-                self.put(simd, row, &FirstCrossings { any: firsts.any & asking, ..firsts }, found);
+                let (here, inward) =
+                    (rays_of_row(simd, register, self.here), rays_of_row(simd, register, self.inward));
+                let starts = RayStarts { here, inward, place_error: self.place_error(simd, register) };
+                let firsts = firsts_of_tube(&self.packet.load(simd, register), tube, self.form, &starts);
+                self.put(simd, register, &FirstCrossings { any: firsts.any & asking, ..firsts }, found);
             }
         }
     }
 
-    /// [`super::Departure::off`] of eight.
+    /// [`super::Departure::place_error`] of eight.
     #[inline(always)]
-    fn off<S: Simd>(&self, simd: S, row: usize) -> Option<f64x8<S>> {
+    fn place_error<S: Simd>(&self, simd: S, register: usize) -> Option<f64x8<S>> {
         self.departures.map(
             #[inline(always)]
-            |departures| departures.off.load(simd, row),
+            |departures| departures.place_error.load(simd, register),
         )
     }
 
-    /// Notes the first crossings of a row.
+    /// Notes the first crossings of a register.
     #[inline(always)]
     fn put<S: Simd>(
         &self,
         simd: S,
-        row: usize,
+        register: usize,
         firsts: &FirstCrossings<f64x8<S>>,
         found: &mut PacketCrossings,
     ) {
-        let any = firsts.any.bits() << (row * LANES);
+        let any = firsts.any.bits() << (register * LANES);
         if any == 0 {
             return;
         }
-        found.t.store(row, firsts.end.t);
-        found.error.store(row, firsts.end.error);
-        found.surface.put_ids::<f64, S>(simd, row, any, firsts.end.surface.ids());
-        found.primitive.put_ids::<f64, S>(simd, row, any, u32x8::splat(simd, self.index));
+        found.t.store(register, firsts.end.t);
+        found.error.store(register, firsts.end.error);
+        found.surface.put_ids::<f64, S>(simd, register, any, firsts.end.surface.ids());
+        found.primitive.put_ids::<f64, S>(simd, register, any, u32x8::splat(simd, self.index));
         found.any |= any;
-        found.entering |= any & firsts.entering.bits() << (row * LANES);
+        found.entering |= any & firsts.entering.bits() << (register * LANES);
     }
 }
 
@@ -265,7 +269,7 @@ mod tests {
             dispatch!(level, simd => firsts_of_surface(
                 simd, &SurfaceQuery { packet: &packet, wanted, departures }, primitive, 3, &mut sheared, &mut found,
             ));
-            prop_assert_eq!((found.unsure, found.any & !wanted), (0, 0));
+            prop_assert_eq!((found.uncertain, found.any & !wanted), (0, 0));
             for (lane, ray) in rays.iter().enumerate().filter(|(lane, _)| wanted >> lane & 1 == 1) {
                 let departure = departures.map(|d| d.get(lane));
                 let alone = first_of_surface(ray, primitive, 3, departure, &mut Meter::new(Silent));
@@ -295,7 +299,7 @@ mod tests {
             turn in (point(), -3.0..3.0_f64),
             aims in prop::collection::vec((point(), (0..48_usize, 0.0..1.0_f64), point()), PACKET),
             wanted in any::<u64>(),
-            (here, inward, off) in (any::<u64>(), any::<u64>(), 0.0..1e-12_f64),
+            (here, inward, place_error) in (any::<u64>(), any::<u64>(), 0.0..1e-12_f64),
         ) {
             let map = DAffine3::from_axis_angle(turn.0.normalize_or(DVec3::Z), turn.1);
             let map = if turn.1 > 0.0 { map } else { DAffine3::IDENTITY };
@@ -309,7 +313,7 @@ mod tests {
             let mut departures = Departures::NONE;
             for lane in 0..PACKET {
                 let (primitive, inward) = (2 + (here >> lane & 1) as u32, inward >> lane & 1 == 1);
-                departures.set(lane, &Departure { primitive, surface: 0, inward, off });
+                departures.set(lane, &Departure { primitive, surface: 0, inward, place_error });
             }
             assert_like_alone(&primitive, &rays, wanted, Some(&departures))?;
         }

@@ -79,11 +79,11 @@ impl Taper {
     pub fn sides<N: Number>(&self, rays: &Centred<N>) -> Spans<N> {
         let tapers = Tapers { middle: rays.t.same(self.middle), slope: rays.t.same(self.slope) };
         let lines = Rays { o: rays.o, d: rays.d };
-        let (off, rounding_share) = (rays.o.same(rays.off), rays.t.same(rays.rounding_share));
+        let (unit_error, rounding_share) = (rays.o.same(rays.unit_error), rays.t.same(rays.rounding_share));
         if self.slope == 0.0 {
-            tapers.of_kind::<true>(&lines, off, rounding_share)
+            tapers.of_kind::<true>(&lines, unit_error, rounding_share)
         } else {
-            tapers.of_kind::<false>(&lines, off, rounding_share)
+            tapers.of_kind::<false>(&lines, unit_error, rounding_share)
         }
     }
 }
@@ -97,16 +97,21 @@ pub(super) struct Tapers<N> {
 
 impl<N: Number> Tapers<N> {
     /// The lines against `x² + y² ≤ ρ²`, `ρ = middle + slope · z ≥ 0`: where each is inside, counted from its
-    /// start, the point closest to the unit origin, which may be `off` its place; `rounding_share` is the
-    /// share of that that is our own rounding. An end that there is not is infinite.
+    /// start, the point closest to the unit origin, which may be `unit_error` from its place;
+    /// `rounding_share` is the share of that that is our own rounding. An end that there is not is infinite.
     #[inline(always)]
-    pub fn sides(&self, rays: &Rays<N>, off: Vector<N>, rounding_share: N) -> Spans<N> {
-        self.of_kind::<false>(rays, off, rounding_share)
+    pub fn sides(&self, rays: &Rays<N>, unit_error: Vector<N>, rounding_share: N) -> Spans<N> {
+        self.of_kind::<false>(rays, unit_error, rounding_share)
     }
 
     /// The same. `STRAIGHT`: all slopes are 0, and the terms that have them are left out.
     #[inline(always)]
-    fn of_kind<const STRAIGHT: bool>(&self, rays: &Rays<N>, off: Vector<N>, rounding_share: N) -> Spans<N> {
+    fn of_kind<const STRAIGHT: bool>(
+        &self,
+        rays: &Rays<N>,
+        unit_error: Vector<N>,
+        rounding_share: N,
+    ) -> Spans<N> {
         let Self { middle, slope } = *self;
         let Rays { o, d } = *rays;
         let zero = middle.same(0.0);
@@ -125,19 +130,21 @@ impl<N: Number> Tapers<N> {
         }
         let along = (squared(x) + squared(y)).root();
         let discriminant = (along - across.magnitude()) * (along + across.magnitude());
-        let off = if STRAIGHT { off } else { Vector { z: slope.magnitude() * off.z, ..off } };
+        let unit_error =
+            if STRAIGHT { unit_error } else { Vector { z: slope.magnitude() * unit_error.z, ..unit_error } };
         let form = SideForm::<N, STRAIGHT> { o: Vector { z: rho, ..o }, d: Vector { z: d_rho, ..d } };
         // Where 1 / a overflows the line is parallel to the side.
         let still = zero.same(STILL * N::LEAST);
         let (crosses, steeper) = (a.is_above(still), a.is_below(-still));
         let inverse = zero.same(1.0) / a;
         // A chord is none where the form at its middle, −discriminant / a at t = −b / a, may be 0.
-        let known = if N::DECIDES { off * rounding_share } else { off };
-        let least = a * form.off(-b * inverse, known);
+        let known = if N::IS_DOUBLE { unit_error * rounding_share } else { unit_error };
+        let least = a * form.error(-b * inverse, known);
         let is_chord = discriminant.is_above(zero) & discriminant.is_above(least);
         let is_number = discriminant.is_equal(discriminant);
         let met = is_number & (!crosses | is_chord);
-        let may_meet = if N::DECIDES { met } else { is_number & (!crosses | discriminant.is_above(-least)) };
+        let may_meet =
+            if N::IS_DOUBLE { met } else { is_number & (!crosses | discriminant.is_above(-least)) };
         if !may_meet.any() {
             return Spans::none(middle);
         }
@@ -156,14 +163,14 @@ impl<N: Number> Tapers<N> {
             a: a.magnitude(),
             inverse: inverse.magnitude(),
         };
-        let low = Ends { t: low, error: form.root_error(low, off, &roots), surface };
-        let high = Ends { t: high, error: form.root_error(high, off, &roots), surface };
+        let low = Ends { t: low, error: form.root_error(low, unit_error, &roots), surface };
+        let high = Ends { t: high, error: form.root_error(high, unit_error, &roots), surface };
         if !(may_meet & !crosses).any() {
             return Spans { enter: low, leave: high, any: met, may: may_meet };
         }
         // Parallel to the side, or to the axis of a cylinder: 2bt + c ≤ 0.
         let t = c * -0.5 / b;
-        let once = Ends { t, error: form.off(t, off) * 0.5 / b.magnitude(), surface };
+        let once = Ends { t, error: form.error(t, unit_error) * 0.5 / b.magnitude(), surface };
         let line = Spans::line(middle);
         let slanted = !b.is_equal(zero);
         let leaves = b.is_above(zero);
@@ -185,7 +192,7 @@ impl<N: Number> Tapers<N> {
         spans.keep(
             !runs_beside | c.is_below(zero),
             #[inline(always)]
-            || runs_beside & c.magnitude().is_at_most(form.off(zero, off)),
+            || runs_beside & c.magnitude().is_at_most(form.error(zero, unit_error)),
         );
         spans
     }
@@ -198,27 +205,29 @@ struct SideForm<N, const STRAIGHT: bool> {
 }
 
 impl<N: Number, const STRAIGHT: bool> SideForm<N, STRAIGHT> {
-    /// How much a point at `t` that is moved by `off` changes the form: by (2|x| + off.x)·off.x, and so for y
-    /// and ρ. Near an apex hardly at all, and at the long end of an ellipse by the long axis' off only.
+    /// How much a point at `t` that is moved by e, `unit_error`, changes the form: by (2|x| + e.x)·e.x, and
+    /// so for y and ρ. Near an apex hardly at all, and at the long end of an ellipse by that of the long axis
+    /// only.
     #[inline(always)]
-    fn off(&self, t: N, off: Vector<N>) -> N {
+    fn error(&self, t: N, unit_error: Vector<N>) -> N {
         if STRAIGHT {
             let (x, y) = ((self.o.x + self.d.x * t).magnitude(), (self.o.y + self.d.y * t).magnitude());
-            return (x * 2.0 + off.x) * off.x + (y * 2.0 + off.y) * off.y;
+            return (x * 2.0 + unit_error.x) * unit_error.x + (y * 2.0 + unit_error.y) * unit_error.y;
         }
         let p = (self.o + self.d * t).magnitude();
-        Vector { x: p.x * 2.0 + off.x, y: p.y * 2.0 + off.y, z: p.z * 2.0 + off.z }.dot(off)
+        Vector { x: p.x * 2.0 + unit_error.x, y: p.y * 2.0 + unit_error.y, z: p.z * 2.0 + unit_error.z }
+            .dot(unit_error)
     }
 
-    /// How far a root at `t` may be off. The root of a number that is off by `form_off · |a|` is off by that
-    /// over twice the root, and never by more than the root of that: all there is to say at the apex, where
-    /// the root is 0.
+    /// How far a root at `t` may be off. The root of a number that is off by `form_error · |a|` is off by
+    /// that over twice the root, and never by more than the root of that: all there is to say at the apex,
+    /// where the root is 0.
     #[inline(always)]
-    fn root_error(&self, t: N, off: Vector<N>, roots: &Roots<N>) -> N {
+    fn root_error(&self, t: N, unit_error: Vector<N>, roots: &Roots<N>) -> N {
         let Roots { discriminant, half_inverse, a, inverse } = *roots;
-        let form_off = self.off(t, off);
-        let (grazing, error) = (discriminant.is_below(form_off * a), form_off * half_inverse);
-        if grazing.any() { grazing.choose((form_off * inverse).root(), error) } else { error }
+        let form_error = self.error(t, unit_error);
+        let (grazing, error) = (discriminant.is_below(form_error * a), form_error * half_inverse);
+        if grazing.any() { grazing.choose((form_error * inverse).root(), error) } else { error }
     }
 }
 

@@ -17,7 +17,7 @@ fn cube(center: [f64; 3], half: [f64; 3]) -> scene::Solid {
 fn drum(center: [f64; 3], radius: f64, half: f64) -> scene::Solid {
     let map = DAffine3::from_translation(DVec3::from(center))
         * DAffine3::from_scale(DVec3::new(radius, radius, half));
-    primitive(scene::Shape::Frustum { bottom: 1.0, top: 1.0 }, map)
+    primitive(scene::Shape::Cone { bottom: 1.0, top: 1.0 }, map)
 }
 
 fn sphere(center: [f64; 3], radius: f64) -> scene::Solid {
@@ -147,7 +147,7 @@ fn a_viewpoint_inside_sees_the_far_wall() {
 
 #[test]
 fn a_cone_is_met_on_its_own_nappe_only() {
-    let cone = primitive(scene::Shape::Frustum { bottom: 1.0, top: 0.0 }, DAffine3::IDENTITY);
+    let cone = primitive(scene::Shape::Cone { bottom: 1.0, top: 0.0 }, DAffine3::IDENTITY);
     // Above the apex, where the other nappe would be.
     assert_eq!(first(&cone, [-5.0, 0.0, 1.5], [1.0, 0.0, 0.0]), None);
     let (t, _, _) = first(&cone, [-5.0, 0.0, 0.0], [1.0, 0.0, 0.0]).unwrap();

@@ -64,8 +64,8 @@ pub(super) struct Tubes<N> {
     center: Vector<N>,
     /// The rows of the map to the unit space.
     rows: [Vector<N>; 3],
-    off: Vector<N>,
-    off_sum: N,
+    unit_error: Vector<N>,
+    error_sum: N,
     rounding_share: N,
     taper: Tapers<N>,
 }
@@ -77,15 +77,33 @@ impl<N: Number> Tubes<N> {
     /// Tubes of numbers that [`Tube::numbers`] gives.
     #[inline(always)]
     pub fn new(numbers: [N; NUMBERS_OF_TUBE]) -> Self {
-        let [x, y, z, ax, ay, az, bx, by, bz, cx, cy, cz, off_x, off_y, off_z, rounding_share, middle, slope] =
-            numbers;
+        let [
+            x,
+            y,
+            z,
+            ax,
+            ay,
+            az,
+            bx,
+            by,
+            bz,
+            cx,
+            cy,
+            cz,
+            error_x,
+            error_y,
+            error_z,
+            rounding_share,
+            middle,
+            slope,
+        ] = numbers;
         let rows =
             [Vector { x: ax, y: ay, z: az }, Vector { x: bx, y: by, z: bz }, Vector { x: cx, y: cy, z: cz }];
         Self {
             center: Vector { x, y, z },
             rows,
-            off: Vector { x: off_x, y: off_y, z: off_z },
-            off_sum: off_x + off_y + off_z,
+            unit_error: Vector { x: error_x, y: error_y, z: error_z },
+            error_sum: error_x + error_y + error_z,
             rounding_share,
             taper: Tapers { middle, slope },
         }
@@ -103,11 +121,11 @@ impl<N: Number> Tubes<N> {
             return SideCrossings::none(rays.o.x);
         }
         let (rays, _, t) = at_closest(&rays);
-        let near = !pass_by(rays.o, self.off_sum);
+        let near = !pass_by(rays.o, self.error_sum);
         if !near.any() {
             return SideCrossings::none(t);
         }
-        let side = self.taper.sides(&rays, self.off, self.rounding_share);
+        let side = self.taper.sides(&rays, self.unit_error, self.rounding_share);
         let met = side.any & near;
         SideCrossings {
             enter: Ends { t: t + side.enter.t, ..side.enter },
@@ -122,14 +140,14 @@ impl<N: Number> Tubes<N> {
     /// without a division.
     ///
     /// Every crossing that is found lies between the caps, where the tube is no wider than its widest, and
-    /// satisfies the tube's equation as near as [`UnitSpace::off`] says: the line comes so near the axis, but
-    /// for the rounding of that distance, which is within the same.
+    /// satisfies the tube's equation as near as [`UnitSpace::unit_error`] says: the line comes so near the
+    /// axis, but for the rounding of that distance, which is within the same.
     #[inline(always)]
     fn near(&self, rays: &Rays<N>) -> N::Mask {
         let Rays { o, d } = *rays;
         let across = d.x * o.y - d.y * o.x;
         let Tapers { middle, slope } = self.taper;
-        let reach = (middle + slope.magnitude()) * BEYOND + self.off_sum * 4.0;
+        let reach = (middle + slope.magnitude()) * BEYOND + self.error_sum * 4.0;
         let most = (d.x * d.x + d.y * d.y) * (reach * reach) + FULL_DIGITS;
         !(across * across).is_above(most)
     }
@@ -151,7 +169,7 @@ impl Tube {
         // of its Gram matrix.
         let (xx, yy, xy) = (x_axis.length_squared(), y_axis.length_squared(), x_axis.dot(y_axis));
         let widest = (0.5 * (xx + yy) + 0.5 * libm::hypot(xx - yy, 2.0 * xy)).sqrt();
-        let radius = (bottom.max(top) * widest + space.displacement) * (1.0 + ROUNDING);
+        let radius = (bottom.max(top) * widest + space.place_error) * (1.0 + ROUNDING);
         Self { space, taper: Taper::new(bottom, top), along: z_axis.normalize_or_zero(), radius }
     }
 
@@ -160,13 +178,13 @@ impl Tube {
     #[inline(always)]
     pub fn crossings<N: Number>(&self, rays: &Rays<N>) -> SideCrossings<N> {
         let like = rays.o;
-        let UnitSpace { center, inverse, off, rounding_share, .. } = &self.space;
+        let UnitSpace { center, inverse, unit_error, rounding_share, .. } = &self.space;
         let [middle, slope] = self.taper.numbers();
         let tubes = Tubes {
             center: like.same(*center),
             rows: [like.same(inverse.row(0)), like.same(inverse.row(1)), like.same(inverse.row(2))],
-            off: like.same(*off),
-            off_sum: like.x.same(off.element_sum()),
+            unit_error: like.same(*unit_error),
+            error_sum: like.x.same(unit_error.element_sum()),
             rounding_share: like.x.same(*rounding_share),
             taper: Tapers { middle: like.x.same(middle), slope: like.x.same(slope) },
         };
@@ -176,7 +194,7 @@ impl Tube {
     /// What [`Tubes::new`] asks for.
     #[inline(always)]
     pub(super) fn numbers(&self) -> [f64; NUMBERS_OF_TUBE] {
-        let UnitSpace { center, inverse, off, rounding_share, .. } = &self.space;
+        let UnitSpace { center, inverse, unit_error, rounding_share, .. } = &self.space;
         let DMat3 { x_axis: x, y_axis: y, z_axis: z } = inverse;
         let [middle, slope] = self.taper.numbers();
         [
@@ -192,9 +210,9 @@ impl Tube {
             x.z,
             y.z,
             z.z,
-            off.x,
-            off.y,
-            off.z,
+            unit_error.x,
+            unit_error.y,
+            unit_error.z,
             *rounding_share,
             middle,
             slope,
@@ -218,8 +236,8 @@ impl Tube {
     }
 
     /// How far a point of it may be off its place, by its map and by our own rounding.
-    pub fn off(&self) -> f64 {
-        self.space.displacement
+    pub fn place_error(&self) -> f64 {
+        self.space.place_error
     }
 
     /// How far it reaches along `v`: the greatest `p · v` of its points.
@@ -260,11 +278,11 @@ mod tests {
         let map = DAffine3 { matrix3: DMat3::from_cols(0.3 * x, 0.3 * y, 0.5 * axis), translation: center };
         let tube = Tube::new(&Placement::new(&map).unwrap(), 1.0, 1.0, DVec3::ZERO);
         let half = axis.map(|along| 0.5 * along + 0.3 * (1.0 - along * along).sqrt());
-        let off = 8.0 * f64::EPSILON;
-        assert!((tube.bounds().lo - (center - half)).abs().max_element() <= off);
-        assert!((tube.bounds().hi - (center + half)).abs().max_element() <= off);
+        let tolerance = 8.0 * f64::EPSILON;
+        assert!((tube.bounds().lo - (center - half)).abs().max_element() <= tolerance);
+        assert!((tube.bounds().hi - (center + half)).abs().max_element() <= tolerance);
         for v in [DVec3::X, DVec3::Y, DVec3::Z] {
-            assert!((tube.support(v) - (center + half).dot(v)).abs() <= off);
+            assert!((tube.support(v) - (center + half).dot(v)).abs() <= tolerance);
         }
     }
 }

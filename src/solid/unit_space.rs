@@ -4,7 +4,7 @@ use crate::math::{Bounds, DMat3, DVec3, Number, Placement, Rays, Vector};
 
 use super::span::rounding_at;
 
-/// The way from the world into the unit space of a shape, and how far off that may lead.
+/// The map from the world into the unit space of a shape, and how far it may be off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct UnitSpace {
     /// The world place of the unit origin.
@@ -13,9 +13,9 @@ pub(super) struct UnitSpace {
     pub inverse: DMat3,
     /// How far a point of the shape may be off its place, by its map and by our own rounding, along each axis
     /// of the unit space: a coin has a sharp rim however thin it is, and a needle a sharp tip.
-    pub off: DVec3,
+    pub unit_error: DVec3,
     /// The same in the world, for all of it.
-    pub displacement: f64,
+    pub place_error: f64,
     /// The least share of it that is our own rounding.
     pub rounding_share: f64,
 }
@@ -29,7 +29,7 @@ pub(super) struct Centred<N> {
     /// `t` of the closest point.
     pub t: N,
     /// How far `o` may be off along each axis.
-    pub off: DVec3,
+    pub unit_error: DVec3,
     /// The share of it that is our own rounding.
     pub rounding_share: f64,
 }
@@ -40,13 +40,13 @@ impl UnitSpace {
         let Placement { inverse, center, .. } = *place;
         let rows = [inverse.row(0), inverse.row(1), inverse.row(2)];
         let seen = rounding_at(center.length());
-        let off = rows.map(|row| seen * row.length() + row.abs().dot(map_error));
-        let rounding_share = (0..3).map(|i| seen * rows[i].length() / off[i]).fold(1.0, f64::min);
-        let displacement = seen + map_error.length();
-        Self { center, inverse, off: DVec3::from_array(off), displacement, rounding_share }
+        let unit_error = rows.map(|row| seen * row.length() + row.abs().dot(map_error));
+        let rounding_share = (0..3).map(|i| seen * rows[i].length() / unit_error[i]).fold(1.0, f64::min);
+        let place_error = seen + map_error.length();
+        Self { center, inverse, unit_error: DVec3::from_array(unit_error), place_error, rounding_share }
     }
 
-    /// The inverse map makes no way longer by more than this: the root of the sum of its squares.
+    /// The inverse map makes no vector longer by more than this: the root of the sum of its squares.
     pub fn norm(&self) -> f64 {
         norm(&self.inverse)
     }
@@ -68,7 +68,14 @@ impl UnitSpace {
     #[inline(always)]
     pub fn recentred<N: Number>(&self, rays: &Rays<N>) -> Centred<N> {
         let (Rays { o, d }, d_squared, t) = at_closest(rays);
-        Centred { o, d, d_squared, t, off: self.off * N::COARSER, rounding_share: self.rounding_share }
+        Centred {
+            o,
+            d,
+            d_squared,
+            t,
+            unit_error: self.unit_error * N::EPSILON_RATIO,
+            rounding_share: self.rounding_share,
+        }
     }
 
     /// Points of the world there.
@@ -102,7 +109,7 @@ impl<N: Number> Centred<N> {
     /// Whether the line is certainly beside a truncated cone.
     #[inline(always)]
     pub fn pass_by(&self) -> N::Mask {
-        pass_by(self.o, self.t.same(self.off.element_sum()))
+        pass_by(self.o, self.t.same(self.unit_error.element_sum()))
     }
 }
 
@@ -121,14 +128,14 @@ pub(super) fn at_closest<N: Number>(rays: &Rays<N>) -> (Rays<N>, N, N) {
 }
 
 /// Whether lines whose points closest to the unit origin are `o` are certainly beside a truncated cone, which
-/// lies within √2 of that origin; `off` is the sum of how far a point may be off along each axis.
+/// lies within √2 of that origin; `error` is the sum of how far a point may be off along each axis.
 #[inline(always)]
-pub(super) fn pass_by<N: Number>(o: Vector<N>, off: N) -> N::Mask {
-    // (√2 + off)² with 4 for 2√2.
-    o.length_squared().is_above(off * (off + 4.0) + 2.0)
+pub(super) fn pass_by<N: Number>(o: Vector<N>, error: N) -> N::Mask {
+    // (√2 + error)² with 4 for 2√2.
+    o.length_squared().is_above(error * (error + 4.0) + 2.0)
 }
 
-/// No way becomes longer by more than this under a linear map.
+/// No vector becomes longer by more than this under a linear map.
 pub(super) fn norm(map: &DMat3) -> f64 {
     let columns = [map.x_axis, map.y_axis, map.z_axis];
     columns.iter().map(|column| column.length_squared()).sum::<f64>().sqrt()

@@ -2,12 +2,20 @@
 //!
 //! The order and the names are those of `docs/flow-chart.md`; a test compares the two.
 
+mod probe;
 mod progress;
+mod ray_event;
+mod recorder;
+mod stopwatch;
 
 use std::ops::{Add, AddAssign, Index, IndexMut};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
+pub use probe::{Meter, Probe, Silent};
 pub use progress::{Progress, Task, WorkStep};
+pub use ray_event::{RayEvent, RayKind};
+pub use recorder::Recorder;
+pub use stopwatch::Stopwatch;
 
 /// One stage of the flow chart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -163,105 +171,5 @@ impl StageTimes {
     /// The sum over all stages.
     pub fn total(&self) -> Duration {
         self.0.iter().sum()
-    }
-}
-
-/// What runs along with the tracing and watches it pass from stage to stage.
-pub trait Probe {
-    /// The work from here on belongs to `stage`.
-    fn at(&mut self, stage: Stage);
-}
-
-/// Watches nothing, at no cost.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Silent;
-
-impl Probe for Silent {
-    #[inline]
-    fn at(&mut self, _: Stage) {}
-}
-
-/// Adds up the time spent in each stage.
-#[derive(Clone, Copy, Debug)]
-pub struct Stopwatch {
-    times: StageTimes,
-    now: Stage,
-    since: Instant,
-}
-
-impl Stopwatch {
-    /// Starts the watch in `stage`.
-    pub fn start(stage: Stage) -> Self {
-        Self { times: StageTimes::default(), now: stage, since: Instant::now() }
-    }
-
-    /// Stops the watch: the time of each stage since the start.
-    pub fn stop(mut self) -> StageTimes {
-        self.at(self.now);
-        self.times
-    }
-}
-
-impl Probe for Stopwatch {
-    fn at(&mut self, stage: Stage) {
-        let now = Instant::now();
-        self.times[self.now] += now - self.since;
-        (self.now, self.since) = (stage, now);
-    }
-}
-
-/// A probe that is chosen while the program runs: what is traced is compiled once for both.
-#[derive(Clone, Copy, Debug, Default)]
-pub enum TileProbe {
-    /// [`Silent`].
-    #[default]
-    Silent,
-    /// [`Stopwatch`].
-    Timed(Stopwatch),
-}
-
-impl TileProbe {
-    /// A stopwatch that starts in `stage`.
-    pub fn timed(stage: Stage) -> Self {
-        Self::Timed(Stopwatch::start(stage))
-    }
-
-    /// The time of each stage since the start; none where nothing was timed.
-    pub fn stop(self) -> StageTimes {
-        match self {
-            Self::Silent => StageTimes::default(),
-            Self::Timed(watch) => watch.stop(),
-        }
-    }
-}
-
-impl Probe for TileProbe {
-    #[inline]
-    fn at(&mut self, stage: Stage) {
-        if let Self::Timed(watch) = self {
-            watch.at(stage);
-        }
-    }
-}
-
-/// Counts and a probe, carried along by whoever traces.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Meter<P> {
-    /// What was counted.
-    pub counts: Counts,
-    /// What watches.
-    pub probe: P,
-}
-
-impl<P: Probe> Meter<P> {
-    /// Nothing counted yet.
-    pub fn new(probe: P) -> Self {
-        Self { counts: Counts::default(), probe }
-    }
-
-    /// The work from here on belongs to `stage`.
-    #[inline]
-    pub fn at(&mut self, stage: Stage) {
-        self.probe.at(stage);
     }
 }

@@ -2,13 +2,13 @@
 
 use std::ops::ControlFlow;
 
-use crate::lattice::{self, SLACK, Structure, slack};
+use crate::lattice::{self, BoxVisitor, SLACK, Structure, slack};
 use crate::math::{Bounds, DVec3, Mask, Number, Ray, Rays, Vector};
 use crate::solid::{
     self, Assembly, Body, Crossing, Departure, LIMIT, TRange, first_of_expression, first_of_span,
     first_of_surface,
 };
-use crate::stage::{Meter, Probe, Stage};
+use crate::stage::{Meter, Probe, RayEvent, Stage};
 
 use super::RayEngine;
 use super::hit::Hit;
@@ -100,12 +100,29 @@ impl<'a> Exact<'a> {
     pub fn new(assembly: &'a Assembly, structure: Structure<'a>) -> Self {
         // Moved outward by what rounding may take from a hit at the limit.
         let limit = assembly.limit.padded(DVec3::splat(SLACK));
-        Self { assembly, structure, limit, slack: slack(assembly.off) }
+        Self { assembly, structure, limit, slack: slack(assembly.place_error) }
     }
 
     /// The first crossing of one object, if it lies before `to`.
     #[inline]
     pub(super) fn object(
+        &self,
+        object: u32,
+        ray: &Ray,
+        departure: Option<Departure>,
+        to: f64,
+        scratch: &mut solid::Scratch,
+        meter: &mut Meter<impl Probe>,
+    ) -> Option<Crossing> {
+        let found = self.first_of_object(object, ray, departure, to, scratch, meter);
+        if let Some(Crossing { t, error, primitive, surface, entering }) = found {
+            meter.record(|| RayEvent::Crossed { object, primitive, surface, t, error, entering });
+        }
+        found
+    }
+
+    #[inline]
+    fn first_of_object(
         &self,
         object: u32,
         ray: &Ray,
@@ -132,8 +149,9 @@ impl<'a> Exact<'a> {
             }
             Some(sub) => {
                 meter.at(Stage::Cell);
-                let mut visited = 0;
-                let found = sub.walk(ray, &mut visited, |part, step| {
+                let found = sub.walk(ray, |part, step| {
+                    meter.enter_cell(step.from);
+                    let Some(part) = part else { return ControlFlow::Continue(()) };
                     if step.from > to {
                         return ControlFlow::Break(None);
                     }
@@ -142,7 +160,6 @@ impl<'a> Exact<'a> {
                     meter.at(Stage::Cell);
                     found.map_or(ControlFlow::Continue(()), |c| ControlFlow::Break(Some(c)))
                 });
-                meter.counts.cells_visited += visited;
                 found.flatten()
             }
         }
@@ -158,42 +175,129 @@ impl<'a> Exact<'a> {
         meter: &mut Meter<impl Probe>,
     ) -> Option<Hit> {
         memory.start_ray();
-        let test = |object: u32, memory: &mut RayMemory, meter: &mut Meter<_>| {
-            let to = memory.best + self.slack;
-            if let Some(crossing) = self.object(object, ray, departure, to, &mut memory.scratch, meter) {
-                memory.keep(object, crossing);
-            }
-        };
-        if let Structure::None = self.structure {
-            for object in 0..self.assembly.objects.len() as u32 {
-                test(object, memory, meter);
-            }
-            return memory.chosen(ray);
+        let goal = Nearest { slack: self.slack };
+        ObjectVisitor { exact: self, ray, departure, goal, memory, meter }.walk(entry, f64::INFINITY);
+        memory.chosen(ray)
+    }
+}
+
+/// What is looked for among the objects that a ray may meet.
+trait Goal {
+    /// Whether the order counts: boxes are walked the nearest first then.
+    const IN_ORDER: bool;
+
+    /// How far the ray still matters.
+    fn farthest(&self, memory: &RayMemory) -> f64;
+
+    /// Takes what the ray crosses first of an object. Answers whether the rest does not matter.
+    fn take(&mut self, object: u32, crossing: &Crossing, memory: &mut RayMemory) -> bool;
+}
+
+/// The nearest hit, and what lies within `slack` behind it.
+struct Nearest {
+    slack: f64,
+}
+
+impl Goal for Nearest {
+    const IN_ORDER: bool = true;
+
+    #[inline]
+    fn farthest(&self, memory: &RayMemory) -> f64 {
+        memory.best + self.slack
+    }
+
+    #[inline]
+    fn take(&mut self, object: u32, crossing: &Crossing, memory: &mut RayMemory) -> bool {
+        memory.keep(object, *crossing);
+        false
+    }
+}
+
+/// Any crossing before `distance` to which `visit` says yes.
+struct Any<'f> {
+    distance: f64,
+    visit: &'f mut dyn FnMut(u32, &Crossing) -> bool,
+}
+
+impl Goal for Any<'_> {
+    const IN_ORDER: bool = false;
+
+    #[inline]
+    fn farthest(&self, _: &RayMemory) -> f64 {
+        self.distance
+    }
+
+    #[inline]
+    fn take(&mut self, object: u32, crossing: &Crossing, _: &mut RayMemory) -> bool {
+        (self.visit)(object, crossing)
+    }
+}
+
+/// Tests a ray against the objects that it may meet.
+struct ObjectVisitor<'v, 'a, P, G> {
+    exact: &'v Exact<'a>,
+    ray: &'v Ray,
+    departure: Option<Departure>,
+    goal: G,
+    memory: &'v mut RayMemory,
+    meter: &'v mut Meter<P>,
+}
+
+impl<P: Probe, G: Goal> ObjectVisitor<'_, '_, P, G> {
+    /// Tests the ray against each object that it may meet between two distances, once. Answers whether the
+    /// goal was reached before the last.
+    #[inline]
+    fn walk(&mut self, from: f64, to: f64) -> bool {
+        let (exact, ray) = (self.exact, self.ray);
+        let objects = exact.assembly.objects.len();
+        if let Structure::None = exact.structure {
+            return (0..objects as u32).any(|object| self.test(object).is_break());
         }
-        meter.at(Stage::Cell);
-        let mut visited = 0;
-        if let Structure::Boxes(boxes, _) = self.structure {
+        self.meter.at(Stage::Cell);
+        if let Structure::Boxes(boxes, _) = exact.structure {
             // Each object has one place there.
-            boxes.walk(ray, entry, f64::INFINITY, &mut visited, |object, _| -> ControlFlow<(), f64> {
-                test(object, memory, meter);
-                meter.at(Stage::Cell);
-                ControlFlow::Continue(memory.best + self.slack)
-            });
-            meter.counts.cells_visited += visited;
-            return memory.chosen(ray);
+            let found =
+                if G::IN_ORDER { boxes.walk(ray, from, to, self) } else { boxes.walk_any(ray, to, self) };
+            return found.is_some();
         }
-        memory.start_marking(self.assembly.objects.len());
-        self.structure.walk(ray, entry, f64::INFINITY, &mut visited, |objects, _| -> ControlFlow<(), f64> {
+        self.memory.start_marking(objects);
+        let found = exact.structure.walk(ray, from, to, |objects, step| {
+            self.meter.enter_cell(step.from);
             for &object in objects {
-                if memory.first_time(object) {
-                    test(object, memory, meter);
-                    meter.at(Stage::Cell);
+                if self.memory.first_time(object) {
+                    self.test(object)?;
+                    self.meter.at(Stage::Cell);
                 }
             }
-            ControlFlow::Continue(memory.best + self.slack)
+            ControlFlow::Continue(self.goal.farthest(self.memory))
         });
-        meter.counts.cells_visited += visited;
-        memory.chosen(ray)
+        found.is_some()
+    }
+
+    #[inline]
+    fn test(&mut self, object: u32) -> ControlFlow<()> {
+        let Self { exact, ray, departure, goal, memory, meter } = self;
+        let to = goal.farthest(memory);
+        let crossing = exact.object(object, ray, *departure, to, &mut memory.scratch, meter);
+        if crossing.is_some_and(|crossing| goal.take(object, &crossing, memory)) {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+impl<P: Probe, G: Goal> BoxVisitor<()> for ObjectVisitor<'_, '_, P, G> {
+    #[inline(always)]
+    fn enter(&mut self, from: f64) {
+        self.meter.enter_cell(from);
+    }
+
+    #[inline(never)]
+    fn visit(&mut self, object: u32, _: f64) -> ControlFlow<(), f64> {
+        let tested = self.test(object);
+        self.meter.at(Stage::Cell);
+        tested?;
+        ControlFlow::Continue(self.goal.farthest(self.memory))
     }
 }
 
@@ -209,6 +313,7 @@ impl RayEngine for Exact<'_> {
         let (near, [far, left]) = moved_nearer(ray);
         let Some(entry) = lattice::entry(&near, &self.limit) else {
             meter.counts.clipped_rays += 1;
+            meter.record(|| RayEvent::Clipped);
             memory.nearest.clear();
             return None;
         };
@@ -240,39 +345,9 @@ impl RayEngine for Exact<'_> {
         meter: &mut Meter<impl Probe>,
         visit: &mut dyn FnMut(u32, &Crossing) -> bool,
     ) -> bool {
-        let mut test = |object: u32, memory: &mut RayMemory, meter: &mut Meter<_>| {
-            let crossing = self.object(object, ray, Some(departure), distance, &mut memory.scratch, meter);
-            crossing.is_some_and(|crossing| visit(object, &crossing))
-        };
-        if let Structure::None = self.structure {
-            return (0..self.assembly.objects.len() as u32).any(|object| test(object, memory, meter));
-        }
-        meter.at(Stage::Cell);
-        let mut visited = 0;
-        if let Structure::Boxes(boxes, _) = self.structure {
-            let found = boxes.any(ray, distance, &mut visited, |object| {
-                let found = test(object, memory, meter);
-                meter.at(Stage::Cell);
-                found
-            });
-            meter.counts.cells_visited += visited;
-            return found;
-        }
-        memory.start_marking(self.assembly.objects.len());
-        let found = self.structure.walk(ray, 0.0, distance, &mut visited, |objects, _| {
-            for &object in objects {
-                if memory.first_time(object) {
-                    let found = test(object, memory, meter);
-                    meter.at(Stage::Cell);
-                    if found {
-                        return ControlFlow::Break(());
-                    }
-                }
-            }
-            ControlFlow::Continue(distance)
-        });
-        meter.counts.cells_visited += visited;
-        found.is_some()
+        let goal = Any { distance, visit };
+        ObjectVisitor { exact: self, ray, departure: Some(departure), goal, memory, meter }
+            .walk(0.0, distance)
     }
 
     fn of_object(

@@ -1,7 +1,7 @@
 //! Stages 4 to 8, driven: rays in, hits out. A [`RayEngine`] answers what a ray meets first
 //! ([`RayEngine::first`], [`RayEngine::next`]) and whether light comes through ([`RayEngine::blocked`]);
 //! [`Exact`] is the reference. [`Fast`] answers the same for packets of rays, and hands out the exact engine
-//! for those that it leaves a doubt of.
+//! for rays that it is uncertain of.
 
 mod exact;
 mod fast;

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
 
-use crate::math::{DVec3, LaneVector, Number, ROWS, RayPacket, Size};
+use crate::math::{DVec3, LaneVector, Number, REGISTERS, RayPacket, Size};
 
 use super::direction::all_settled;
 use super::pinhole::PinholeCamera;
@@ -41,18 +41,19 @@ impl Block {
     }
 
     /// Sets a packet's rays to those through a point of each dot, `off` from its middle in dots. `eye` is
-    /// where they start, and `path` how far they may go, in the assembly's coordinates ([`super::settled`]).
+    /// where they start, and `longest_path` how far they go at most, in the assembly's coordinates
+    /// ([`super::settled`]).
     pub fn rays(
         &self,
         pinhole: &PinholeCamera,
         off: [f64; 2],
         eye: DVec3,
-        path: f64,
+        longest_path: f64,
         level: Level,
         packet: &mut RayPacket,
     ) {
         packet.live = self.live();
-        dispatch!(level, simd => self.fill(simd, pinhole, off, eye, path, packet));
+        dispatch!(level, simd => self.fill(simd, pinhole, off, eye, longest_path, packet));
     }
 
     #[inline(always)]
@@ -62,16 +63,16 @@ impl Block {
         pinhole: &PinholeCamera,
         off: [f64; 2],
         eye: DVec3,
-        path: f64,
+        longest_path: f64,
         packet: &mut RayPacket,
     ) {
         let columns = f64x8::load_array(simd, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
         let x = columns + f64::from(self.corner[0]) + 0.5 + off[0];
         let across = pinhole.across(x);
         let start = across.same(eye);
-        for row in 0..ROWS {
+        for row in 0..REGISTERS {
             let y = f64::from(self.corner[1] + row as u32) + 0.5 + off[1];
-            let d = all_settled(pinhole.upward(across, x.same(pinhole.height(y))), path);
+            let d = all_settled(pinhole.upward(across, x.same(pinhole.height(y))), longest_path);
             packet.o.store(row, start);
             packet.d.store(row, d);
         }

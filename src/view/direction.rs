@@ -6,24 +6,24 @@ use crate::math::{DVec3, Mask, Number, Vector};
 /// 1, eight roundings at most.
 const NOISE: f64 = 4.0 * f64::EPSILON;
 
-/// The same direction, each component exactly 0 or large enough to matter over `path`, the length of a ray in
-/// the assembly's unit: what moves its end by less than `NOISE`, beside coordinates near 1, is 0. The length
-/// of the direction stays 1 within rounding.
+/// The same direction, each component exactly 0 or large enough to matter over `longest_path`, how far a ray
+/// goes at most in the assembly's unit: what moves its end by less than `NOISE`, beside coordinates near 1,
+/// is 0. The length of the direction stays 1 within rounding.
 ///
 /// So a ray that is meant to run along a plane does, and does not pass through it at a place that nobody can
 /// tell. And what is left can be divided by: the path is at most about 10¹⁰⁰, and no walk forms 0 · ∞.
 #[inline]
 #[must_use]
-pub fn settled(d: DVec3, path: f64) -> DVec3 {
-    let d = all_settled(Vector::from(d), path);
+pub fn settled(d: DVec3, longest_path: f64) -> DVec3 {
+    let d = all_settled(Vector::from(d), longest_path);
     DVec3::new(d.x, d.y, d.z)
 }
 
 /// [`settled`], for one direction or for several.
 #[inline(always)]
 #[must_use]
-pub fn all_settled<N: Number>(d: Vector<N>, path: f64) -> Vector<N> {
-    let least = d.x.same(NOISE / path.max(1.0));
+pub fn all_settled<N: Number>(d: Vector<N>, longest_path: f64) -> Vector<N> {
+    let least = d.x.same(NOISE / longest_path.max(1.0));
     let zero = d.x.same(0.0);
     Vector {
         x: d.x.magnitude().is_below(least).choose(zero, d.x),

@@ -5,7 +5,7 @@ use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
 
 use std::ops::Range;
 
-use crate::math::{DVec3, LANES, LaneVector, Lanes, PACKET, ROWS, RayPacket, Size};
+use crate::math::{DVec3, LANES, LaneVector, Lanes, PACKET, REGISTERS, RayPacket, Size};
 
 use super::block::{BLOCK, Block};
 use super::direction::all_settled;
@@ -36,8 +36,8 @@ pub struct TileCamera<'a> {
     pub rays: TileRays<'a>,
     /// Where they start, in the assembly's coordinates.
     pub eye: DVec3,
-    /// How far they may go, in the assembly's unit ([`super::settled`]).
-    pub path: f64,
+    /// How far they go at most, in the assembly's unit ([`super::settled`]).
+    pub longest_path: f64,
 }
 
 impl TileCamera<'_> {
@@ -112,7 +112,7 @@ impl TileCamera<'_> {
                 let [left, top] = self.tile.corner;
                 let Block { corner: [i, j], size } = self.block(number);
                 let block = Block { corner: [left + i, top + j], size };
-                block.rays(self.pinhole, offset, self.eye, self.path, level, packet);
+                block.rays(self.pinhole, offset, self.eye, self.longest_path, level, packet);
             }
             TileRays::Points(packets) => {
                 let points = &packets[number];
@@ -124,10 +124,10 @@ impl TileCamera<'_> {
 
     #[inline(always)]
     fn fill<S: Simd>(&self, simd: S, points: &PointPacket, packet: &mut RayPacket) {
-        for row in 0..ROWS {
+        for row in 0..REGISTERS {
             let d = self.pinhole.directions(points.x.load(simd, row), points.y.load(simd, row));
             packet.o.store(row, d.same(self.eye));
-            packet.d.store(row, all_settled(d, self.path));
+            packet.d.store(row, all_settled(d, self.longest_path));
         }
         packet.close(simd);
     }
@@ -151,7 +151,7 @@ impl TileCamera<'_> {
             }
         };
         [[left, top], [right, top], [left, bottom], [right, bottom]].map(|[x, y]| {
-            let d = all_settled(self.pinhole.directions(x, y), self.path);
+            let d = all_settled(self.pinhole.directions(x, y), self.longest_path);
             DVec3::new(d.x, d.y, d.z)
         })
     }
@@ -164,7 +164,7 @@ impl TileCamera<'_> {
 
     #[inline(always)]
     fn all_corners<S: Simd>(&self, simd: S, corners: &mut [Lanes; 3]) {
-        let rows = ROWS.min(self.packets().div_ceil(2));
+        let rows = REGISTERS.min(self.packets().div_ceil(2));
         match self.rays {
             TileRays::EachDot([across, down]) => {
                 let last = f64::from(BLOCK - 1);
@@ -177,7 +177,7 @@ impl TileCamera<'_> {
                     let x = f64x8::load_array(simd, [i, i, i, i, k, k, k, k]) + right;
                     let y = f64x8::load_array(simd, [j, j, j, j, l, l, l, l]) + below;
                     let d = self.pinhole.directions(x + left + across, y + top + down);
-                    corners.store(row, all_settled(d, self.path));
+                    corners.store(row, all_settled(d, self.longest_path));
                 }
             }
             TileRays::Points(packets) => {
@@ -188,7 +188,7 @@ impl TileCamera<'_> {
                     let x = f64x8::load_array(simd, [left, right, left, right, west, east, west, east]);
                     let y = f64x8::load_array(simd, [top, top, bottom, bottom, north, north, south, south]);
                     let d = self.pinhole.directions(x, y);
-                    corners.store(row, all_settled(d, self.path));
+                    corners.store(row, all_settled(d, self.longest_path));
                 }
             }
         }
@@ -227,7 +227,7 @@ mod tests {
                 tile,
                 rays: TileRays::EachDot([0.2, -0.3]),
                 eye: camera.eye,
-                path: 10.0,
+                longest_path: 10.0,
             };
             let mut corners = [Lanes::filled(0.0); 3];
             sight.corners(Level::new(), &mut corners);

@@ -130,6 +130,61 @@ fn what_is_broken_or_shared_is_said_before_anything_is_written() {
     }
 }
 
+/// The first scene with a mistake ended the run, and what came after it was not looked at.
+#[test]
+fn what_is_broken_does_not_keep_the_others_from_being_compared() {
+    let folder = parts("others");
+    let path = |name: &str| folder.join(name).to_str().unwrap().to_owned();
+    let (broken, part, gone) = (path("broken.csg"), path("part.csg"), path("gone.csg"));
+    fs::write(&broken, "cube(2, center = true\n").unwrap();
+    let run = || run(&["snapshot", &broken, &part, &gone]);
+    let [shown, why] = [run().stdout, run().stderr].map(|bytes| text(&bytes));
+    assert_eq!(run().status.code(), Some(2), "{why}");
+    assert!(shown.contains("part.levels: not kept yet"), "{shown}");
+    for what in ["broken.csg:1:5", "gone.csg: ", "2 of the scenes", "1 of 1 pictures not as kept"] {
+        assert!(why.contains(what), "{what}: {why}");
+    }
+    done(&crate::run(&["snapshot", &part, "--update"]));
+    assert_eq!(run().status.code(), Some(2));
+}
+
+/// Whether a file is a picture was asked of its bytes, and its scene was read once more: of a pipe nothing
+/// was left.
+#[cfg(unix)]
+#[test]
+fn pipes_are_compared_as_files_are() {
+    let folder = parts("pipes");
+    let part = folder.join("part.csg");
+    let (part, pipe) = (part.to_str().unwrap(), folder.join("pipe"));
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status().unwrap();
+    assert!(made.success());
+    let levels = done(&run(&["render", part, "--format", "levels", "--cells", "80x25"]));
+    for bytes in [fs::read(part).unwrap(), levels] {
+        // As the shell does it: one writes while the other reads.
+        let to = pipe.clone();
+        let writer = std::thread::spawn(move || fs::write(to, bytes).unwrap());
+        let compared = done(&run(&["diff", pipe.to_str().unwrap(), part]));
+        writer.join().unwrap();
+        assert!(text(&compared).contains("the same 16000 dots"), "{}", text(&compared));
+    }
+}
+
+/// The marked picture was always of block characters, for a dark terminal.
+#[test]
+fn a_marked_picture_is_shown_as_asked_for() {
+    let folder = parts("shown");
+    let path = |name: &str| folder.join(name).to_str().unwrap().to_owned();
+    let (part, ball) = (path("part.csg"), path("ball.csg"));
+    fs::write(&ball, "sphere(1.2);\n").unwrap();
+    let marked = |options: &[&str]| differs(&run(&[&["diff", &part, &ball], options].concat()))[0].clone();
+    let plain = marked(&[]);
+    assert!(plain.contains('▓') && !plain.is_ascii());
+    assert!(marked(&["--glyphs", "ascii"]).is_ascii());
+    assert!(marked(&["--invert"]) != plain);
+    let [_, why] = differs(&run(&["diff", &part, &ball, "--palette", "gray"]));
+    assert!(why.contains("--palette has no effect here"), "{why}");
+}
+
 #[test]
 fn a_picture_of_nothing_says_so() {
     let folder = parts("nothing");

@@ -9,7 +9,7 @@ use crate::conformance::chance::Chance;
 /// A point of a shape's surface and the outward normal there, in the shape's own coordinates.
 fn on_surface(shape: &Shape, chance: &mut Chance) -> (DVec3, DVec3) {
     match shape {
-        Shape::Frustum { bottom, top } => {
+        Shape::Cone { bottom, top } => {
             let (sin, cos) = libm::sincos(chance.within(0.0, std::f64::consts::TAU));
             if chance.below(4) == 0 {
                 let z = chance.sign();

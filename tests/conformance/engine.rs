@@ -130,7 +130,7 @@ impl ExactEngine {
         let form = &self.assembly.primitives[start.hit.primitive as usize].form;
         let inward = form.normal(p, start.hit.surface).dot(start.toward) < 0.0;
         let Found { primitive, surface, .. } = start.hit;
-        (Ray::new(p, start.toward), Departure { primitive, surface, inward, off: form.off() })
+        (Ray::new(p, start.toward), Departure { primitive, surface, inward, place_error: form.place_error() })
     }
 }
 
@@ -189,17 +189,17 @@ impl Subject for ExactEngine {
     /// multiplied by the length of the inverse map's row.
     ///
     /// A chord that such an error could have made counts as none: on a sphere where the ray passes within
-    /// once the error of the silhouette, on the side of a frustum within three times, one for each axis. At
-    /// an apex a chord through a circle of radius ρ counts as none for ρ² ≤ 3·off·(2ρ + off), up to 6.5
+    /// once the error of the silhouette, on the side of a truncated cone within three times, one for each
+    /// axis. At an apex a chord through a circle of radius ρ counts as none for ρ² ≤ 3·e·(2ρ + e), up to 6.5
     /// times; rounded up to 7.
     fn rim(&self, primitive: &Primitive, ray: &Ray) -> DVec3 {
         let SceneFrame { origin, unit } = self.assembly.scene_frame;
         let from_origin = primitive.map.translation.distance(origin);
         let eye = if origin == DVec3::ZERO { 0.0 } else { f64::EPSILON * ray.o.distance(origin) };
-        let off = ROUNDING * (WORLD * unit + from_origin) + eye;
+        let error = ROUNDING * (WORLD * unit + from_origin) + eye;
         // At the ends of f64 only this inverse is one.
         let inverse = Placement::new(&primitive.map).unwrap().inverse;
-        DVec3::from_array([0, 1, 2].map(|i| inverse.row(i).length())) * (7.0 * off)
+        DVec3::from_array([0, 1, 2].map(|i| inverse.row(i).length())) * (7.0 * error)
     }
 
     fn draw(scene: &Scene, camera: &Camera, dots: Size, cut: Cut) -> Frame {

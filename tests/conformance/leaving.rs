@@ -9,13 +9,13 @@ use crate::conformance::engine::{Cut, Found, Start, Subject};
 use crate::conformance::expressions::random::any_solid;
 use crate::conformance::faults::assert_none;
 use crate::conformance::long::{cases, report};
-use crate::conformance::solids::{CONE, CYLINDER, FRUSTUM, placed, primitive, prism, scene};
+use crate::conformance::solids::{CONE, CYLINDER, TRUNCATED_CONE, placed, primitive, prism, scene};
 use crate::conformance::tally::{said, ulp};
 use crate::support::oracle::{Big, Verdict, verdict};
 
 /// All shapes of convex solids, turned and not.
 fn any_convex(chance: &mut Chance) -> (Shape, DMat3) {
-    let shape = chance.one_of(&[Shape::Sphere, Shape::Cube, CYLINDER, CONE, FRUSTUM, prism()]);
+    let shape = chance.one_of(&[Shape::Sphere, Shape::Cube, CYLINDER, CONE, TRUNCATED_CONE, prism()]);
     let half = if chance.below(2) == 0 {
         DVec3::ONE
     } else {
@@ -85,7 +85,7 @@ fn starts_at_rim(subject: &impl Subject, solid: &Primitive, start: &Start) -> bo
     let inverse = solid.map.matrix3.inverse();
     // Here the start is a point of the scene, each of its coordinates rounded, on a solid that may be off by
     // its map.
-    let off = 4.0 * (f64::EPSILON * from.o.length() + solid.displacement().length());
+    let off = 4.0 * (f64::EPSILON * from.o.length() + solid.map_error().length());
     let rounded = DVec3::from_array([0, 1, 2].map(|i| inverse.row(i).length())) * off;
     verdict::<Big>(solid, &from, subject.rim(solid, &start.ray) + rounded) != Verdict::Hit
 }

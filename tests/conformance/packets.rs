@@ -1,4 +1,4 @@
-//! The fast engine's answers: rays in packets, and those that are unsure one by one.
+//! The fast engine's answers: rays in packets, and those that are uncertain one by one.
 
 use fearless_simd::dispatch;
 use ray13::frame::Frame;
@@ -63,7 +63,7 @@ impl FastEngine {
                 Some(departure) => engine.exact().next(ray, *departure, &mut memory, &mut meter),
             };
             let met = &nearest[k];
-            if met.unsure >> lane & 1 == 1 {
+            if met.uncertain >> lane & 1 == 1 {
                 return alone;
             }
             let (t, [far, left]) = (met.t.0[lane], &ways[k]);
@@ -87,7 +87,7 @@ impl FastEngine {
 }
 
 impl Subject for FastEngine {
-    /// That of the exact engine, which it asks where it is unsure.
+    /// That of the exact engine, which it asks where it is uncertain.
     const RANGE: Range = ExactEngine::RANGE;
 
     /// It goes through boxes whatever it is told.
@@ -127,7 +127,7 @@ impl Subject for FastEngine {
             let mut shadow_packets = [shadow_packet];
             let lamp = ShadowQuery { at: ray.at(distance), opacity: &[], dark: &[], lets_through: &[] };
             engine.blocked_of(&mut shadow_packets, &[departures], &lamp, &mut tile);
-            if shadow_packets[0].unsure & 1 == 1 {
+            if shadow_packets[0].uncertain & 1 == 1 {
                 return engine.exact().blocked(&ray, departure, distance, &mut memory, &mut meter);
             }
             shadow_packets[0].blocked & 1 == 1

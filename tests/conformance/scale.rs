@@ -79,7 +79,7 @@ fn changed(
     let View { name, scene, camera } = view;
     // The change rounds nothing, or as little as a scale does: the maps are as good as they were.
     let primitive =
-        |p: &Primitive| Primitive { map: map(&p.map), ..p.clone() }.displaced(p.displacement() * scale);
+        |p: &Primitive| Primitive { map: map(&p.map), ..p.clone() }.with_map_error(p.map_error() * scale);
     let object = |object: &Object| Object { name: None, solid: mapped(&object.solid, &primitive) };
     let light = |light: &Light| match light.anchor {
         Anchor::World(p) => Light { anchor: Anchor::World(place(p)), ..light.clone() },

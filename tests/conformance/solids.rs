@@ -5,9 +5,9 @@ use std::sync::Arc;
 use ray13::math::{Bounds, DAffine3, DMat3, DVec3};
 use ray13::scene::{Facets, HalfSpace, Material, MaterialId, Mesh, Object, Primitive, Scene, Shape, Solid};
 
-pub const CYLINDER: Shape = Shape::Frustum { bottom: 1.0, top: 1.0 };
-pub const CONE: Shape = Shape::Frustum { bottom: 1.0, top: 0.0 };
-pub const FRUSTUM: Shape = Shape::Frustum { bottom: 0.25, top: 1.0 };
+pub const CYLINDER: Shape = Shape::Cone { bottom: 1.0, top: 1.0 };
+pub const CONE: Shape = Shape::Cone { bottom: 1.0, top: 0.0 };
+pub const TRUNCATED_CONE: Shape = Shape::Cone { bottom: 0.25, top: 1.0 };
 
 /// A prism of six sides; its radius is 1, its height 2.
 pub fn prism() -> Shape {

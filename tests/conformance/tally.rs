@@ -42,8 +42,8 @@ pub fn ulp(x: f64) -> f64 {
 /// along one axis counts for all, because a chord is compared with what it may be off, not with where.
 fn passes_apex(primitive: &Primitive, ray: &Ray, within: f64) -> bool {
     let apex = match primitive.shape {
-        Shape::Frustum { top: 0.0, .. } => DVec3::Z,
-        Shape::Frustum { bottom: 0.0, .. } => DVec3::NEG_Z,
+        Shape::Cone { top: 0.0, .. } => DVec3::Z,
+        Shape::Cone { bottom: 0.0, .. } => DVec3::NEG_Z,
         _ => return false,
     };
     let inverse = primitive.map.inverse();
@@ -99,7 +99,7 @@ impl Tally {
         let length = found.t.max(center.length().min(8.0 * size) + size);
         let ulps = error / (ulp(length) * (1.0 + end.tangent) * ratio);
         let stated = error / (found.error + ulp(found.t));
-        let is_cone = matches!(primitive.shape, Shape::Frustum { bottom, top } if bottom != top);
+        let is_cone = matches!(primitive.shape, Shape::Cone { bottom, top } if bottom != top);
         // At an edge the face beside may be named, which the ray may cross more steeply: then its word says
         // less.
         let at_edge = end.face != found.surface;

@@ -7,9 +7,11 @@ use ray13::math::{DAffine3, DVec3, Size};
 use ray13::plan::StructureChoice;
 use ray13::scene::{Anchor, Camera, FieldSpan, Light, Material, MaterialId, Object, Primitive, Scene, Solid};
 
+use crate::support::agreement::difference;
 use crate::support::anything::{any_rotation, any_solid};
+use crate::support::cases::cases;
 use crate::support::request::request;
-use crate::support::same::{difference, exact, fast};
+use crate::support::same::{exact, fast};
 
 pub const DOTS: Size = Size::new(43, 37);
 
@@ -77,7 +79,7 @@ fn any_direction() -> impl Strategy<Value = DVec3> {
 
 proptest! {
     // The same cases each time: a test that fails tells of the change before it.
-    #![proptest_config(ProptestConfig { cases: 150, rng_seed: RngSeed::Fixed(13), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(13), ..cases(60) })]
 
     #[test]
     fn from_outside(scene in any_scene(), direction in any_direction()) {

@@ -6,8 +6,9 @@ use ray13::math::{DVec3, Size};
 use ray13::plan::StructureChoice;
 use ray13::scene::{Camera, FieldSpan, read};
 
+use crate::support::agreement::assert_same_picture;
 use crate::support::request::request;
-use crate::support::same::{difference, exact, fast};
+use crate::support::same::{exact, fast};
 
 const DOTS: Size = Size::new(19, 19);
 
@@ -47,9 +48,8 @@ fn same(text: &str, eye: DVec3, target: DVec3, field: f64, zoom: f64) {
         let frame = fast(&studio, &request);
         for structure in [StructureChoice::None, StructureChoice::Boxes] {
             let other = exact(&studio, &request, structure);
-            if let Some(fault) = difference(&frame, &other) {
-                panic!("{eye} → {target}, {field}°, zoom {zoom:e}, {structure:?}: {fault}\n{text}");
-            }
+            let what = format!("{text}\n{eye} → {target}, {field}°, zoom {zoom:e}, {structure:?}");
+            assert_same_picture(&what, &frame, &other);
         }
     }
 }

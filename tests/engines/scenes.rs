@@ -8,9 +8,10 @@ use ray13::math::{DVec3, Size};
 use ray13::plan::StructureChoice;
 use ray13::scene::{Camera, ReadOptions, Scene, read_file};
 
+use crate::support::agreement::assert_same_picture;
 use crate::support::beside;
 use crate::support::request::request;
-use crate::support::same::{difference, exact, fast};
+use crate::support::same::{exact, fast};
 use crate::support::scenery::embedded_scenes;
 
 /// Several tiles, those at the rim cut.
@@ -39,9 +40,7 @@ fn all_same(name: &str, scene: Scene, structures: &[StructureChoice]) {
         hits += frame.counts.primary_hits;
         for &structure in structures {
             let other = exact(&studio, &request, structure);
-            if let Some(fault) = difference(&frame, &other) {
-                panic!("{name}, {view}, against {structure:?}: {fault}");
-            }
+            assert_same_picture(&format!("{name}, {view}, against {structure:?}"), &frame, &other);
             let counted = |f: &ray13::frame::Frame| {
                 let c = f.counts;
                 [

@@ -10,6 +10,7 @@ use ray13::tone::Tone;
 
 use super::random::any_scene;
 use super::scenes::{CSG, views, with_those_beside};
+use crate::support::agreement::assert_same_picture;
 use crate::support::request::request;
 use crate::support::scenery::embedded_scenes;
 
@@ -175,7 +176,7 @@ fn what_is_beyond_the_numbers_is_asked_with_all_digits() {
             let camera = studio.camera(0, 1.0);
             let [half, full] = both(&studio, &camera, Size::new(48, 48), PrecisionChoice::Single);
             assert_eq!(half.precision, Precision::Double);
-            assert_eq!(half.light, full.light);
+            assert_same_picture(&format!("{solid}, {thin}"), &half, &full);
         }
     }
 }

@@ -1,14 +1,14 @@
 //! A lattice only saves work: with it and without it, every dot sees the same surface.
 
+use crate::support::agreement::assert_same_picture;
 use crate::support::request::request;
 use crate::support::scenery::embedded_scenes;
-use ray13::frame::{Frame, Space, Studio};
+use ray13::frame::{Space, Studio};
 use ray13::math::{Bounds, DVec3, Size};
 use ray13::plan::{EngineChoice, StructureChoice};
 use ray13::scene::{Camera, FieldSpan, Scene, Solid};
-use ray13::tone::{Level, Tone};
 
-const DOTS: Size = Size::new(80, 60);
+const DOTS: Size = Size::new(60, 45);
 
 /// A box around a solid, whose faces are planes of the lattice wherever the solid stands along the axes.
 fn bounds(solid: &Solid) -> Bounds {
@@ -60,38 +60,6 @@ fn cameras(scene: &Scene) -> Vec<(&'static str, Camera)> {
     ]
 }
 
-#[track_caller]
-fn assert_same(what: &str, a: &Frame, b: &Frame) {
-    let differs = |place: usize| {
-        // To the bit, so that −0 is not 0.
-        a.depth.as_ref().unwrap().values()[place].to_bits()
-            != b.depth.as_ref().unwrap().values()[place].to_bits()
-            || a.object.as_ref().unwrap().values()[place] != b.object.as_ref().unwrap().values()[place]
-            || a.normal.as_ref().unwrap().values()[place].to_array().map(f64::to_bits)
-                != b.normal.as_ref().unwrap().values()[place].to_array().map(f64::to_bits)
-    };
-    let [levels_a, levels_b] = [a, b].map(|frame| frame.levels(Tone::default()).values().to_vec());
-    let faults: Vec<usize> = (0..DOTS.area()).filter(|&p| differs(p) || levels_a[p] != levels_b[p]).collect();
-    let first: Vec<String> = faults
-        .iter()
-        .take(5)
-        .map(|&p| {
-            let dot = (p as u32 % DOTS.width, p as u32 / DOTS.width);
-            let say = |f: &Frame, levels: &[Level]| {
-                format!(
-                    "{} {} {} level {}",
-                    f.depth.as_ref().unwrap()[dot],
-                    f.object.as_ref().unwrap()[dot],
-                    f.normal.as_ref().unwrap()[dot],
-                    levels[p].get()
-                )
-            };
-            format!("dot {dot:?}: {} against {}", say(a, &levels_a), say(b, &levels_b))
-        })
-        .collect();
-    assert!(faults.is_empty(), "{what}: {} dots differ:\n{}", faults.len(), first.join("\n"));
-}
-
 #[test]
 fn the_lattice_changes_no_dot() {
     for (name, scene) in embedded_scenes() {
@@ -117,7 +85,7 @@ fn the_lattice_changes_no_dot() {
             for (choice, what) in structures {
                 let with = draw(choice);
                 assert_eq!(with.space.name(), what, "{name}: the choice is not followed");
-                assert_same(&format!("{name}, {view}, {what}"), &without, &with);
+                assert_same_picture(&format!("{name}, {view}, {what}"), &with, &without);
                 walked += with.counts.cells_visited;
             }
         }

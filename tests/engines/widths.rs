@@ -8,8 +8,9 @@ use ray13::math::Size;
 use ray13::plan::{Options, PrecisionChoice};
 use ray13::scene::{Scene, read};
 
+use crate::support::agreement::assert_same_picture;
 use crate::support::request::request;
-use crate::support::same::{difference, fast};
+use crate::support::same::fast;
 use crate::support::scenery::embedded_scenes;
 
 /// No width at all, and the best that this processor has, to which the others are held where this is not
@@ -73,10 +74,9 @@ fn same_at_all(name: &str, scene: &Scene, ask: impl Fn(&Studio) -> Request) {
         let studio = Studio::new(scene.clone()).unwrap().at_level(level);
         let frame = fast(&studio, &ask(&studio));
         let (other, expected) = first.get_or_insert_with(|| (width, frame.clone()));
-        if let Some(fault) = difference(expected, &frame) {
-            panic!("{name}, {other} and {width}: {fault}");
-        }
-        assert_eq!(expected.counts, frame.counts, "{name}, {other} and {width}");
+        let what = format!("{name}, {other} and {width}");
+        assert_same_picture(&what, expected, &frame);
+        assert_eq!(expected.counts, frame.counts, "{what}");
     }
 }
 

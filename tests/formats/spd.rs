@@ -6,6 +6,7 @@ use ray13::math::{DVec3, Size};
 use ray13::plan::StructureChoice;
 use ray13::scene::{Anchor, Camera, FieldSpan, ReadOptions, read, read_file};
 
+use crate::support::agreement::assert_same_picture;
 use crate::support::beside;
 use crate::support::oracle::{Oracle, Wide};
 use crate::support::rays::directions;
@@ -154,11 +155,6 @@ fn the_oracle_counts_as_many_rays() {
     holds_of(&expected, &studio, camera, dots, 1);
 }
 
-fn same(a: &Frame, b: &Frame) -> bool {
-    let bits = |frame: &Frame| frame.light.values().iter().map(|x| x.to_bits()).collect::<Vec<_>>();
-    a.depth == b.depth && a.object == b.object && a.normal == b.normal && bits(a) == bits(b)
-}
-
 /// Draws by every structure, all to the same bits; gives the picture by lattice.
 #[track_caller]
 fn assert_every_structure_shows_the_same(name: &str, studio: &Studio) -> Frame {
@@ -169,10 +165,10 @@ fn assert_every_structure_shows_the_same(name: &str, studio: &Studio) -> Frame {
     };
     let whole = draw(StructureChoice::None);
     assert!(whole.counts.primary_hits > 1000, "{name}");
-    assert!(same(&whole, &draw(StructureChoice::Tree)), "{name}: tree");
-    assert!(same(&whole, &draw(StructureChoice::Boxes)), "{name}: boxes");
+    assert_same_picture(&format!("{name}: tree"), &draw(StructureChoice::Tree), &whole);
+    assert_same_picture(&format!("{name}: boxes"), &draw(StructureChoice::Boxes), &whole);
     let lattice = draw(StructureChoice::Lattice);
-    assert!(same(&whole, &lattice), "{name}: lattice");
+    assert_same_picture(&format!("{name}: lattice"), &lattice, &whole);
     lattice
 }
 

@@ -7,10 +7,10 @@ use ray13::math::{DAffine3, DMat3, DVec3};
 use ray13::plan::Shading;
 use ray13::scene::{Anchor, Light, Material, MaterialId, Object, Primitive, Shape, Solid, World};
 
-const CYLINDER: Shape = Shape::Frustum { bottom: 1.0, top: 1.0 };
+const CYLINDER: Shape = Shape::Cone { bottom: 1.0, top: 1.0 };
 
 /// The paper's cone stands below its tip: the centre point is the apex, the base c below it.
-const CONE: Shape = Shape::Frustum { bottom: 1.0, top: 0.0 };
+const CONE: Shape = Shape::Cone { bottom: 1.0, top: 0.0 };
 
 /// The gradient of a function by central differences: the error is of second order in the step.
 fn gradient(f: impl Fn(DVec3) -> f64, p: DVec3) -> DVec3 {

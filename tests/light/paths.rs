@@ -1,7 +1,7 @@
 //! The paths of single rays, against those worked out by hand.
 
-use ray13::integrate::RayKind;
 use ray13::math::DVec3;
+use ray13::stage::RayKind;
 
 use super::glass::World;
 use super::sending::{bends, clear, legs, scene};

@@ -1,13 +1,13 @@
 //! Scenes in the scene language, for single rays and for pictures of one dot.
 
 use ray13::frame::Studio;
-use ray13::integrate::{PathSegment, RayIntegrator, RayKind};
+use ray13::integrate::{PathSegment, RayIntegrator};
 use ray13::lattice::Structure;
 use ray13::math::{DVec3, Ray, Size};
 use ray13::plan::{Options, Plan};
 use ray13::scene::{Camera, FieldSpan, ReadOptions, Scene, read};
 use ray13::solid::Assembly;
-use ray13::stage::{Counts, Meter, Silent};
+use ray13::stage::{Counts, Meter, RayKind, Silent};
 use ray13::trace::Exact;
 use ray13::view::{Picture, PinholeCamera};
 

@@ -1,9 +1,9 @@
 //! What single dots see by mirrors, in glass and behind it, and how many rays were sent for it.
 
 use ray13::frame::Studio;
-use ray13::integrate::RayKind;
 use ray13::math::{DVec3, Size};
 use ray13::plan::{CUTOFF, Options, Shading, StructureChoice};
+use ray13::stage::RayKind;
 use ray13::tone::Level;
 
 use super::sending::{all_rays, clear, dot, legs, scene};

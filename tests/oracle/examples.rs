@@ -3,9 +3,9 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::support::agreement::compare;
 use crate::support::beside;
 use crate::support::oracle::{Oracle, Wide};
+use crate::support::oracle_agreement::compare;
 use crate::support::scenery::embedded_scenes;
 use ray13::frame::Studio;
 use ray13::math::{DVec3, Size};

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use crate::support::agreement::compare;
+use crate::support::cases::cases;
 use crate::support::oracle::{Oracle, Wide};
+use crate::support::oracle_agreement::compare;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use ray13::frame::Studio;
@@ -103,7 +104,7 @@ fn any_direction() -> impl Strategy<Value = DVec3> {
 
 proptest! {
     // The same cases each time: a test that fails tells of the change before it.
-    #![proptest_config(ProptestConfig { cases: 300, rng_seed: RngSeed::Fixed(13), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(13), ..cases(120) })]
 
     #[test]
     fn surfaces_agree_at_any_scale(

@@ -6,8 +6,8 @@ use ray13::math::{DVec3, Size};
 use ray13::plan::{EngineChoice, Options, Precision, PrecisionChoice, Shading, StructureChoice};
 use ray13::scene::{ReadOptions, Scene, read};
 
+use crate::support::agreement::assert_same_picture;
 use crate::support::request::request;
-use crate::support::same::difference;
 use crate::support::scenery::embedded_scenes;
 
 /// Several tiles, those at the rim cut, and their last blocks too.
@@ -106,10 +106,7 @@ pub fn assert_looked_up(frame: &Frame, anew: &Frame, what: &str) {
 
 #[track_caller]
 pub fn assert_same(frame: &Frame, anew: &Frame, what: &str) {
-    if let Some(fault) = difference(frame, anew) {
-        panic!("{what}: {fault}");
-    }
-    assert_eq!(frame.cells, anew.cells, "{what}");
+    assert_same_picture(what, frame, anew);
 }
 
 #[test]
@@ -261,7 +258,7 @@ fn hits_of_half_the_digits_and_of_all_are_kept_side_by_side() {
         let request = ask(shadows, shading);
         let (frame, anew) = (studio.draw(&request), fresh.draw_anew(&request));
         assert_eq!(frame.precision, if shadows { Precision::Double } else { Precision::Single });
-        assert_eq!(frame.light, anew.light);
+        assert_same_picture(&format!("{:?}", request.options), &frame, &anew);
         traced.push(frame.counts.primary_rays > 0);
     }
     assert_eq!(traced, [true, true, true, false, false, false]);

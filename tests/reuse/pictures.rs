@@ -9,6 +9,7 @@ use ray13::scene::{self, ReadOptions};
 use ray13::stage::{Counts, Stage};
 use ray13::tone::Tone;
 
+use crate::support::agreement::assert_same_picture;
 use crate::support::request::request;
 
 /// Not a multiple of any tile, with a rim of half a cell.
@@ -37,14 +38,6 @@ fn assert_taken_over(frame: &Frame) {
     assert!(frame.trace.is_zero() && frame.times[Stage::Shade].is_zero());
 }
 
-/// Everything of a frame that is not a figure.
-fn assert_same_picture(a: &Frame, b: &Frame) {
-    assert_eq!(a.light, b.light);
-    assert_eq!(a.color, b.color);
-    assert_eq!(a.cells, b.cells);
-    assert_eq!((&a.depth, &a.normal, &a.object), (&b.depth, &b.normal, &b.object));
-}
-
 #[test]
 fn the_same_request_is_answered_by_the_same_grids() {
     let studio = studio();
@@ -65,7 +58,7 @@ fn a_fresh_picture_is_traced_whatever_was_drawn_before() {
     assert_eq!(first.counts, fresh.counts);
     assert_traced(&fresh);
     assert!(!Arc::ptr_eq(&first.light, &fresh.light));
-    assert_same_picture(&first, &fresh);
+    assert_same_picture("drawn anew", &fresh, &first);
 }
 
 #[test]
@@ -83,7 +76,7 @@ fn glyphs_palette_and_tone_need_no_rays() {
         assert_taken_over(&frame);
         assert!(!frame.times[Stage::Dither].is_zero());
         assert_ne!(frame.cells, before);
-        assert_same_picture(&frame, &self::studio().draw(&changed));
+        assert_same_picture(&format!("{changed:?}"), &frame, &self::studio().draw(&changed));
     }
 }
 
@@ -108,7 +101,7 @@ fn whatever_dots_depend_on_is_computed() {
         change(&mut request);
         let frame = studio.draw(&request);
         assert_traced(&frame);
-        assert_same_picture(&frame, &self::studio().draw(&request));
+        assert_same_picture(&format!("{request:?}"), &frame, &self::studio().draw(&request));
     }
 }
 
@@ -151,7 +144,7 @@ fn a_frame_stays_as_it_is_while_others_are_drawn() {
         let frame = studio.draw(&request);
         assert_ne!(frame.light, kept.light);
     }
-    assert_eq!(kept.light, copy.light);
+    assert_same_picture("kept while others are drawn", &kept, &copy);
     request.camera.zoom = 1.0;
-    assert_same_picture(&studio.draw(&request), &kept);
+    assert_same_picture("after others", &studio.draw(&request), &kept);
 }

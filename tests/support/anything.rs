@@ -36,9 +36,9 @@ fn any_shape() -> impl Strategy<Value = Shape> {
     prop_oneof![
         3 => Just(Shape::Sphere),
         3 => Just(Shape::Cube),
-        1 => Just(Shape::Frustum { bottom: 1.0, top: 1.0 }),
-        1 => Just(Shape::Frustum { bottom: 1.0, top: 0.0 }),
-        1 => Just(Shape::Frustum { bottom: 0.25, top: 1.0 }),
+        1 => Just(Shape::Cone { bottom: 1.0, top: 1.0 }),
+        1 => Just(Shape::Cone { bottom: 1.0, top: 0.0 }),
+        1 => Just(Shape::Cone { bottom: 0.25, top: 1.0 }),
         1 => Just(prism()),
         1 => Just(mesh()),
     ]

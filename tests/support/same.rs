@@ -1,56 +1,12 @@
-//! Two pictures, dot by dot.
+//! The picture of a request by each engine.
 
 use ray13::frame::{Frame, Request, Studio};
 use ray13::math::{DVec3, Size};
 use ray13::plan::{EngineChoice, StructureChoice};
 use ray13::scene::{Camera, ReadOptions, read};
 
+use crate::support::agreement::assert_same_picture;
 use crate::support::request::request;
-
-/// All that the dots of a picture hold, to the bit.
-fn dots(frame: &Frame) -> Vec<Vec<u64>> {
-    let light = frame.light.values().iter();
-    let mut all: Vec<Vec<u64>> = light.map(|light| vec![light.to_bits()]).collect();
-    if let Some(color) = &frame.color {
-        for (dot, color) in all.iter_mut().zip(color.values()) {
-            dot.extend(color.to_array().map(f64::to_bits));
-        }
-    }
-    for (dot, depth) in all.iter_mut().zip(frame.depth.as_ref().unwrap().values()) {
-        dot.push(depth.to_bits());
-    }
-    for (dot, normal) in all.iter_mut().zip(frame.normal.as_ref().unwrap().values()) {
-        dot.extend(normal.to_array().map(f64::to_bits));
-    }
-    for (dot, object) in all.iter_mut().zip(frame.object.as_ref().unwrap().values()) {
-        dot.push(u64::from(*object));
-    }
-    all
-}
-
-/// How many dots of two pictures differ, and what the first of them hold: light, colour, depth, normal,
-/// object.
-pub fn difference(a: &Frame, b: &Frame) -> Option<String> {
-    let (one, other) = (dots(a), dots(b));
-    assert_eq!(one.len(), other.len());
-    let faults: Vec<usize> = (0..one.len()).filter(|&place| one[place] != other[place]).collect();
-    let &first = faults.first()?;
-    let width = a.light.size().width as usize;
-    let say = |dot: &[u64]| {
-        let (object, numbers) = dot.split_last().unwrap();
-        let numbers: Vec<f64> = numbers.iter().map(|&bits| f64::from_bits(bits)).collect();
-        format!("{numbers:?} {object}")
-    };
-    Some(format!(
-        "{} of {} dots differ, the first at ({}, {}):\n  {}\n  {}",
-        faults.len(),
-        one.len(),
-        first % width,
-        first / width,
-        say(&one[first]),
-        say(&other[first])
-    ))
-}
 
 /// The picture of the fast engine.
 pub fn fast(studio: &Studio, request: &Request) -> Frame {
@@ -83,8 +39,7 @@ pub fn same(name: &str, text: &str, dots: Size, eyes: &[DVec3]) {
         let request = request(camera, dots);
         let frame = fast(&studio, &request);
         assert!(frame.counts.shadow_hits > 0, "no light is stopped");
-        if let Some(fault) = difference(&frame, &exact(&studio, &request, StructureChoice::None)) {
-            panic!("from {}: {fault}", request.camera.eye);
-        }
+        let what = format!("from {}", request.camera.eye);
+        assert_same_picture(&what, &frame, &exact(&studio, &request, StructureChoice::None));
     }
 }

@@ -134,7 +134,7 @@ fn is_near(found: &Found, hit: &Hit) -> bool {
 fn beside(ray: &Ray, world: &Scene) -> impl Iterator<Item = Ray> {
     let mut off = 0.0_f64;
     for object in &world.objects {
-        object.solid.visit(&mut |p| off = off.max(64.0 * p.displacement().length()));
+        object.solid.visit(&mut |p| off = off.max(64.0 * p.map_error().length()));
     }
     let ray = *ray;
     let aside = ray.d.any_orthonormal_vector();

@@ -54,7 +54,7 @@ const SOLIDS: [(&str, &str); 16] = [
     ("cylinder", "cylinder(h = 2, r = 1, center = true);"),
     ("cone", "cylinder(h = 2, r1 = 1, r2 = 0, center = true);"),
     ("turned cone", "rotate([0, 90, 30]) cylinder(h = 2, r1 = 0, r2 = 1, center = true);"),
-    ("frustum", "cylinder(h = 2, r1 = 1, r2 = 0.5, center = true);"),
+    ("truncated cone", "cylinder(h = 2, r1 = 1, r2 = 0.5, center = true);"),
     ("prism", "cylinder(h = 2, r = 1, center = true, $fn = 6);"),
     (
         "mesh",
@@ -147,7 +147,7 @@ from_every_place_on_and_in! {
     a_cylinder: "cylinder",
     a_cone: "cone",
     a_turned_cone: "turned cone",
-    a_frustum: "frustum",
+    a_truncated_cone: "truncated cone",
     a_prism: "prism",
     a_mesh: "mesh",
     a_hollow_cube: "hollow cube",

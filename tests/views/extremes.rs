@@ -1,6 +1,7 @@
 //! Scenes and views at the ends of what numbers can hold. Each of these came from an attack on the program
 //! that found it wanting.
 
+use crate::support::agreement::assert_same_picture;
 use crate::support::request::request;
 use ray13::frame::{Frame, Studio};
 use ray13::math::{DVec3, Size};
@@ -39,11 +40,7 @@ fn drawn_by(scene: Scene, camera: &Camera, dots: Size) -> Frame {
         studio.draw(&request)
     });
     for other in others {
-        assert_eq!(
-            (&frame.depth, &frame.object, &frame.normal),
-            (&other.depth, &other.object, &other.normal)
-        );
-        assert_eq!(frame.light, other.light);
+        assert_same_picture(other.space.name(), &other, &frame);
     }
     frame
 }

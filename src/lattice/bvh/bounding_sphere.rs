@@ -49,10 +49,10 @@ impl BoundingSphere {
         let Body::Single(index) = assembly.objects[object as usize].body else { return false };
         let WorldShape::Ball(ball) = &assembly.primitives[index as usize].form else { return false };
         let off_center = DVec3::from_array(self.center.map(f64::from)).distance(ball.center);
-        let error = ball.most_error::<f64>() * (1.0 + assembly.off / ball.off());
+        let error = ball.most_error::<f64>() * (1.0 + assembly.place_error / ball.place_error());
         error <= ROOM
             && ball.radius + off_center <= f64::from(self.outer)
-            && f64::from(self.inner) + off_center + ball.off() <= ball.radius
+            && f64::from(self.inner) + off_center + ball.place_error() <= ball.radius
     }
 }
 

@@ -26,6 +26,7 @@ use build_primitive::BuildPrimitive;
 pub use bounding_sphere::{BoundingSphere, ROOM};
 pub use node::{BvhChild, Node, WIDE};
 pub use stream::{Candidate, Stream, StreamRays};
+pub use walk::BoxVisitor;
 
 /// Boxes around boxes over a whole scene.
 #[derive(Clone, Debug)]
@@ -40,7 +41,7 @@ impl Bvh8 {
     /// Parts the objects of an assembly. Their boxes are padded by [`slack`], so that no ray that meets an
     /// object by its own computation misses the object's box by rounding.
     pub fn new(assembly: &Assembly) -> Self {
-        let margin = DVec3::splat(slack(assembly.off));
+        let margin = DVec3::splat(slack(assembly.place_error));
         let objects = &assembly.objects;
         Self::over(objects.len(), |object| {
             let reach = BuildPrimitive::new(&objects[object].bounds.padded(margin), object as u32);

@@ -169,11 +169,11 @@ fn what_can_not_be_told_apart_is_halved() {
 /// What a walk visits that looks for all objects.
 fn visited(of: &Bvh8, ray: &Ray, to: f64) -> Vec<(u32, f64)> {
     let mut all = Vec::new();
-    let visit = |object: u32, from: f64| -> ControlFlow<(), f64> {
+    let mut visit = |object: u32, from: f64| -> ControlFlow<(), f64> {
         all.push((object, from));
         ControlFlow::Continue(to)
     };
-    assert_eq!(of.walk(ray, 0.0, to, &mut 0, visit), None);
+    assert_eq!(of.walk(ray, 0.0, to, &mut visit), None);
     all
 }
 
@@ -256,18 +256,21 @@ fn in_the_way_of_a_light_is_what_a_walk_visits() {
     for ray in rays(&boxes) {
         for to in [f64::INFINITY, 0.5] {
             let mut all = Vec::new();
-            let visit = |object: u32| {
+            let mut visit = |object: u32, _: f64| -> ControlFlow<(), f64> {
                 all.push(object);
-                false
+                ControlFlow::Continue(to)
             };
-            assert!(!of.any(&ray, to, &mut 0, visit));
+            assert_eq!(of.walk_any(&ray, to, &mut visit), None);
             all.sort_unstable();
             let mut walked: Vec<u32> = visited(&of, &ray, to).iter().map(|&(object, _)| object).collect();
             walked.sort_unstable();
             assert_eq!(all, walked, "{ray:?}");
             if let Some(&one) = all.first() {
                 broken += 1;
-                assert!(of.any(&ray, to, &mut 0, |object| object == one), "{ray:?}");
+                let mut find = |object: u32, _: f64| {
+                    if object == one { ControlFlow::Break(object) } else { ControlFlow::Continue(to) }
+                };
+                assert_eq!(of.walk_any(&ray, to, &mut find), Some(one), "{ray:?}");
             }
         }
     }
@@ -292,7 +295,7 @@ fn nothing_beyond_what_matters_is_visited() {
     for ray in rays(&boxes) {
         let mut best = f64::INFINITY;
         let mut count = 0;
-        let visit = |object: u32, from: f64| -> ControlFlow<(), f64> {
+        let mut visit = |object: u32, from: f64| -> ControlFlow<(), f64> {
             // As many digits as there are.
             assert!(from <= best * (1.0 + f64::from(f32::EPSILON)), "{ray:?}");
             count += 1;
@@ -301,7 +304,7 @@ fn nothing_beyond_what_matters_is_visited() {
             }
             ControlFlow::Continue(best)
         };
-        of.walk(&ray, 0.0, f64::INFINITY, &mut 0, visit);
+        of.walk(&ray, 0.0, f64::INFINITY, &mut visit);
         let all = visited(&of, &ray, f64::INFINITY);
         let entered = all.iter().filter_map(|&(object, _)| stretch(&ray, &boxes[object as usize]));
         let first = entered.map(|(from, _)| from).fold(f64::INFINITY, f64::min);
@@ -320,10 +323,11 @@ fn a_deep_hierarchy_is_walked_to_its_end() {
     let ray = Ray::new(DVec3::splat(-1.0), DVec3::ONE.normalize());
     assert_eq!(visited(&of, &ray, f64::INFINITY).len(), boxes.len());
     let mut count = 0;
-    of.any(&ray, f64::INFINITY, &mut 0, |_| {
+    let mut visit = |_, _: f64| -> ControlFlow<(), f64> {
         count += 1;
-        false
-    });
+        ControlFlow::Continue(f64::INFINITY)
+    };
+    assert_eq!(of.walk_any(&ray, f64::INFINITY, &mut visit), None);
     assert_eq!(count, boxes.len());
 }
 

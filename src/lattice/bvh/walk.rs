@@ -151,34 +151,38 @@ pub(super) fn first_two(bits: u32) -> ([usize; 2], u32) {
     (slots, others & others.wrapping_sub(1))
 }
 
-impl Bvh8 {
-    /// Calls `visit` with each object whose box the ray meets between `from` and `to`, and where it enters
-    /// that box, or before, until it breaks; of the nodes in a node the nearest first. `visit` returns how
-    /// far the ray still matters: boxes that begin beyond that are not visited.
-    pub fn walk<B>(
-        &self,
-        ray: &Ray,
-        from: f64,
-        to: f64,
-        cells_visited: &mut u64,
-        mut visit: impl FnMut(u32, f64) -> ControlFlow<B, f64>,
-    ) -> Option<B> {
-        // Behind a pointer, so that not all that a visit does is compiled for every kind of processor.
-        let visit: &mut Visit<B> = &mut visit;
-        dispatch!(self.level, simd => walk_nearest(simd, &self.nodes, ray, &Range { from, to }, cells_visited, visit))
+/// What becomes of the boxes that a single ray meets. A closure is a visitor that does not care for nodes.
+pub trait BoxVisitor<B> {
+    /// Takes a node that the ray comes into at `from`, or behind that.
+    #[inline(always)]
+    fn enter(&mut self, from: f64) {
+        let _ = from;
     }
 
-    /// Calls `visit` with each object whose box the ray meets before `to`, in no order, until it says yes.
-    /// Answers whether it did.
-    pub fn any(
-        &self,
-        ray: &Ray,
-        to: f64,
-        cells_visited: &mut u64,
-        mut visit: impl FnMut(u32) -> bool,
-    ) -> bool {
-        let visit: &mut dyn FnMut(u32) -> bool = &mut visit;
-        dispatch!(self.level, simd => walk_any(simd, &self.nodes, ray, to, cells_visited, visit))
+    /// Takes an object whose box the ray comes into at `from`, or behind that. Returns how far the ray still
+    /// matters, or breaks the walk off. Not to be inlined, so that what it does is not compiled for every
+    /// kind of processor.
+    fn visit(&mut self, object: u32, from: f64) -> ControlFlow<B, f64>;
+}
+
+impl<B, F: FnMut(u32, f64) -> ControlFlow<B, f64>> BoxVisitor<B> for F {
+    #[inline(never)]
+    fn visit(&mut self, object: u32, from: f64) -> ControlFlow<B, f64> {
+        self(object, from)
+    }
+}
+
+impl Bvh8 {
+    /// Visits each object whose box the ray meets between `from` and `to`, until that breaks; of the nodes in
+    /// a node the nearest first. Boxes that begin beyond what still matters are not visited.
+    pub fn walk<B>(&self, ray: &Ray, from: f64, to: f64, visitor: &mut impl BoxVisitor<B>) -> Option<B> {
+        dispatch!(self.level, simd => walk_nearest(simd, &self.nodes, ray, &Range { from, to }, visitor))
+    }
+
+    /// Visits each object whose box the ray meets before `to`, in no order, until that breaks. How far the
+    /// ray still matters is not asked.
+    pub fn walk_any<B>(&self, ray: &Ray, to: f64, visitor: &mut impl BoxVisitor<B>) -> Option<B> {
+        dispatch!(self.level, simd => walk_unordered(simd, &self.nodes, ray, to, visitor))
     }
 }
 
@@ -188,16 +192,13 @@ struct Range {
     to: f64,
 }
 
-type Visit<'a, B> = dyn FnMut(u32, f64) -> ControlFlow<B, f64> + 'a;
-
 #[inline(always)]
 fn walk_nearest<S: Simd, B>(
     simd: S,
     nodes: &[Node],
     ray: &Ray,
     &Range { from, to }: &Range,
-    cells_visited: &mut u64,
-    visit: &mut Visit<B>,
+    visitor: &mut impl BoxVisitor<B>,
 ) -> Option<B> {
     let ray = RaySimd::new(simd, &RayF32::new(ray, from));
     let mut end = upper(to);
@@ -205,7 +206,7 @@ fn walk_nearest<S: Simd, B>(
     let mut next = StackEntry { from: lower(from), node: 0 };
     loop {
         if next.from <= end {
-            *cells_visited += 1;
+            visitor.enter(f64::from(next.from));
             let node = &nodes[next.node as usize];
             let (enter, met) = ray.meets(simd, node, f32x8::splat(simd, end));
             let enter: [f32; WIDE] = enter.into();
@@ -214,7 +215,7 @@ fn walk_nearest<S: Simd, B>(
                 let slot = objects.trailing_zeros() as usize % WIDE;
                 objects &= objects - 1;
                 if enter[slot] <= end {
-                    match visit(node.children[slot], f64::from(enter[slot])) {
+                    match visitor.visit(node.children[slot], f64::from(enter[slot])) {
                         ControlFlow::Break(value) => return Some(value),
                         ControlFlow::Continue(farthest) => end = upper(farthest),
                     }
@@ -252,14 +253,13 @@ fn push_nearest_last(stack: &mut NodeStack<StackEntry>, node: &Node, enter: &[f3
 }
 
 #[inline(always)]
-fn walk_any<S: Simd>(
+fn walk_unordered<S: Simd, B>(
     simd: S,
     nodes: &[Node],
     ray: &Ray,
     to: f64,
-    cells_visited: &mut u64,
-    visit: &mut dyn FnMut(u32) -> bool,
-) -> bool {
+    visitor: &mut impl BoxVisitor<B>,
+) -> Option<B> {
     let ray = RaySimd::new(simd, &RayF32::new(ray, 0.0));
     let end = f32x8::splat(simd, upper(to));
     let mut stack = NodeStack::new(0);
@@ -270,15 +270,18 @@ fn walk_any<S: Simd>(
         let two = [&nodes[first as usize], &nodes[second.unwrap_or(first) as usize]];
         let (_, met) = ray.meets(simd, two[0], end);
         let (_, also_met) = ray.meets(simd, two[1], end);
-        *cells_visited += 1 + u64::from(second.is_some());
+        visitor.enter(0.0);
+        if second.is_some() {
+            visitor.enter(0.0);
+        }
         let met = [met, if second.is_some() { also_met } else { 0 }];
         for k in 0..2 {
             let mut objects = met[k] & !u32::from(two[k].inner);
             while objects != 0 {
                 let slot = objects.trailing_zeros() as usize % WIDE;
                 objects &= objects - 1;
-                if visit(two[k].children[slot]) {
-                    return true;
+                if let ControlFlow::Break(value) = visitor.visit(two[k].children[slot], 0.0) {
+                    return Some(value);
                 }
             }
         }
@@ -295,5 +298,5 @@ fn walk_any<S: Simd>(
         }
         next = stack.pop();
     }
-    false
+    None
 }

@@ -18,7 +18,6 @@ struct Walk<'a, 'v, V> {
     /// ([`crate::view::settled`]), so that a start on a plane gives 0.
     inverse: DVec3,
     visit: &'v mut V,
-    cells_visited: &'v mut u64,
     /// How far the ray still matters.
     farthest: f64,
 }
@@ -32,11 +31,10 @@ impl Tree {
         ray: &Ray,
         from: f64,
         to: f64,
-        cells_visited: &mut u64,
         mut visit: impl FnMut(&[u32], CellStep) -> ControlFlow<B, f64>,
     ) -> Option<B> {
         let inverse = ray.d.recip();
-        let mut walk = Walk { tree: self, ray, inverse, visit: &mut visit, cells_visited, farthest: to };
+        let mut walk = Walk { tree: self, ray, inverse, visit: &mut visit, farthest: to };
         // The root is the first node, for it is made before its cells.
         match walk.node(&self.nodes[0], from, to) {
             ControlFlow::Break(value) => Some(value),
@@ -47,10 +45,7 @@ impl Tree {
 
 impl<B, V: FnMut(&[u32], CellStep) -> ControlFlow<B, f64>> Walk<'_, '_, V> {
     fn node(&mut self, node: &Node, from: f64, to: f64) -> ControlFlow<B> {
-        *self.cells_visited += 1;
-        if node.own.count > 0 {
-            self.farthest = (self.visit)(self.tree.list(node.own), CellStep { cell: 0, from, to })?;
-        }
+        self.farthest = (self.visit)(self.tree.list(node.own), CellStep { cell: 0, from, to })?;
         if node.full == 0 {
             return ControlFlow::Continue(());
         }
@@ -82,7 +77,6 @@ impl<B, V: FnMut(&[u32], CellStep) -> ControlFlow<B, f64>> Walk<'_, '_, V> {
                 let before = (node.full & ((1 << bit) - 1)).count_ones();
                 match self.tree.cells[(node.first_cell + before) as usize] {
                     Cell::Objects(list) => {
-                        *self.cells_visited += 1;
                         let step = CellStep { cell: bit as usize, from: now, to: end };
                         self.farthest = (self.visit)(self.tree.list(list), step)?;
                     }

@@ -61,7 +61,7 @@ pub static WORDS: &[Word] = &[
             AT,
             SEMI,
         ],
-        "A cylinder, cone or frustum on the z axis, its bottom at z = 0.",
+        "A cylinder, cone or truncated cone on the z axis, its bottom at z = 0.",
     ),
     word(
         "cone",

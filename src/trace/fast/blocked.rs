@@ -24,7 +24,7 @@ use super::walk::{Target, TestBudget, TileVisitor, walk_tile};
 
 /// The most objects that a shadow packet is intersected with, for each of its rays: incoherent rays, which
 /// have so many objects between them, take less time in a stream.
-const CROWD: u32 = 2;
+const TESTS_PER_RAY: u32 = 2;
 
 /// So few rays of a block take less time in a stream than their frustum does.
 const FEW_RAYS: u32 = 12;
@@ -48,7 +48,7 @@ impl Fast<'_> {
             }
             let rays = shadow_packet.open();
             open |= u16::from(rays != 0) << k;
-            budget.grant(k, CROWD, rays);
+            budget.grant(k, TESTS_PER_RAY, rays);
         }
         if open == 0 {
             return 0;
@@ -109,10 +109,16 @@ impl BlockedVisitor<'_, '_> {
             self.fast.glass_in_shadow_packet(simd, &test, &mut self.shadow_packets[k], memory);
             return;
         }
-        let ShadowPacket { rays, distance, blocked, unsure, .. } = &mut self.shadow_packets[k];
+        let ShadowPacket { rays, distance, blocked, uncertain, .. } = &mut self.shadow_packets[k];
         let source = PacketSource::new(rays, Some(&self.departures[k]));
         let test = PacketTest { source, k, passing, farthest: f64::INFINITY };
-        self.fast.object_of_packet(simd, object, &test, &mut Blockers { distance, blocked, unsure }, memory);
+        self.fast.object_of_packet(
+            simd,
+            object,
+            &test,
+            &mut Blockers { distance, blocked, uncertain },
+            memory,
+        );
     }
 }
 
@@ -158,19 +164,19 @@ struct Blockers<'a> {
     /// How far away the light is.
     distance: &'a Lanes,
     blocked: &'a mut u64,
-    unsure: &'a mut u64,
+    uncertain: &'a mut u64,
 }
 
 impl HitSink<f64> for Blockers<'_> {
     const FEW_LEAVES: usize = SOME_LEAVES;
 
     #[inline(always)]
-    fn offer<S: Simd>(&mut self, simd: S, row: usize, met: &HitCandidate<f64, S>) {
-        let blocks = met.any & (met.t + met.error).is_below(self.distance.load(simd, row));
-        *self.blocked |= f64::bits_of(simd, blocks, row);
+    fn offer<S: Simd>(&mut self, simd: S, register: usize, met: &HitCandidate<f64, S>) {
+        let blocks = met.any & (met.t + met.error).is_below(self.distance.load(simd, register));
+        *self.blocked |= f64::bits_of(simd, blocks, register);
     }
 
-    fn doubt(&mut self, rays: u64) {
-        *self.unsure |= rays;
+    fn mark_uncertain(&mut self, rays: u64) {
+        *self.uncertain |= rays;
     }
 }

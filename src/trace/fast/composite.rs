@@ -75,15 +75,15 @@ impl<S: Simd, T: Precision, H: HitSink<T>> CompositeTest<'_, S, T, H> {
     /// Offers what the open rays meet of an expression between two distances; where this precision does not
     /// decide, by double.
     fn evaluate(&mut self, expression: ExprView, from: f64, to: f64, memory: &mut TileMemory) {
-        let slack = SLACK * T::COARSER;
+        let slack = SLACK * T::EPSILON_RATIO;
         let reach = TRange { from: from - slack, to: to + slack };
-        let mut unsure = self.evaluate_in(self.source, self.open, expression, reach, memory);
-        if unsure != 0 && !T::DECIDES {
+        let mut uncertain = self.evaluate_in(self.source, self.open, expression, reach, memory);
+        if uncertain != 0 && !T::IS_DOUBLE {
             f64::scratch(memory).csg.start();
-            unsure = self.evaluate_in(self.source.full(), unsure, expression, reach, memory);
+            uncertain = self.evaluate_in(self.source.full(), uncertain, expression, reach, memory);
         }
-        self.sink.doubt(unsure);
-        self.open &= !unsure;
+        self.sink.mark_uncertain(uncertain);
+        self.open &= !uncertain;
     }
 
     /// Offers what some rays meet of an expression; answers for which this precision does not decide.
@@ -103,7 +103,7 @@ impl<S: Simd, T: Precision, H: HitSink<T>> CompositeTest<'_, S, T, H> {
         first_of_expressions(self.simd, &query, expression, &self.fast.assembly.primitives, csg, found);
         self.open &= !found.any;
         offer_crossings(self.simd, found, self.object, self.sink);
-        found.unsure
+        found.uncertain
     }
 }
 
@@ -127,11 +127,11 @@ fn bounds_between<S: Simd, T: Real>(simd: S, packet: &RayPacket<T>, rays: u64, f
         || {
             let infinite = T::all(simd, f64::INFINITY);
             let (mut lo, mut hi) = ([infinite; 3], [-infinite; 3]);
-            for row in 0..T::ROWS {
+            for row in 0..T::REGISTERS {
                 if !T::has_any(rays, row) {
                     continue;
                 }
-                let wanted = T::row_of(simd, rays, row);
+                let wanted = T::mask_of(simd, rays, row);
                 let Rays { o, d } = packet.load(simd, row);
                 for axis in 0..3 {
                     let (o, d) = (o.along(axis), d.along(axis));

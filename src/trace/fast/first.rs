@@ -16,7 +16,7 @@ use super::walk::{Target, TestBudget, TileVisitor, walk_tile};
 /// The most objects that a packet is intersected with, for each of its rays: where a dot holds many objects,
 /// or rays diverge, they are incoherent. Fewer than for a shadow packet, whose rays end at the first thing
 /// that they meet.
-const CROWD: u32 = 1;
+const TESTS_PER_RAY: u32 = 1;
 
 impl Fast<'_> {
     /// The first hits of the rays of a tile.
@@ -110,7 +110,7 @@ impl<S: Simd, T: Precision> TileVisitor<S> for FirstVisitor<'_, '_, '_, T> {
             }
             let packet = self.sources.get(k).rays;
             T::take(simd, packet, self.own, k);
-            self.budget.grant(k, CROWD, packet.live);
+            self.budget.grant(k, TESTS_PER_RAY, packet.live);
             memory.cullers[k].set(packet);
         }
         let source = T::source(self.sources.get(k), self.own, k);

@@ -36,7 +36,7 @@ impl ShadowPacket {
     /// of that object that is opaque.
     pub(super) fn glass(&mut self, lane: usize, clear: bool, left: f64) {
         if !(clear && self.tint.add(lane, left)) {
-            self.unsure |= 1 << lane;
+            self.uncertain |= 1 << lane;
         }
     }
 }
@@ -66,7 +66,7 @@ impl Fast<'_> {
         let farthest = shadow_packet.distance.largest(simd) + self.slack;
         let packet_test = PacketTest { source, k, passing, farthest };
         self.object_of_packet(simd, object, &packet_test, &mut *met, memory);
-        shadow_packet.unsure |= met.unsure & shadow_packet.rays.live;
+        shadow_packet.uncertain |= met.uncertain & shadow_packet.rays.live;
         let dark = match lamp.dark_of(object, self.slack) {
             Some(Bounds { lo, hi }) => {
                 let culler = &memory.cullers[k];

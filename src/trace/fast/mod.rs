@@ -65,7 +65,15 @@ impl<'a> Fast<'a> {
     /// An engine over an assembly, at the SIMD width of this processor.
     pub fn new(assembly: &'a Assembly, boxes: &'a Bvh8, subs: &'a SubLattices) -> Self {
         let exact = Exact::new(assembly, Structure::Boxes(boxes, subs));
-        Self { exact, assembly, boxes, subs, slack: slack(assembly.off), level: Level::new(), singles: false }
+        Self {
+            exact,
+            assembly,
+            boxes,
+            subs,
+            slack: slack(assembly.place_error),
+            level: Level::new(),
+            singles: false,
+        }
     }
 
     /// The same engine at another SIMD width. It finds the same bits.
@@ -75,7 +83,7 @@ impl<'a> Fast<'a> {
     }
 
     /// The same engine that traces rays from the eye in single precision: what they meet first is off its
-    /// place by up to [`Real::COARSER`] times as much. Where that leaves a doubt which of two things is met
+    /// place by up to [`Real::EPSILON_RATIO`] times as much. Where it is uncertain which of two things is met
     /// first, double precision decides.
     #[must_use]
     pub fn in_singles(self, singles: bool) -> Self {
@@ -84,7 +92,7 @@ impl<'a> Fast<'a> {
 
     /// How far two hits may seem to be from each other that are one place, in this precision.
     fn slack_of<T: Real>(&self) -> f64 {
-        self.slack * T::COARSER
+        self.slack * T::EPSILON_RATIO
     }
 
     /// The engine that is asked for single rays, over the same boxes.
@@ -105,7 +113,7 @@ impl<'a> Fast<'a> {
 
     /// The first hits of a tile of rays, by packets that are [closed](RayPacket::close), up to [`FRUSTA`] of
     /// them; `departures` are the surfaces that the rays of each leave, none for rays from the eye. Those
-    /// that are unsure, and those that meet two objects in one place, are left to
+    /// that are uncertain, and those that meet two objects in one place, are left to
     /// [`super::RayEngine::first`] or [`super::RayEngine::next`], one by one. Answers how many packets had so
     /// many objects between their rays that they were given up.
     pub fn first_of(
@@ -164,16 +172,16 @@ impl<'a> Fast<'a> {
             let tile = self.first_of_tile(simd, sources, traced, memory);
             let nearest = traced.nearest.iter_mut().enumerate();
             for (k, found) in nearest.filter(|(k, _)| tile.touched >> k & 1 == 1) {
-                found.doubt(simd, self.slack_of::<T>());
-                found.unsure &= sources.get(k).rays.live & !found.incoherent;
+                found.mark_ties(simd, self.slack_of::<T>());
+                found.uncertain &= sources.get(k).rays.live & !found.incoherent;
             }
             tile
         })
     }
 
     /// Which rays towards one light are blocked, and what glass leaves of the light of the others. Those that
-    /// are unsure are left to [`super::RayEngine::blocked`], one by one. Answers whether most shadow packets
-    /// had so many objects between their rays that they were given up.
+    /// are uncertain are left to [`super::RayEngine::blocked`], one by one. Answers whether most shadow
+    /// packets had so many objects between their rays that they were given up.
     pub fn blocked_of(
         &self,
         shadow_packets: &mut [ShadowPacket],

@@ -63,15 +63,15 @@ impl Fast<'_> {
                 }
                 let form = &primitives[*index as usize].form;
                 let convex = ConvexTest { source, wanted, form, object, primitive: *index };
-                let doubtful = self.convex(simd, &convex, sink);
-                if !T::DECIDES && doubtful != 0 {
+                let uncertain = self.convex(simd, &convex, sink);
+                if !T::IS_DOUBLE && uncertain != 0 {
                     memory.counts.primitive_tests += 1;
                     let met = &mut *memory.met;
                     met.clear();
-                    let (source, wanted) = (source.full(), doubtful);
+                    let (source, wanted) = (source.full(), uncertain);
                     let convex = ConvexTest { source, wanted, form, object, primitive: *index };
                     self.convex(simd, &convex, met);
-                    offer_hits(simd, met, doubtful, object, sink);
+                    offer_hits(simd, met, uncertain, object, sink);
                 }
                 true
             }
@@ -114,22 +114,24 @@ impl Fast<'_> {
         test: &ConvexTest<T>,
         sink: &mut H,
     ) -> u64 {
-        let mut doubtful = 0;
+        let mut uncertain = 0;
         if let WorldShape::Ball(ball) = test.form {
             simd.vectorize(
                 #[inline(always)]
                 || {
                     let start = match test.source.departures {
                         None => 2.0 * ball.most_error::<T>(),
-                        Some(_) => ball.most_error::<T>() * (1.0 + self.assembly.off / ball.off()),
+                        Some(_) => {
+                            ball.most_error::<T>() * (1.0 + self.assembly.place_error / ball.place_error())
+                        }
                     };
-                    ball_of_packet(simd, test, ball, start, &mut doubtful, sink);
+                    ball_of_packet(simd, test, ball, start, &mut uncertain, sink);
                 },
             );
         } else {
-            with_spans!(simd, test.form, convex_of_packet, test, &mut doubtful, sink);
+            with_spans!(simd, test.form, convex_of_packet, test, &mut uncertain, sink);
         }
-        doubtful & test.wanted
+        uncertain & test.wanted
     }
 }
 
@@ -141,26 +143,26 @@ fn ball_of_packet<S: Simd, T: Precision, H: HitSink<T>>(
     test: &ConvexTest<T>,
     ball: &Ball,
     start: f64,
-    doubtful: &mut u64,
+    uncertain: &mut u64,
     sink: &mut H,
 ) {
     let ConvexTest { source, wanted, form, object, primitive } = *test;
-    let yes = T::row_of(simd, u64::MAX, 0);
+    let yes = T::mask_of(simd, u64::MAX, 0);
     let (surface, ids) = (Faces::Ids(RealIds::<T, S>::all(simd, 0)), RealIds::<T, S>::all(simd, primitive));
     let start = T::all(simd, start);
-    for row in 0..T::ROWS {
-        if !T::has_any(wanted, row) {
+    for register in 0..T::REGISTERS {
+        if !T::has_any(wanted, register) {
             continue;
         }
-        let wanted = T::row_of(simd, wanted, row);
-        let mut spans = ball.spans(&source.rays.load(simd, row));
+        let wanted = T::mask_of(simd, wanted, register);
+        let mut spans = ball.spans(&source.rays.load(simd, register));
         if !(spans.may & wanted).any() {
             continue;
         }
         spans.any = spans.any & wanted;
-        let starts = source.starts(simd, row, primitive);
-        if !T::DECIDES {
-            *doubtful |= T::bits_of(simd, doubts(&mut spans, form, &starts), row);
+        let starts = source.starts(simd, register, primitive);
+        if !T::IS_DOUBLE {
+            *uncertain |= T::bits_of(simd, take_uncertain(&mut spans, form, &starts), register);
         }
         // Mostly the ball is certainly ahead of the start, or behind it.
         let ahead = spans.enter.t.is_above(start) & !starts.here;
@@ -176,7 +178,7 @@ fn ball_of_packet<S: Simd, T: Precision, H: HitSink<T>>(
             let Ends { t, error, .. } = spans.enter;
             HitCandidate { any: spans.any & ahead, t, error, entering: yes, object, primitive: ids, surface }
         };
-        sink.offer(simd, row, &met);
+        sink.offer(simd, register, &met);
     }
 }
 
@@ -185,40 +187,44 @@ fn ball_of_packet<S: Simd, T: Precision, H: HitSink<T>>(
 fn convex_of_packet<S: Simd, T: Precision, H: HitSink<T>>(
     simd: S,
     test: &ConvexTest<T>,
-    doubtful: &mut u64,
+    uncertain: &mut u64,
     sink: &mut H,
     spans: impl Fn(&Rays<T::SimdReal<S>>) -> Spans<T::SimdReal<S>>,
 ) {
     let ConvexTest { source, wanted, form, object, primitive } = *test;
     let ids = RealIds::<T, S>::all(simd, primitive);
-    for row in 0..T::ROWS {
-        if !T::has_any(wanted, row) {
+    for register in 0..T::REGISTERS {
+        if !T::has_any(wanted, register) {
             continue;
         }
-        let wanted = T::row_of(simd, wanted, row);
-        let mut spans = spans(&source.rays.load(simd, row));
+        let wanted = T::mask_of(simd, wanted, register);
+        let mut spans = spans(&source.rays.load(simd, register));
         if !(spans.may & wanted).any() {
             continue;
         }
         spans.any = spans.any & wanted;
-        let starts = source.starts(simd, row, primitive);
-        if !T::DECIDES {
-            *doubtful |= T::bits_of(simd, doubts(&mut spans, form, &starts), row);
+        let starts = source.starts(simd, register, primitive);
+        if !T::IS_DOUBLE {
+            *uncertain |= T::bits_of(simd, take_uncertain(&mut spans, form, &starts), register);
         }
         let FirstCrossings { end, entering, any } = firsts_of_spans(spans, form, &starts);
         let Ends { t, error, surface } = end;
         let surface = Faces::Numbers(surface);
-        sink.offer(simd, row, &HitCandidate { any, t, error, entering, object, primitive: ids, surface });
+        sink.offer(
+            simd,
+            register,
+            &HitCandidate { any, t, error, entering, object, primitive: ids, surface },
+        );
     }
 }
 
 /// Takes out the rays that may have a span, or start on a surface, and may not; answers which these are.
 #[inline(always)]
-fn doubts<N: Number>(spans: &mut Spans<N>, form: &WorldShape, starts: &RayStarts<N>) -> N::Mask {
+fn take_uncertain<N: Number>(spans: &mut Spans<N>, form: &WorldShape, starts: &RayStarts<N>) -> N::Mask {
     let at_start = starts.near(&spans.enter, form) | starts.near(&spans.leave, form);
-    let doubtful = spans.may & (!spans.any | at_start);
-    spans.any = spans.any & !doubtful;
-    doubtful
+    let uncertain = spans.may & (!spans.any | at_start);
+    spans.any = spans.any & !uncertain;
+    uncertain
 }
 
 /// Those of some rays of a packet that may meet a surface, as far as its own form says.

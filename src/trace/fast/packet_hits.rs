@@ -9,7 +9,7 @@ use super::super::hit::Hit;
 
 /// How many of their errors may lie between two hits that are one place: as [`slack`](crate::lattice::slack)
 /// is so many times what solids may be off.
-const FLUSH: f64 = 4.0;
+const COINCIDENT_WITHIN: f64 = 4.0;
 
 /// What each ray of a packet met first.
 #[derive(Clone, Debug)]
@@ -18,7 +18,7 @@ pub struct PacketHits<T = f64> {
     pub t: Lanes<T>,
     /// How far that may be off.
     pub error: Lanes<T>,
-    /// The distance of the next object's surface; in a precision that does not decide, a lower bound of it.
+    /// The distance of the next object's surface; in single precision a lower bound of it.
     pub second: Lanes<T>,
     /// The object, by its index in the assembly.
     pub object: Lanes<u32>,
@@ -29,7 +29,7 @@ pub struct PacketHits<T = f64> {
     /// Which rays go into the object there, a bit for each.
     pub entering: u64,
     /// Which rays are left to the exact engine, a bit for each.
-    pub unsure: u64,
+    pub uncertain: u64,
     /// Which rays are incoherent, and left to a stream.
     pub incoherent: u64,
 }
@@ -51,7 +51,7 @@ impl<T: Real> PacketHits<T> {
         primitive: Lanes::filled(0),
         surface: Lanes::filled(0),
         entering: 0,
-        unsure: 0,
+        uncertain: 0,
         incoherent: 0,
     };
 
@@ -63,10 +63,10 @@ impl<T: Real> PacketHits<T> {
         self.clear_ray_bits();
     }
 
-    /// Clears `entering`, `unsure` and `incoherent`; keeps the columns of hits.
+    /// Clears `entering`, `uncertain` and `incoherent`; keeps the columns of hits.
     #[inline]
     pub(super) fn clear_ray_bits(&mut self) {
-        (self.entering, self.unsure, self.incoherent) = (0, 0, 0);
+        (self.entering, self.uncertain, self.incoherent) = (0, 0, 0);
     }
 }
 
@@ -75,7 +75,7 @@ impl PacketHits {
     #[inline]
     pub(super) fn forget(&mut self, lane: usize) {
         (self.t.0[lane], self.second.0[lane]) = (f64::INFINITY, f64::INFINITY);
-        self.unsure &= !(1 << lane);
+        self.uncertain &= !(1 << lane);
     }
 
     /// Takes a crossing of one ray with an object, if nothing nearer was met.
@@ -115,59 +115,63 @@ impl PacketHits {
         self.object = other.object;
         self.primitive = other.primitive;
         self.surface = other.surface;
-        (self.entering, self.unsure, self.incoherent) = (other.entering, other.unsure, other.incoherent);
+        (self.entering, self.uncertain, self.incoherent) =
+            (other.entering, other.uncertain, other.incoherent);
     }
 }
 
 impl<T: Real> PacketHits<T> {
-    /// Takes crossings of some rays of a row with an object, where nothing nearer was met.
+    /// Takes crossings of some rays of a register with an object, where nothing nearer was met.
     #[inline(always)]
-    pub fn offer<S: Simd>(&mut self, simd: S, row: usize, met: &HitCandidate<T, S>) {
-        let (best, second) = (self.t.load(simd, row), self.second.load(simd, row));
+    pub fn offer<S: Simd>(&mut self, simd: S, register: usize, met: &HitCandidate<T, S>) {
+        let (best, second) = (self.t.load(simd, register), self.second.load(simd, register));
         let t = met.any.choose(met.t, T::all(simd, f64::INFINITY));
         let nearer = t.is_below(best);
-        let other = if T::DECIDES {
+        let other = if T::IS_DOUBLE {
             t.larger(best)
         } else {
-            nearer.choose(best - self.error.load(simd, row) * FLUSH, t - met.error * FLUSH)
+            nearer.choose(
+                best - self.error.load(simd, register) * COINCIDENT_WITHIN,
+                t - met.error * COINCIDENT_WITHIN,
+            )
         };
-        self.second.store(row, other.smaller(second));
+        self.second.store(register, other.smaller(second));
         if !nearer.any() {
             return;
         }
-        self.t.put(simd, row, nearer, t);
-        self.error.put(simd, row, nearer, met.error);
-        let bits = T::bits_of(simd, nearer, row);
-        self.object.put_ids::<T, S>(simd, row, bits, RealIds::<T, S>::all(simd, met.object));
-        self.primitive.put_ids::<T, S>(simd, row, bits, met.primitive);
-        self.surface.put_ids::<T, S>(simd, row, bits, met.surface.ids());
-        self.entering = self.entering & !bits | T::bits_of(simd, met.entering, row) & bits;
+        self.t.put(simd, register, nearer, t);
+        self.error.put(simd, register, nearer, met.error);
+        let bits = T::bits_of(simd, nearer, register);
+        self.object.put_ids::<T, S>(simd, register, bits, RealIds::<T, S>::all(simd, met.object));
+        self.primitive.put_ids::<T, S>(simd, register, bits, met.primitive);
+        self.surface.put_ids::<T, S>(simd, register, bits, met.surface.ids());
+        self.entering = self.entering & !bits | T::bits_of(simd, met.entering, register) & bits;
     }
 
-    /// Up to where something may be in one place with what the rays of a row met first. In double precision
-    /// that is said by how far solids may be off; in single also by the slope at which it was met, as what is
-    /// flush with it is.
+    /// Up to where something may be in one place with what the rays of a register met first. In double
+    /// precision that is said by how far solids may be off; in single also by the slope at which it was met,
+    /// as what is flush with it is.
     #[inline(always)]
-    fn reach<S: Simd>(&self, simd: S, row: usize) -> T::SimdReal<S> {
-        let t = self.t.load(simd, row);
-        if T::DECIDES { t } else { t + self.error.load(simd, row) * FLUSH }
+    fn reach<S: Simd>(&self, simd: S, register: usize) -> T::SimdReal<S> {
+        let t = self.t.load(simd, register);
+        if T::IS_DOUBLE { t } else { t + self.error.load(simd, register) * COINCIDENT_WITHIN }
     }
 
     /// The same for one ray.
     #[inline(always)]
     pub(super) fn reach_of(&self, lane: usize) -> f64 {
         let t = self.t.0[lane].into();
-        if T::DECIDES { t } else { t + FLUSH * self.error.0[lane].into() }
+        if T::IS_DOUBLE { t } else { t + COINCIDENT_WITHIN * self.error.0[lane].into() }
     }
 
     /// Leaves the rays that met two objects within `slack` to the exact engine.
     #[inline(always)]
-    pub fn doubt<S: Simd>(&mut self, simd: S, slack: f64) {
-        for row in 0..T::ROWS {
-            let t = self.t.load(simd, row);
-            let close = self.second.load(simd, row).is_at_most(self.reach(simd, row) + slack)
+    pub fn mark_ties<S: Simd>(&mut self, simd: S, slack: f64) {
+        for register in 0..T::REGISTERS {
+            let t = self.t.load(simd, register);
+            let close = self.second.load(simd, register).is_at_most(self.reach(simd, register) + slack)
                 & t.is_below(T::all(simd, f64::INFINITY));
-            self.unsure |= T::bits_of(simd, close, row);
+            self.uncertain |= T::bits_of(simd, close, register);
         }
     }
 
@@ -177,9 +181,9 @@ impl<T: Real> PacketHits<T> {
         // What lanes met that are not live means nothing: the surfaces that they leave are not set.
         let nowhere = T::all(simd, f64::NEG_INFINITY);
         let mut most = nowhere;
-        for row in 0..T::ROWS {
-            if packet.has_live(row) {
-                let t = T::row_of(simd, packet.live, row).choose(self.reach(simd, row), nowhere);
+        for register in 0..T::REGISTERS {
+            if packet.has_live(register) {
+                let t = T::mask_of(simd, packet.live, register).choose(self.reach(simd, register), nowhere);
                 most = t.larger(most);
             }
         }
@@ -187,7 +191,7 @@ impl<T: Real> PacketHits<T> {
     }
 }
 
-/// Crossings of a row with one object.
+/// Crossings of a register with one object.
 #[derive(Clone, Copy)]
 pub struct HitCandidate<T: Real, S: Simd> {
     /// Which rays have one.
@@ -206,7 +210,7 @@ pub struct HitCandidate<T: Real, S: Simd> {
     pub surface: Faces<T, S>,
 }
 
-/// The faces of a primitive that the rays of a row cross.
+/// The faces of a primitive that the rays of a register cross.
 #[derive(Clone, Copy)]
 pub enum Faces<T: Real, S: Simd> {
     /// By their ids.

@@ -2,7 +2,7 @@
 
 use fearless_simd::{Level, Simd, dispatch};
 
-use crate::math::{LaneVector, Lanes, ROWS, RayPacket};
+use crate::math::{LaneVector, Lanes, REGISTERS, RayPacket};
 use crate::view::TileCamera;
 
 use super::super::exact::all_moved_nearer;
@@ -35,10 +35,10 @@ pub(super) fn approach(packet: &mut RayPacket, before: &mut [Lanes; 2], level: L
 
 #[inline(always)]
 fn approached<S: Simd>(simd: S, packet: &mut RayPacket, before: &mut [Lanes; 2]) {
-    for row in 0..ROWS {
-        let (near, [far, left]) = all_moved_nearer(&packet.load(simd, row));
-        packet.o.store(row, near.o);
-        before[0].store(row, far);
-        before[1].store(row, left);
+    for register in 0..REGISTERS {
+        let (near, [far, left]) = all_moved_nearer(&packet.load(simd, register));
+        packet.o.store(register, near.o);
+        before[0].store(register, far);
+        before[1].store(register, left);
     }
 }

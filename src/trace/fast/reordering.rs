@@ -7,7 +7,7 @@
 use fearless_simd::{Simd, SimdBase, f64x8};
 
 use crate::lattice::LONGEST_PATH;
-use crate::math::{DVec3, LaneVector, Lanes, Number, PACKET, ROWS, lanes};
+use crate::math::{DVec3, LaneVector, Lanes, Number, PACKET, REGISTERS, lanes};
 use crate::solid::Departures;
 
 use super::shadow_packet::ShadowPacket;
@@ -59,15 +59,15 @@ impl RayReordering {
             }
             count += 1.0;
             let (mut low, mut high) = ([infinite; 2], [-infinite; 2]);
-            for row in 0..ROWS {
+            for register in 0..REGISTERS {
                 let p = if near {
-                    shadow_packet.rays.d.load(simd, row)
+                    shadow_packet.rays.d.load(simd, register)
                 } else {
-                    shadow_packet.rays.o.load(simd, row)
+                    shadow_packet.rays.o.load(simd, register)
                 };
                 let at = [p.dot_one(u), p.dot_one(v)];
                 for k in 0..2 {
-                    seen[k].store(row, at[k]);
+                    seen[k].store(register, at[k]);
                     (low[k], high[k]) = (at[k].smaller(low[k]), at[k].larger(high[k]));
                 }
             }
@@ -132,7 +132,7 @@ impl RayReordering {
                 }
                 to.distance.0[lane] = from.distance.0[own];
                 left.primitive.0[lane] = leaves.primitive.0[own];
-                left.off.0[lane] = leaves.off.0[own];
+                left.place_error.0[lane] = leaves.place_error.0[own];
                 left.inward |= (leaves.inward >> own & 1) << lane;
                 to.rays.live |= 1 << lane;
             }
@@ -149,11 +149,11 @@ impl RayReordering {
     /// Gives each ray back what was found for it.
     pub fn scatter(&self, shadow_packets: &mut [ShadowPacket]) {
         for (from, group) in self.shadow_packets.iter().zip(self.order.chunks(PACKET)) {
-            for lane in lanes(from.blocked | from.tint.rays | from.unsure) {
+            for lane in lanes(from.blocked | from.tint.rays | from.uncertain) {
                 let (k, own) = place(group[lane]);
                 let to = &mut shadow_packets[k];
                 to.blocked |= (from.blocked >> lane & 1) << own;
-                to.unsure |= (from.unsure >> lane & 1) << own;
+                to.uncertain |= (from.uncertain >> lane & 1) << own;
                 to.tint.rays |= (from.tint.rays >> lane & 1) << own;
                 to.tint.share.0[own] = from.tint.share.0[lane];
             }
@@ -203,7 +203,7 @@ mod tests {
                 let ray = left.primitive.0[lane] as usize;
                 assert_eq!(shadow_packet.rays.o.get(lane), start(ray / PACKET, ray % PACKET));
                 shadow_packet.blocked |= u64::from(ray.is_multiple_of(2)) << lane;
-                shadow_packet.unsure |= u64::from(ray.is_multiple_of(5)) << lane;
+                shadow_packet.uncertain |= u64::from(ray.is_multiple_of(5)) << lane;
             }
         }
         reordering.scatter(&mut shadow_packets);
@@ -211,7 +211,7 @@ mod tests {
             for lane in 0..PACKET {
                 let (ray, live) = (k * PACKET + lane, shadow_packet.rays.live >> lane & 1 == 1);
                 assert_eq!(shadow_packet.blocked >> lane & 1 == 1, live && ray.is_multiple_of(2));
-                assert_eq!(shadow_packet.unsure >> lane & 1 == 1, live && ray.is_multiple_of(5));
+                assert_eq!(shadow_packet.uncertain >> lane & 1 == 1, live && ray.is_multiple_of(5));
             }
         }
     }

@@ -19,7 +19,7 @@ pub struct ShadowPacket {
     /// What glass leaves of the light of the rays that are not blocked.
     pub tint: Transmittance,
     /// Which are to be traced by the exact engine.
-    pub unsure: u64,
+    pub uncertain: u64,
     /// Which are incoherent, and are to be traced in a stream.
     pub incoherent: u64,
 }
@@ -44,14 +44,14 @@ impl ShadowPacket {
         distance: Lanes::filled(0.0),
         blocked: 0,
         tint: Transmittance::NONE,
-        unsure: 0,
+        uncertain: 0,
         incoherent: 0,
     };
 
     /// Takes all rays out, and forgets what was found of them.
     pub fn clear(&mut self) {
         self.rays.live = 0;
-        (self.blocked, self.unsure, self.incoherent) = (0, 0, 0);
+        (self.blocked, self.uncertain, self.incoherent) = (0, 0, 0);
         self.tint.clear();
     }
 
@@ -69,10 +69,10 @@ impl ShadowPacket {
         }
     }
 
-    /// The rays that are neither blocked nor unsure, nor incoherent.
+    /// The rays that are neither blocked nor uncertain, nor incoherent.
     #[inline(always)]
     pub(super) fn open(&self) -> u64 {
-        self.rays.live & !(self.blocked | self.unsure | self.incoherent)
+        self.rays.live & !(self.blocked | self.uncertain | self.incoherent)
     }
 
     /// Whether a crossing of one ray lies before the light.

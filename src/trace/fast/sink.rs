@@ -18,11 +18,11 @@ pub(super) trait HitSink<T: Real> {
     /// [`SOME_LEAVES`] where what is nearest mostly hides the others.
     const FEW_LEAVES: usize;
 
-    /// Takes crossings of the rays of a row with an object.
-    fn offer<S: Simd>(&mut self, simd: S, row: usize, met: &HitCandidate<T, S>);
+    /// Takes crossings of the rays of a register with an object.
+    fn offer<S: Simd>(&mut self, simd: S, register: usize, met: &HitCandidate<T, S>);
 
     /// Leaves these rays to the exact engine.
-    fn doubt(&mut self, rays: u64);
+    fn mark_uncertain(&mut self, rays: u64);
 }
 
 impl<T: Real> HitSink<T> for PacketHits<T> {
@@ -30,12 +30,12 @@ impl<T: Real> HitSink<T> for PacketHits<T> {
     const FEW_LEAVES: usize = 3;
 
     #[inline(always)]
-    fn offer<S: Simd>(&mut self, simd: S, row: usize, met: &HitCandidate<T, S>) {
-        Self::offer(self, simd, row, met);
+    fn offer<S: Simd>(&mut self, simd: S, register: usize, met: &HitCandidate<T, S>) {
+        Self::offer(self, simd, register, met);
     }
 
-    fn doubt(&mut self, rays: u64) {
-        self.unsure |= rays;
+    fn mark_uncertain(&mut self, rays: u64) {
+        self.uncertain |= rays;
     }
 }
 
@@ -55,21 +55,21 @@ impl<U: Real> Found<'_, U> {
         simd.vectorize(
             #[inline(always)]
             || {
-                for row in 0..T::ROWS {
-                    if !T::has_any(self.rays, row) {
+                for register in 0..T::REGISTERS {
+                    if !T::has_any(self.rays, register) {
                         continue;
                     }
-                    let t = self.t.load_nearest::<T, S>(simd, row);
+                    let t = self.t.load_nearest::<T, S>(simd, register);
                     let met = HitCandidate {
-                        any: T::row_of(simd, self.rays, row) & t.is_below(T::all(simd, f64::INFINITY)),
+                        any: T::mask_of(simd, self.rays, register) & t.is_below(T::all(simd, f64::INFINITY)),
                         t,
-                        error: loosened::<T, S>(self.error.load_nearest::<T, S>(simd, row), t),
-                        entering: T::row_of(simd, self.entering, row),
+                        error: loosened::<T, S>(self.error.load_nearest::<T, S>(simd, register), t),
+                        entering: T::mask_of(simd, self.entering, register),
                         object,
-                        primitive: self.primitive.ids::<T, S>(simd, row),
-                        surface: Faces::Ids(self.surface.ids::<T, S>(simd, row)),
+                        primitive: self.primitive.ids::<T, S>(simd, register),
+                        surface: Faces::Ids(self.surface.ids::<T, S>(simd, register)),
                     };
-                    sink.offer(simd, row, &met);
+                    sink.offer(simd, register, &met);
                 }
             },
         );
@@ -104,5 +104,5 @@ pub(super) fn offer_crossings<S: Simd, T: Real, U: Real>(
 /// How far a distance may be off that was rounded to single precision: by half an ulp more.
 #[inline(always)]
 fn loosened<T: Real, S: Simd>(error: T::SimdReal<S>, t: T::SimdReal<S>) -> T::SimdReal<S> {
-    if T::DECIDES { error } else { error + t.magnitude() * (0.5 * f64::EPSILON * T::COARSER) }
+    if T::IS_DOUBLE { error } else { error + t.magnitude() * (0.5 * f64::EPSILON * T::EPSILON_RATIO) }
 }

@@ -42,19 +42,21 @@ impl<'a, T: Real> PacketSource<'a, T> {
         self.departures.map_or(0, |departures| departures.leaving(simd, primitive))
     }
 
-    /// The surfaces that the rays of a row start on, as seen from a primitive.
+    /// The surfaces that the rays of a register start on, as seen from a primitive.
     #[inline(always)]
-    pub fn starts<S: Simd>(&self, simd: S, row: usize, primitive: u32) -> RayStarts<T::SimdReal<S>> {
-        let no = T::row_of(simd, 0, row);
-        let Some(departures) = self.departures else { return RayStarts { here: no, inward: no, off: None } };
+    pub fn starts<S: Simd>(&self, simd: S, register: usize, primitive: u32) -> RayStarts<T::SimdReal<S>> {
+        let no = T::mask_of(simd, 0, register);
+        let Some(departures) = self.departures else {
+            return RayStarts { here: no, inward: no, place_error: None };
+        };
         let primitive = RealIds::<T, S>::all(simd, primitive);
         RayStarts {
             here: T::SimdReal::<S>::answers(
                 simd,
-                departures.primitive.ids::<T, S>(simd, row).equal_bits(primitive),
+                departures.primitive.ids::<T, S>(simd, register).equal_bits(primitive),
             ),
-            inward: T::row_of(simd, departures.inward, row),
-            off: Some(departures.off.load(simd, row)),
+            inward: T::mask_of(simd, departures.inward, register),
+            place_error: Some(departures.place_error.load(simd, register)),
         }
     }
 }
@@ -79,7 +81,7 @@ pub(super) struct TracedPackets<'a, T> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TracedTile {
     /// Those that may have met anything, a bit for each. Of the others, if they are still to be made, it is
-    /// only known that none of their rays is unsure or incoherent.
+    /// only known that none of their rays is uncertain or incoherent.
     pub touched: u16,
     /// How many were given up as incoherent.
     pub given_up: usize,
@@ -171,7 +173,7 @@ mod tests {
 
     use super::super::super::exact::all_moved_nearer;
     use super::*;
-    use crate::math::{DVec3, ROWS, Size, lanes};
+    use crate::math::{DVec3, REGISTERS, Size, lanes};
     use crate::scene::{Camera, FieldSpan};
     use crate::stage::Silent;
     use crate::view::{Picture, PinholeCamera, TileCamera, TileRays, tiles};
@@ -209,15 +211,15 @@ mod tests {
                 tile,
                 rays: TileRays::EachDot([off.0, off.1]),
                 eye,
-                path: distance + 4.0,
+                longest_path: distance + 4.0,
             };
             let mut packets = vec![RayPacket::EMPTY; sight.packets()];
             let level = Level::new();
             for (k, packet) in packets.iter_mut().enumerate() {
                 sight.rays(k, level, packet);
-                dispatch!(level, simd => for row in 0..ROWS {
-                    let (near, _) = all_moved_nearer(&packet.load(simd, row));
-                    packet.o.store(row, near.o);
+                dispatch!(level, simd => for register in 0..REGISTERS {
+                    let (near, _) = all_moved_nearer(&packet.load(simd, register));
+                    packet.o.store(register, near.o);
                 });
             }
             let (mut rays, mut before) = (packets.clone(), Vec::new());

@@ -70,7 +70,11 @@ impl StreamVisitor for BlockedRays<'_> {
             }
             _ => shadow_packet.blocked |= bit,
         }
-        if (shadow_packet.blocked | shadow_packet.unsure) & bit != 0 { -1.0 } else { distance + self.slack }
+        if (shadow_packet.blocked | shadow_packet.uncertain) & bit != 0 {
+            -1.0
+        } else {
+            distance + self.slack
+        }
     }
 }
 
@@ -99,7 +103,7 @@ impl Fast<'_> {
             for at in places(k, found.incoherent) {
                 found.forget(at.lane);
                 if departures.is_some_and(|all| self.leaves_mesh(&all[k], at.lane)) {
-                    found.unsure |= 1 << at.lane;
+                    found.uncertain |= 1 << at.lane;
                 } else {
                     let departure = departures.map(|all| all[k].get(at.lane));
                     incoherent.push(at, packet.ray(at.lane), departure, f64::INFINITY);
@@ -112,7 +116,7 @@ impl Fast<'_> {
             for lane in lanes(std::mem::take(&mut found.incoherent)) {
                 let t = found.t.0[lane];
                 let close = found.second.0[lane] <= t + self.slack && t < f64::INFINITY;
-                found.unsure |= u64::from(close) << lane;
+                found.uncertain |= u64::from(close) << lane;
             }
         }
     }
@@ -145,7 +149,7 @@ impl Fast<'_> {
             shadow_packet.tint.forget(shadow_packet.incoherent);
             for at in places(k, std::mem::take(&mut shadow_packet.incoherent)) {
                 if self.leaves_mesh(&departures[k], at.lane) {
-                    shadow_packet.unsure |= 1 << at.lane;
+                    shadow_packet.uncertain |= 1 << at.lane;
                 } else {
                     let (departure, to) =
                         (departures[k].get(at.lane), shadow_packet.distance.0[at.lane] + self.slack);

@@ -97,10 +97,11 @@ pub fn verdict<N: Number>(primitive: &Primitive, ray: &Ray, off: DVec3) -> Verdi
 /// How far a line passes from the middle of a curved surface, as a share of what it may without missing it:
 /// below 1 it crosses the surface, at 1 it touches its silhouette.
 ///
-/// For a sphere or ellipsoid it is the distance from the centre in the unit space. For the side of a frustum,
-/// extended beyond its caps, it is `|dₓo_y − d_yo_x|` over `|d ρ − ρ′ o|` in the cross-section, where `ρ` is
-/// the radius at the start and `ρ′` its change along the direction: both are the same from every point of the
-/// line, and for a cylinder their quotient is the distance from the axis in radii.
+/// For a sphere or ellipsoid it is the distance from the centre in the unit space. For the side of a
+/// truncated cone, extended beyond its caps, it is `|dₓo_y − d_yo_x|` over `|d ρ − ρ′ o|` in the
+/// cross-section, where `ρ` is the radius at the start and `ρ′` its change along the direction: both are the
+/// same from every point of the line, and for a cylinder their quotient is the distance from the axis in
+/// radii.
 pub fn silhouette<N: Number>(primitive: &Primitive, ray: &Ray) -> Option<f64> {
     let rows = inverse::<N>(&primitive.map);
     let (world_o, world_d): (Row<N>, Row<N>) = (point(ray.o), direction(ray.d));
@@ -111,7 +112,7 @@ pub fn silhouette<N: Number>(primitive: &Primitive, ray: &Ray) -> Option<f64> {
             let across = cross(&o, &d);
             Some((dot(&across, &across) / dot(&d, &d)).sqrt().value())
         }
-        Shape::Frustum { bottom, top } | Shape::Tube { bottom, top } => {
+        Shape::Cone { bottom, top } | Shape::Tube { bottom, top } => {
             let (half, bottom, top) = (N::from(0.5), N::from(*bottom), N::from(*top));
             let slope = half.clone() * (top.clone() - bottom.clone());
             let rho = half * (top + bottom) + slope.clone() * o[2].clone();

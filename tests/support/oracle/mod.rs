@@ -283,7 +283,7 @@ impl<N: Number> Piece<N> {
         let corners = primitive.shape.bounds().corners().map(|corner| map.transform_point3(corner));
         let center = corners.iter().fold(DVec3::ZERO, |sum, &p| sum + p / 8.0);
         let radius = corners.iter().map(|p| p.distance(center)).fold(0.0, f64::max);
-        Self { object, surface, center, radius, map_error: primitive.displacement().length() / unit }
+        Self { object, surface, center, radius, map_error: primitive.map_error().length() / unit }
     }
 
     /// Whether a ray comes near the ball; a hundredth of its radius, and what rounding takes from the way

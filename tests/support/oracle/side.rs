@@ -149,7 +149,7 @@ pub fn sides<N: Number>(shape: &Shape, map: &DAffine3) -> Vec<Side<N>> {
             let last = combine(0.0, 0.0, 0.0, N::from(1.0));
             vec![squares(&[(1.0, x), (1.0, y), (1.0, z), (-1.0, last)])]
         }
-        Shape::Frustum { bottom, top } | Shape::Tube { bottom, top } => {
+        Shape::Cone { bottom, top } | Shape::Tube { bottom, top } => {
             let (half, bottom, top) = (N::from(0.5), N::from(*bottom), N::from(*top));
             let slope = half.clone() * (top.clone() - bottom.clone());
             let middle = half * (top + bottom);

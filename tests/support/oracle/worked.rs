@@ -35,8 +35,8 @@ fn assert_hit(found: Option<Hit>, t: f64, object: u32, normal: DVec3) {
     assert!(found.normal.abs_diff_eq(normal, 1e-14), "{found:?}, expected {normal}");
 }
 
-const CONE: Shape = Shape::Frustum { bottom: 1.0, top: 0.0 };
-const CYLINDER: Shape = Shape::Frustum { bottom: 1.0, top: 1.0 };
+const CONE: Shape = Shape::Cone { bottom: 1.0, top: 0.0 };
+const CYLINDER: Shape = Shape::Cone { bottom: 1.0, top: 1.0 };
 
 #[test]
 fn a_sphere_at_a_distance() {

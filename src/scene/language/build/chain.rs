@@ -33,7 +33,7 @@ pub enum Numbers {
 struct Link {
     own: DAffine3,
     /// How far each of its numbers may be from what was meant.
-    unsure: DAffine3,
+    own_error: DAffine3,
     /// How far along the world's axes a step along this map's axes may lead, whichever way it goes.
     stretch: DMat3,
     /// What the product down to here lost when this map was multiplied to it.
@@ -57,7 +57,7 @@ impl Chain {
         }
         let link = Link {
             own,
-            unsure: unsure(&own, numbers),
+            own_error: error_of_numbers(&own, numbers),
             stretch: self.product.matrix3.abs(),
             lost: product_rest(&self.product, &own, &product),
             above: self.last.clone(),
@@ -83,7 +83,7 @@ impl Chain {
         while let Some(link) = next {
             let farthest = Bounds::around(points).farthest();
             let of = |lost: &DAffine3| lost.matrix3 * farthest + lost.translation;
-            error += link.stretch * of(&link.unsure) + of(&link.lost);
+            error += link.stretch * of(&link.own_error) + of(&link.lost);
             points = points.map(|p| link.own.transform_point3(p));
             next = link.above.as_ref();
         }
@@ -94,7 +94,7 @@ impl Chain {
 
 /// How far each number of a map may be from what was meant. A multiple of a half, such as 0 and 1 in a
 /// quarter turn, is exactly that.
-fn unsure(own: &DAffine3, numbers: Numbers) -> DAffine3 {
+fn error_of_numbers(own: &DAffine3, numbers: Numbers) -> DAffine3 {
     // Larger numbers are not written digit by digit.
     let whole = |x: f64| (2.0 * x).fract() == 0.0 && x.abs() < libm::ldexp(1.0, 52);
     let of = |x: f64| match numbers {

@@ -23,7 +23,7 @@ pub struct Polygons {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Profile {
     Sphere,
-    Frustum([u64; 2]),
+    Cone([u64; 2]),
 }
 
 impl Polygons {
@@ -33,8 +33,8 @@ impl Polygons {
     }
 
     /// `|z| ≤ 1` between polygons of circumradius `bottom` and `top`, each with a corner at angle 0.
-    pub fn frustum(&mut self, sides: u32, bottom: f64, top: f64) -> Shape {
-        let profile = Profile::Frustum([bottom.to_bits(), top.to_bits()]);
+    pub fn cone(&mut self, sides: u32, bottom: f64, top: f64) -> Shape {
+        let profile = Profile::Cone([bottom.to_bits(), top.to_bits()]);
         let new = || turned(sides, &[(bottom, -1.0), (top, 1.0)]);
         self.known.entry((sides, profile)).or_insert_with(new).clone()
     }
@@ -114,7 +114,7 @@ mod tests {
     fn corners_lie_on_the_faces() {
         for sides in 3..=12 {
             for (bottom, top) in [(1.0, 1.0), (1.0, 0.25), (0.0, 1.0), (1.0, 0.0)] {
-                let shape = Polygons::default().frustum(sides, bottom, top);
+                let shape = Polygons::default().cone(sides, bottom, top);
                 let facets = facets(&shape);
                 assert_eq!(facets.faces.len() as u32, sides + u32::from(bottom > 0.0) + u32::from(top > 0.0));
                 for side in 0..sides {

@@ -25,7 +25,7 @@ impl Builder {
     ) -> Result<Solid, Lost> {
         let sink = &mut self.sink;
         let arguments = BoundArguments::bind(call, word, sink)?;
-        let mut round = Round {
+        let mut round = RoundShapes {
             sides: facets::sides(arguments.fragments.unwrap_or(context.fragments)),
             polygons: &mut self.polygons,
         };
@@ -59,7 +59,7 @@ impl Builder {
             return Err(refuse(error.label("too small, or too flat"), sink));
         }
         let material = self.surfaces.id(context.surface);
-        let displacement = maps.error(&shape.bounds());
+        let error = maps.error(&shape.bounds());
         let own = match &shape {
             Shape::Mesh(mesh) => {
                 let bytes = size_of_val(mesh.points.as_slice()) + size_of_val(mesh.triangles.as_slice());
@@ -73,7 +73,7 @@ impl Builder {
             return Err(self.no_room(bytes, call));
         }
         self.memory.take(bytes);
-        Ok(Solid::Primitive(Primitive::new(shape, map, material).displaced(displacement)))
+        Ok(Solid::Primitive(Primitive::new(shape, map, material).with_map_error(error)))
     }
 
     /// The error of what there is no memory for: it is the last that is read.
@@ -84,12 +84,12 @@ impl Builder {
 }
 
 /// Round shapes, or what `$fn` makes of them.
-struct Round<'b> {
+struct RoundShapes<'b> {
     sides: Option<u32>,
     polygons: &'b mut Polygons,
 }
 
-impl Round<'_> {
+impl RoundShapes<'_> {
     fn sphere(&mut self) -> Shape {
         match self.sides {
             Some(sides) => self.polygons.sphere(sides),
@@ -97,10 +97,10 @@ impl Round<'_> {
         }
     }
 
-    fn frustum(&mut self, bottom: f64, top: f64) -> Shape {
+    fn cone(&mut self, bottom: f64, top: f64) -> Shape {
         match self.sides {
-            Some(sides) => self.polygons.frustum(sides, bottom, top),
-            None => Shape::Frustum { bottom, top },
+            Some(sides) => self.polygons.cone(sides, bottom, top),
+            None => Shape::Cone { bottom, top },
         }
     }
 }
@@ -142,7 +142,7 @@ fn cube(arguments: &BoundArguments<'_, '_>, sink: &mut Sink) -> Result<(Shape, D
 
 fn sphere(
     arguments: &BoundArguments<'_, '_>,
-    round: &mut Round<'_>,
+    round: &mut RoundShapes<'_>,
     sink: &mut Sink,
 ) -> Result<(Shape, DAffine3), Lost> {
     let shape = round.sphere();
@@ -172,11 +172,11 @@ fn radius(
 
 fn cylinder(
     arguments: &BoundArguments<'_, '_>,
-    round: &mut Round<'_>,
+    round: &mut RoundShapes<'_>,
     sink: &mut Sink,
 ) -> Result<(Shape, DAffine3), Lost> {
     if let Some((at, semi)) = centre_and_half_sizes(arguments, sink)? {
-        return Ok((round.frustum(1.0, 1.0), placed(at, semi)));
+        return Ok((round.cone(1.0, 1.0), placed(at, semi)));
     }
     // As in OpenSCAD: `r` sets both radii, `r1` and `r2` each its own after that, and 1 is the default.
     let both = radius(arguments, "d", "r", sink)?.unwrap_or(1.0);
@@ -188,7 +188,7 @@ fn cylinder(
         let error = Diagnostic::error(place, "both ends of the cylinder are 0");
         return Err(arguments.refuse(error.help("one end may be a point, not both"), Lost::Empty, sink));
     }
-    upright(arguments, round.frustum(bottom / largest, top / largest), largest, sink)
+    upright(arguments, round.cone(bottom / largest, top / largest), largest, sink)
 }
 
 /// A shape of height 2 put onto the plane z = 0, or with its middle into it.
@@ -205,10 +205,10 @@ fn upright(
 
 fn cone(
     arguments: &BoundArguments<'_, '_>,
-    round: &mut Round<'_>,
+    round: &mut RoundShapes<'_>,
     sink: &mut Sink,
 ) -> Result<(Shape, DAffine3), Lost> {
-    let shape = round.frustum(1.0, 0.0);
+    let shape = round.cone(1.0, 0.0);
     if let Some((apex, semi)) = centre_and_half_sizes(arguments, sink)? {
         // The paper's cone fills −c ≤ Z ≤ 0 below its apex, half of the box that its half-sizes span.
         let half = semi.with_z(semi.z * 0.5);

@@ -41,7 +41,7 @@ fn primitives_stand_where_openscad_puts_them() {
 fn radii_of_cylinders() {
     let radii = |text: &str| {
         let primitive = primitive(text);
-        let Shape::Frustum { bottom, top } = primitive.shape else { panic!("{primitive:?}") };
+        let Shape::Cone { bottom, top } = primitive.shape else { panic!("{primitive:?}") };
         (bottom, top, primitive.map.matrix3.x_axis.x)
     };
     assert_eq!(radii("cylinder(h = 1, r1 = 2, r2 = 4);"), (0.5, 1.0, 4.0));
@@ -63,7 +63,7 @@ fn the_papers_parameters() {
     assert_eq!(box_of("cylinder(semi = [1, 2, 3]);"), exactly([-1.0, -2.0, -3.0], [1.0, 2.0, 3.0]));
     let cone = primitive("cone(at = [0, 0, 5], semi = [1, 2, 3]);");
     assert_eq!(bounds(&cone), exactly([-1.0, -2.0, 2.0], [1.0, 2.0, 5.0]), "the apex is the centre");
-    assert_eq!(cone.shape, Shape::Frustum { bottom: 1.0, top: 0.0 });
+    assert_eq!(cone.shape, Shape::Cone { bottom: 1.0, top: 0.0 });
 }
 
 #[test]

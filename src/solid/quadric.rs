@@ -13,7 +13,7 @@ const TOP: u32 = 2;
 
 /// A unit sphere or truncated cone under an affine map.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Round {
+pub struct Quadric {
     space: UnitSpace,
     /// From unit directions to world directions.
     linear: DMat3,
@@ -27,7 +27,7 @@ enum Profile {
     Cone(Taper),
 }
 
-impl Round {
+impl Quadric {
     /// The unit sphere at `place`, which may be off by `map_error`.
     pub fn ellipsoid(place: &Placement, map_error: DVec3) -> Self {
         Self { space: UnitSpace::new(place, map_error), linear: place.linear, profile: Profile::Sphere }
@@ -51,8 +51,8 @@ impl Round {
     }
 
     /// How far a point of it may be off its place, by its map and by our own rounding.
-    pub fn off(&self) -> f64 {
-        self.space.displacement
+    pub fn place_error(&self) -> f64 {
+        self.space.place_error
     }
 
     /// The share of its errors that our own rounding may have made.
@@ -73,7 +73,7 @@ impl Round {
     }
 
     /// How far two parallel planes around it are apart at least, or less: every profile holds a ball of
-    /// diameter 1, and a map shrinks no way by more than the norm of its inverse.
+    /// diameter 1, and a map shrinks no vector by more than the norm of its inverse.
     pub fn thickness(&self) -> f64 {
         1.0 / self.space.norm()
     }
@@ -117,32 +117,32 @@ impl Round {
 #[inline(always)]
 fn sphere_spans<N: Number>(rays: &Centred<N>) -> Spans<N> {
     let l_squared = rays.o.length_squared();
-    // Moving the ray by at most `off` changes the square of the half-chord by 2·o·off.
-    let across = rays.o.magnitude().dot_one(rays.off);
+    // Moving the ray by at most e, `unit_error`, changes the square of the half-chord by 2·o·e.
+    let across = rays.o.magnitude().dot_one(rays.unit_error);
     let one = rays.t.same(1.0);
-    // Of numbers that do not decide what is lost is no longer so small that its square can be left out.
-    let grazing = if N::DECIDES { across * 2.0 } else { across * 2.0 + rays.off.length_squared() };
-    let near_enough = l_squared.is_at_most(if N::DECIDES { one } else { one + grazing });
+    // Of single precision what is lost is no longer so small that its square can be left out.
+    let grazing = if N::IS_DOUBLE { across * 2.0 } else { across * 2.0 + rays.unit_error.length_squared() };
+    let near_enough = l_squared.is_at_most(if N::IS_DOUBLE { one } else { one + grazing });
     if !near_enough.any() {
         return Spans::none(rays.t);
     }
     let l = l_squared.root();
     let half_squared = (-l + 1.0) * (l + 1.0);
-    let least = if N::DECIDES { across * 2.0 * rays.rounding_share } else { grazing };
+    let least = if N::IS_DOUBLE { across * 2.0 * rays.rounding_share } else { grazing };
     let any = near_enough & half_squared.is_above(least);
     let root = half_squared.root();
     let slowness = rays.t.same(1.0) / rays.d_squared.root();
     let half = root * slowness;
-    // The crossing q = o ± half·d, moved by `off`, moves along the ray by |q|·off over q·d, and |q·d| = speed
+    // The crossing q = o ± half·d, moved by e, moves along the ray by |q|·e over q·d, and |q·d| = speed
     // · root. Half a chord that the map's own error could have made is off by no more than all of that.
     let sideways = half_squared.is_below(across * 2.0).choose((across * 2.0).root(), across / root);
-    let error = (sideways + rays.d.magnitude().dot_one(rays.off) * slowness) * slowness;
+    let error = (sideways + rays.d.magnitude().dot_one(rays.unit_error) * slowness) * slowness;
     let surface = rays.t.same(0.0);
     Spans {
         enter: Ends { t: rays.t - half, error, surface },
         leave: Ends { t: rays.t + half, error, surface },
         any,
-        may: if N::DECIDES { any } else { near_enough },
+        may: if N::IS_DOUBLE { any } else { near_enough },
     }
 }
 
@@ -159,14 +159,14 @@ fn cone_spans<N: Number>(rays: &Centred<N>, taper: &Taper) -> Spans<N> {
     spans.keep(
         !still | inside,
         #[inline(always)]
-        || still & (o.z.magnitude() - 1.0).magnitude().is_at_most(zero.same(rays.off.z)),
+        || still & (o.z.magnitude() - 1.0).magnitude().is_at_most(zero.same(rays.unit_error.z)),
     );
     if !spans.may.any() {
         return spans;
     }
     let inverse = zero.same(1.0) / d.z;
     let (low, high) = ((-o.z - 1.0) * inverse, (-o.z + 1.0) * inverse);
-    let (error, forward) = (inverse.magnitude() * rays.off.z, d.z.is_above(zero));
+    let (error, forward) = (inverse.magnitude() * rays.unit_error.z, d.z.is_above(zero));
     let (bottom, top) = (zero.same(f64::from(BOTTOM)), zero.same(f64::from(TOP)));
     let enter = still.choose(zero.same(f64::NEG_INFINITY), forward.choose(low, high));
     let leave = still.choose(zero.same(f64::INFINITY), forward.choose(high, low));

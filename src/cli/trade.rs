@@ -37,7 +37,7 @@ pub fn run(arguments: &TradeArguments) -> Result<(), CliError> {
     to.check(&arguments.scene.file)?;
     let format = plot_format(arguments)?;
     input::say(&effects::check(&arguments.picture, effects::Presentation::Cells)?);
-    let scene = input::read(&arguments.scene.file, arguments.scene.skip_unsupported, arguments.scene.memory)?;
+    let scene = input::read(&arguments.scene.file, &arguments.scene.reading)?;
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
     // A size in dots is that of a picture without characters.

@@ -27,7 +27,7 @@ impl CommandLine {
         let picture = &arguments.picture;
         let bare = without_knobs(picture)?;
         let bare = Setting { options: bare.options()?, glyphs: bare.look(None).glyphs };
-        let skip = if arguments.scene.skip_unsupported { " --skip-unsupported" } else { "" };
+        let skip = if arguments.scene.reading.skip_unsupported { " --skip-unsupported" } else { "" };
         Ok(Self {
             picture: picture.clone(),
             file: quoted(&arguments.scene.file),
@@ -153,7 +153,7 @@ mod tests {
     fn line(arguments: &[&str]) -> CommandLine {
         let arguments = Arguments::try_parse_from([&["ray13", "trade"], arguments].concat()).unwrap();
         let Some(Command::Trade(trade)) = arguments.command else { panic!("no trade") };
-        let studio = input::studio(input::read("die", false, None).unwrap()).unwrap();
+        let studio = input::studio(input::read("die", &trade.scene.reading).unwrap()).unwrap();
         let look = trade.picture.look(None);
         let request = trade.picture.request(&studio, look, Wants::CELLS, Unsized::Screen).unwrap();
         CommandLine::new(&trade, &request).unwrap()

@@ -18,9 +18,8 @@ use super::trade_line::CommandLine;
 /// Columns and rows of the plot: those of the smallest screen, with room for the shell's prompt.
 const PLOT: Rect = Rect::new(0, 0, 79, 20);
 
-/// The columns of the table.
-const HEAD: &str =
-    "      time  spread    wrong     by 2   rms   max    hits   cells  seen  flicker  options\n";
+/// The columns of the table: shares in percent, so that there is room for options within 80 columns.
+const HEAD: &str = "     time   ±%  wrong%  by 2%   rms  max  hits% cells%  seen flick  options\n";
 
 /// All that is told of a sweep.
 pub struct Report<'a> {
@@ -75,24 +74,24 @@ impl Report<'_> {
         let aim = if reference.reached() { "a tenth or less" } else { "more than a tenth" };
         let exact = if reference.exact_rays() < reference.rays() {
             format!(
-                "{} of them by the exact engine, whose bits the fast one finds in them",
+                "{} of them by the exact engine:\nthe fast one finds its bits in these",
                 reference.exact_rays()
             )
         } else {
             "all by the exact engine".to_owned()
         };
+        let flicker =
+            reference.shimmer().map_or(String::new(), |own| format!("; flickers by {own:.2} itself"));
         format!(
-            "The reference: {} rays for each of {} × {} dots, {exact}.\n\
-             Its own error: {} of the levels wrong, {:.3} levels (RMS), {aim} of the {} to be told apart.\n{}",
+            "The reference: {} rays for each of {} × {} dots, {exact}{flicker}.\n\
+             Its own error: {} of the levels wrong, {:.3} levels RMS;\n\
+             that is {aim} of the {} to be told apart.\n",
             reference.rays(),
             dots.width,
             dots.height,
             percent(error.wrong),
             error.rms,
             percent(self.limits.apart),
-            reference
-                .shimmer()
-                .map_or(String::new(), |flicker| format!("It flickers by {flicker:.2} itself.\n")),
         )
     }
 
@@ -104,15 +103,15 @@ impl Report<'_> {
         let or_dash = |value: Option<String>| value.unwrap_or_else(|| "–".to_owned());
         let own = if self.line.is_own(&one.setting) { "(as asked) " } else { "" };
         let row = format!(
-            "{:>10}  ±{:>3.0} % {:>8} {:>8} {:>5.2} {:>5.1} {:>7} {:>7} {:>5} {:>8}  {own}{}",
+            "{:>9} {:>4.0} {:>7} {:>6} {:>5.2} {:>4.1} {:>6} {:>6} {:>5} {:>5}  {own}{}",
             ms(one.cost()),
             100.0 * spread,
-            percent(light.wrong()),
-            percent(light.wrong_by(2)),
+            number(light.wrong()),
+            number(light.wrong_by(2)),
             light.rms,
             light.largest,
-            or_dash(geometry.map(|geometry| percent(geometry.share()))),
-            or_dash(characters.map(|characters| percent(characters.share()))),
+            or_dash(geometry.map(|geometry| number(geometry.share()))),
+            or_dash(characters.map(|characters| number(characters.share()))),
             or_dash(characters.map(|characters| format!("{:.2}", characters.seen))),
             or_dash(characters.and_then(|characters| characters.shimmer).map(|s| format!("{s:.2}"))),
             self.line.options(&one.setting),
@@ -220,12 +219,17 @@ pub fn ms(time: Duration) -> String {
     }
 }
 
-/// A share in percent, to two digits behind the point below 10.
+/// A share in percent, with its sign.
 pub fn percent(share: f64) -> String {
+    format!("{} %", number(share))
+}
+
+/// A share in percent, to two digits behind the point below 10.
+fn number(share: f64) -> String {
     let percent = share * 100.0;
     match percent {
-        0.0 => "0 %".to_owned(),
-        _ if percent < 10.0 => format!("{percent:.2} %"),
-        _ => format!("{percent:.1} %"),
+        0.0 => "0".to_owned(),
+        _ if percent < 10.0 => format!("{percent:.2}"),
+        _ => format!("{percent:.1}"),
     }
 }

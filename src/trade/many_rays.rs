@@ -60,17 +60,19 @@ pub(super) struct ManyRays<'a> {
     request: Request,
     /// Whether the fast engine found the same bits until now.
     agrees: bool,
+    /// Whether that is known already, and no ray need be traced by both.
+    is_checked: bool,
 }
 
 impl<'a> ManyRays<'a> {
     /// Of a picture that the exact engine draws.
     pub const fn new(studio: &'a Studio, request: Request) -> Self {
-        Self { studio, request, agrees: true }
+        Self { studio, request, agrees: true, is_checked: false }
     }
 
     /// The same rays from another viewpoint or direction, by the engine that was found good.
     pub const fn of(&self, request: Request) -> Self {
-        Self { studio: self.studio, request, agrees: self.agrees }
+        Self { studio: self.studio, request, agrees: self.agrees, is_checked: true }
     }
 
     /// Whether the fast engine found the bits of the exact one in all rays that both traced.
@@ -82,7 +84,7 @@ impl<'a> ManyRays<'a> {
     pub fn mean(&mut self, rays: Range<u32>) -> MeanLight {
         let mut fast = self.request.clone();
         fast.options.engine = EngineChoice::Fast;
-        if self.agrees && rays.start >= CHECKED_RAYS {
+        if self.agrees && (self.is_checked || rays.start >= CHECKED_RAYS) {
             return MeanLight::of(self.studio.draw_samples(&fast, rays));
         }
         let exact = self.studio.draw_samples(&self.request, rays.clone());

@@ -15,6 +15,7 @@ mod command_line {
     mod scenes;
     mod still;
     mod threads;
+    mod trade;
 }
 
 use std::fs;

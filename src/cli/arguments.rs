@@ -1,6 +1,7 @@
 //! The arguments, as clap reads them.
 
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
@@ -42,6 +43,8 @@ pub enum Command {
     Render(RenderArguments),
     /// Measure how long pictures take
     Bench(BenchArguments),
+    /// Measure how time trades against accuracy: which options are worth their time on this scene and machine
+    Trade(TradeArguments),
     /// Say what a picture requires, stage by stage, what that is expected to cost, and why the rest is left
     /// out
     Plan(PlanArguments),
@@ -157,6 +160,48 @@ pub struct BenchArguments {
 }
 
 #[derive(Clone, Debug, Args)]
+pub struct TradeArguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    #[command(flatten)]
+    pub picture: PictureArguments,
+    /// Time for all of it; 0 measures the given options alone
+    #[arg(long, value_name = "SECONDS", value_parser = values::seconds, default_value = "20", allow_hyphen_values = true)]
+    pub seconds: Duration,
+    /// Print the command line of the most accurate picture that takes no longer, as in 16ms
+    #[arg(long, value_name = "TIME", value_parser = values::duration, allow_hyphen_values = true)]
+    pub within: Option<Duration>,
+    /// Print the command line of the fastest picture of which no more dots have a wrong level, as in 0.5%
+    #[arg(long, value_name = "SHARE", value_parser = values::percent, allow_hyphen_values = true)]
+    pub wrong: Option<f64>,
+    /// Rays a dot of the reference, a power of two: the same accuracy again, whatever the time [default: as
+    /// many as it takes, and the time allows, to tell one percent of wrong levels apart, or --wrong]
+    #[arg(long, value_name = "N", value_parser = values::rays, allow_hyphen_values = true)]
+    pub rays: Option<u32>,
+    /// Measure these options too, against the picture of the others: "--samples 3 --depth 2"
+    #[arg(long, value_name = "OPTIONS", allow_hyphen_values = true)]
+    pub with: Option<String>,
+    /// One line of JSON in place of the table
+    #[arg(long, conflicts_with_all = ["format", "output", "within", "wrong"])]
+    pub json: bool,
+    /// The plot as a picture in place of the table [default: by the ending of -o]
+    #[arg(long, value_enum, conflicts_with_all = ["within", "wrong"])]
+    pub format: Option<PlotFormat>,
+    /// Write the plot to this file; - is standard output
+    #[arg(short, long, value_name = "FILE", conflicts_with_all = ["within", "wrong"])]
+    pub output: Option<PathBuf>,
+}
+
+/// Forms of a plot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum PlotFormat {
+    /// Lines and marks at any size
+    Svg,
+    /// The plot of the terminal, in pixels
+    Png,
+}
+
+#[derive(Clone, Debug, Args)]
 pub struct PlanArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
@@ -190,7 +235,7 @@ pub struct PictureArguments {
     /// highlights, 4 with mirrors and glass [default: 4]
     #[arg(long, value_name = "1..4", value_parser = clap::value_parser!(u8).range(1..=4), allow_hyphen_values = true)]
     pub shading: Option<u8>,
-    /// Follow mirror and Snell rays for so many generations [default: 5]
+    /// Follow mirror and Snell rays for so many generations [default: 16]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=64), allow_hyphen_values = true)]
     pub depth: Option<u32>,
     /// Follow a mirror or Snell ray only while it can still change the light of its dot by so much; 0 follows

@@ -19,6 +19,10 @@ mod render;
 mod snapshot;
 mod stats;
 mod terminal;
+mod trade;
+mod trade_line;
+mod trade_png;
+mod trade_report;
 mod values;
 mod write;
 
@@ -55,6 +59,7 @@ fn command(arguments: Arguments) -> Result<(), CliError> {
         None => view(&arguments.viewer),
         Some(Command::Render(render)) => render::run(&render),
         Some(Command::Bench(bench)) => bench::run(&bench),
+        Some(Command::Trade(trade)) => trade::run(&trade),
         Some(Command::Plan(plan)) => plan::run(&plan),
         Some(Command::Diff(diff)) => diff::run(&diff).map_err(CliError::apart_from_differences),
         Some(Command::Snapshot(snapshot)) => {

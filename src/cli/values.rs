@@ -1,6 +1,7 @@
 //! Values of arguments: sizes, points, fields, each with the message for what it can not be.
 
 use std::str::FromStr;
+use std::time::Duration;
 
 use crate::math::{DVec3, Size};
 
@@ -63,6 +64,40 @@ pub fn bytes(text: &str) -> Result<u64, String> {
     }
 }
 
+/// A time, as in `16ms` or `0.5s`.
+pub fn duration(text: &str) -> Result<Duration, String> {
+    const UNITS: [(&str, f64); 4] = [("us", 1e-6), ("µs", 1e-6), ("ms", 1e-3), ("s", 1.0)];
+    let unit = UNITS.iter().find_map(|(name, unit)| Some((text.strip_suffix(name)?, unit)));
+    let seconds = unit.and_then(|(number, unit)| Some(number.trim().parse::<f64>().ok()? * unit));
+    // A day is more than anyone waits for.
+    let seconds = seconds.filter(|seconds| *seconds > 0.0 && *seconds <= 86_400.0);
+    seconds.map(Duration::from_secs_f64).ok_or("expected a time with its unit, as in 16ms or 0.5s".into())
+}
+
+/// Seconds, 0 or more, up to a day.
+pub fn seconds(text: &str) -> Result<Duration, String> {
+    match text.parse::<f64>() {
+        Ok(x) if (0.0..=86_400.0).contains(&x) => Ok(Duration::from_secs_f64(x)),
+        _ => Err("expected seconds, 0 or more, up to a day's 86400".into()),
+    }
+}
+
+/// A share of all in percent, as in `0.5%`; gives it as 0 to 1.
+pub fn percent(text: &str) -> Result<f64, String> {
+    match text.trim_end_matches('%').trim().parse::<f64>() {
+        Ok(x) if x > 0.0 && x <= 100.0 => Ok(x / 100.0),
+        _ => Err("expected a share above 0% and up to 100%, as in 0.5%".into()),
+    }
+}
+
+/// Rays a dot: a power of two, 2 to 65536.
+pub fn rays(text: &str) -> Result<u32, String> {
+    match text.parse::<u32>() {
+        Ok(x) if x.is_power_of_two() && (2..=65_536).contains(&x) => Ok(x),
+        _ => Err("expected a power of two, 2 to 65536".into()),
+    }
+}
+
 /// A number above 0.
 pub fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
@@ -105,6 +140,24 @@ mod tests {
             ["500MiB", "1.5 GiB", "2gb", "4096"].map(bytes),
             [524_288_000, 1_610_612_736, 2_000_000_000, 4096].map(Ok)
         );
+    }
+
+    #[test]
+    fn times_and_shares_have_units() {
+        let ms = |ms: u64| Ok(Duration::from_millis(ms));
+        assert_eq!(["16ms", "0.5s", "2000us", "1 s"].map(duration), [ms(16), ms(500), ms(2), ms(1000)]);
+        assert_eq!(["0.5%", "100", "2 %"].map(percent), [Ok(0.005), Ok(1.0), Ok(0.02)]);
+        assert_eq!(["2", "256"].map(rays), [Ok(2), Ok(256)]);
+        assert_eq!(["0", "1.5"].map(seconds), [ms(0), ms(1500)]);
+        for text in ["", "16", "0ms", "-1s", "nan s", "1e9s", "ms"] {
+            assert!(duration(text).is_err(), "{text}");
+        }
+        for text in ["", "%", "0%", "101%", "nan%", "-1"] {
+            assert!(percent(text).is_err() && rays(text).is_err(), "{text}");
+        }
+        for text in ["", "-1", "nan", "1e6"] {
+            assert!(seconds(text).is_err(), "{text}");
+        }
     }
 
     #[test]

@@ -1,8 +1,9 @@
 //! What the person asked for, beside the scene and the view.
 
-/// Generations of mirror and Snell rays where nothing is asked for: into a glass solid and out of it, into
-/// another one and out of it, and what is seen behind.
-pub const DEPTH: u32 = 5;
+/// Generations of mirror and Snell rays where nothing is asked for. With 16 no dot of any view of the scenes
+/// inside is half a level off, with 12 some are nearly one, with 5 three (`docs/trade.md`): behind a tumbler of
+/// water there are that many surfaces. What is too faint to see is left to the cut-off.
+pub const DEPTH: u32 = 16;
 
 /// The change of light that is too small to follow a ray for: half of the smallest step between two levels,
 /// which is a quarter of the light of the darkest gray (0.0908 / 4 / 2 = 0.01136), rounded down to three
@@ -187,4 +188,15 @@ pub enum PrecisionChoice {
     Single,
     /// All.
     Double,
+}
+
+impl PrecisionChoice {
+    /// The name on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Single => "single",
+            Self::Double => "double",
+        }
+    }
 }

@@ -19,11 +19,16 @@ impl LevelDifference {
         if own.size() != reference.size() {
             return None;
         }
+        Some(Self::of(own.values(), reference.values()))
+    }
+
+    /// Of the same dots of two pictures, in the same order.
+    pub(super) fn of(own: &[Level], reference: &[Level]) -> Self {
         let mut dots = [0; STEPS];
-        for (own, other) in own.values().iter().zip(reference.values()) {
+        for (own, other) in own.iter().zip(reference) {
             dots[usize::from(apart(*own, *other))] += 1;
         }
-        Some(Self { dots })
+        Self { dots }
     }
 
     /// Dots that are off by so many levels; none are off by more than 12.

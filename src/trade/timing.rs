@@ -20,12 +20,54 @@ impl Default for Effort {
     }
 }
 
+/// How long each picture of several took.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Times {
+    /// Ascending.
+    times: Vec<Duration>,
+}
+
+impl Times {
+    /// Takes in the time of one more picture.
+    pub fn push(&mut self, time: Duration) {
+        let place = self.times.partition_point(|other| *other <= time);
+        self.times.insert(place, time);
+    }
+
+    /// The time of each picture, ascending.
+    pub fn all(&self) -> &[Duration] {
+        &self.times
+    }
+
+    /// All of them together.
+    pub fn sum(&self) -> Duration {
+        self.times.iter().sum()
+    }
+
+    /// The shortest, 0 of none: what the picture takes on a machine that does nothing else.
+    pub fn least(&self) -> Duration {
+        self.times.first().copied().unwrap_or_default()
+    }
+
+    /// The one in the middle, 0 of none; of an even number the later of the two.
+    pub fn median(&self) -> Duration {
+        self.times.get(self.times.len() / 2).copied().unwrap_or_default()
+    }
+
+    /// The spread: between which two times the middle half of the pictures lies. Of fewer than four, all.
+    pub fn middle_half(&self) -> [Duration; 2] {
+        let quarter = self.times.len() / 4;
+        let last = self.times.len().saturating_sub(1 + quarter);
+        [quarter, last].map(|place| self.times.get(place).copied().unwrap_or_default())
+    }
+}
+
 /// The times of one picture, drawn again and again.
 #[derive(Clone, Debug)]
 pub struct Timing {
-    /// The time of each, ascending; one at least.
-    times: Vec<Duration>,
-    /// The last of them.
+    /// One at least.
+    times: Times,
+    /// The last of the pictures.
     pub frame: Frame,
 }
 
@@ -34,31 +76,30 @@ impl Timing {
     /// cuts space and the pool of threads, is built before.
     pub fn new(studio: &Studio, request: &Request, effort: Effort) -> Self {
         let mut frame = studio.draw(request);
-        let mut times = Vec::new();
+        let mut times = Times::default();
         let start = Instant::now();
-        while times.len() < effort.pictures.max(1) || start.elapsed() < effort.time {
+        while times.all().len() < effort.pictures.max(1) || start.elapsed() < effort.time {
             // The studio draws the next into its memory.
             drop(frame);
             frame = studio.draw_anew(request);
             times.push(frame.total);
         }
-        times.sort_unstable();
         Self { times, frame }
     }
 
     /// The time of each picture, ascending; one at least.
     pub fn times(&self) -> &[Duration] {
-        &self.times
+        self.times.all()
     }
 
     /// The shortest: what the picture takes on a machine that does nothing else.
     pub fn least(&self) -> Duration {
-        self.times[0]
+        self.times.least()
     }
 
     /// The one in the middle; of an even number the later of the two.
     pub fn median(&self) -> Duration {
-        self.times[self.times.len() / 2]
+        self.times.median()
     }
 
     /// Rays of all kinds in a second, by the median.
@@ -85,6 +126,17 @@ mod tests {
     use crate::plan::Options;
     use crate::scene::{self, ReadOptions};
     use crate::tone::Tone;
+
+    #[test]
+    fn times_are_told_by_their_middle() {
+        let mut times = Times::default();
+        assert_eq!((times.median(), times.middle_half()), (Duration::ZERO, [Duration::ZERO; 2]));
+        for ms in [9, 1, 5, 100, 4, 6, 7, 8] {
+            times.push(Duration::from_millis(ms));
+        }
+        assert_eq!([times.least(), times.median(), times.sum()], [1, 7, 140].map(Duration::from_millis));
+        assert_eq!(times.middle_half(), [5, 8].map(Duration::from_millis));
+    }
 
     #[test]
     fn a_picture_is_drawn_as_often_as_wanted() {

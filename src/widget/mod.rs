@@ -1,4 +1,5 @@
-//! ratatui widgets over a finished frame: the picture and the flow chart. They need a buffer, not a terminal.
+//! ratatui widgets over a finished frame: the picture and the flow chart; and over what was measured, the plot
+//! of time against accuracy. They need a buffer, not a terminal.
 //!
 //! ```
 //! use ratatui_core::{buffer::Buffer, layout::Rect, widgets::Widget};
@@ -34,6 +35,8 @@
 mod chart;
 pub(crate) mod figures;
 mod picture;
+mod trade_plot;
 
 pub use chart::FlowChart;
 pub use picture::PictureWidget;
+pub use trade_plot::TradePlotWidget;

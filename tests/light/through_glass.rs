@@ -128,7 +128,7 @@ fn is_followed_while_it_can_still_change_by_the_cutoff() {
     assert_eq!(rays("", CUTOFF), (1, 1));
     assert_eq!(rays("", 0.0099), (2, 1));
     assert_eq!(rays("", 0.2), (0, 1));
-    assert_eq!(rays("", 0.0), (5, 1));
+    assert_eq!(rays("", 0.0), (16, 1));
     // Something ten times as bright as white can change ten times as much.
     assert_eq!(rays("light(at = [0, 0, 0], intensity = 10);", CUTOFF), (2, 1));
 }

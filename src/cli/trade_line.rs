@@ -1,0 +1,200 @@
+//! The command line that draws a setting's picture.
+
+use clap::{Parser, ValueEnum};
+
+use crate::frame::Request;
+use crate::math::DVec3;
+use crate::trade::Setting;
+
+use super::arguments::{Arguments, PictureArguments, TradeArguments};
+use super::error::CliError;
+
+/// The command line of a trade, but for its knobs.
+pub struct CommandLine {
+    /// As it was given.
+    picture: PictureArguments,
+    file: String,
+    /// All options that are no knobs, each behind a blank.
+    rest: String,
+    /// Where the knobs stand without options.
+    bare: Setting,
+    own: Setting,
+}
+
+impl CommandLine {
+    /// Of these arguments, which have led to this request.
+    pub fn new(arguments: &TradeArguments, request: &Request) -> Result<Self, CliError> {
+        let picture = &arguments.picture;
+        let bare = without_knobs(picture)?;
+        let bare = Setting { options: bare.options()?, glyphs: bare.look(None).glyphs };
+        let skip = if arguments.scene.reading.skip_unsupported { " --skip-unsupported" } else { "" };
+        Ok(Self {
+            picture: picture.clone(),
+            file: quoted(&arguments.scene.file),
+            rest: format!("{skip}{}", rest(picture, request)),
+            bare,
+            own: Setting::of(request),
+        })
+    }
+
+    /// The options that make a setting, and nothing where it is what the program does by itself.
+    pub fn options(&self, setting: &Setting) -> String {
+        setting.arguments(&self.bare)
+    }
+
+    /// The setting that such options make.
+    pub fn setting(&self, options: &str) -> Result<Setting, CliError> {
+        let words = ["ray13"].into_iter().chain(options.split_whitespace());
+        let refused = |e: clap::Error| CliError::Arguments(format!("in --with: {e}").trim_end().to_owned());
+        let given = Arguments::try_parse_from(words).map_err(refused)?.viewer.picture;
+        let turned = PictureArguments { preset: self.picture.preset, ..given };
+        Ok(Setting { options: turned.options()?, glyphs: turned.look(None).glyphs })
+    }
+
+    /// Whether a setting is the one that was asked for.
+    pub fn is_own(&self, setting: &Setting) -> bool {
+        *setting == self.own
+    }
+
+    /// The command that draws a setting's picture.
+    pub fn render(&self, setting: &Setting) -> String {
+        let options = self.options(setting);
+        let blank = if options.is_empty() { "" } else { " " };
+        format!("{}{blank}{options}", self.render_with())
+    }
+
+    /// The same, up to the setting's options.
+    pub fn render_with(&self) -> String {
+        format!("ray13 render {}{}", self.file, self.rest)
+    }
+
+    /// The command that measures any setting again, up to its options in quotes: the same accuracy, against
+    /// the same reference of as many rays.
+    pub fn measure_with(&self, rays: u32) -> String {
+        let own = self.options(&self.own);
+        let blank = if own.is_empty() { "" } else { " " };
+        format!("ray13 trade {}{}{blank}{own} --seconds 0 --rays {rays} --with", self.file, self.rest)
+    }
+}
+
+/// The arguments as if no knob were turned.
+fn without_knobs(picture: &PictureArguments) -> Result<PictureArguments, CliError> {
+    let none = Arguments::try_parse_from(["ray13"]).map_err(|e| CliError::Arguments(e.to_string()))?;
+    Ok(PictureArguments {
+        preset: picture.preset,
+        cells: picture.cells,
+        dots: picture.dots,
+        camera: picture.camera.clone(),
+        palette: picture.palette,
+        invert: picture.invert,
+        no_invert: picture.no_invert,
+        tone: picture.tone,
+        ..none.viewer.picture
+    })
+}
+
+/// The options that are no knobs, each behind a blank. The size is always there: without one it is the
+/// terminal's.
+fn rest(picture: &PictureArguments, request: &Request) -> String {
+    let mut options = String::new();
+    let mut put = |name: &str, value: Option<String>| {
+        if let Some(value) = value {
+            options.push_str(&format!(" --{name} {value}"));
+        }
+    };
+    let point = |p: DVec3| format!("{},{},{}", p.x, p.y, p.z);
+    put("preset", name(picture.preset));
+    let per_cell = request.glyphs.dots_per_cell();
+    if let Some(dots) = picture.dots {
+        put("dots", Some(format!("{}x{}", dots.width, dots.height)));
+    } else if picture.preset.is_none() || picture.cells.is_some() {
+        let [across, down] = [request.dots.width / per_cell.width, request.dots.height / per_cell.height];
+        put("cells", Some(format!("{across}x{down}")));
+    }
+    let camera = &picture.camera;
+    put("view", camera.view.as_deref().map(quoted));
+    put("eye", camera.eye.map(point));
+    put("target", camera.target.map(point));
+    put("up", camera.up.map(point));
+    put("field", camera.field.map(|[across, down]| format!("{across}x{down}")));
+    put("zoom", camera.zoom.map(|zoom| zoom.to_string()));
+    put("palette", name(picture.palette));
+    put("tone", name(picture.tone));
+    for (given, option) in [(picture.invert, " --invert"), (picture.no_invert, " --no-invert")] {
+        if given {
+            options.push_str(option);
+        }
+    }
+    options
+}
+
+/// The name of a value on the command line.
+fn name<T: ValueEnum>(value: Option<T>) -> Option<String> {
+    Some(value?.to_possible_value()?.get_name().to_owned())
+}
+
+/// A word as a shell takes it back: in quotes where it has anything that means something there.
+fn quoted(word: &str) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || "-_./+:,@%".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', r"'\''"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cli::arguments::Command;
+    use crate::cli::input;
+    use crate::cli::picture::Unsized;
+    use crate::frame::Wants;
+
+    fn line(arguments: &[&str]) -> CommandLine {
+        let arguments = Arguments::try_parse_from([&["ray13", "trade"], arguments].concat()).unwrap();
+        let Some(Command::Trade(trade)) = arguments.command else { panic!("no trade") };
+        let studio = input::studio(input::read("die", &trade.scene.reading).unwrap()).unwrap();
+        let look = trade.picture.look(None);
+        let request = trade.picture.request(&studio, look, Wants::CELLS, Unsized::Screen).unwrap();
+        CommandLine::new(&trade, &request).unwrap()
+    }
+
+    #[test]
+    fn a_command_line_says_all_that_was_given() {
+        let given = [
+            "it's",
+            "--cells",
+            "20x10",
+            "--view",
+            "low",
+            "--eye",
+            "-1,2.5,3",
+            "--zoom",
+            "2",
+            "--palette",
+            "gray",
+            "--samples",
+            "3",
+            "--no-shadows",
+            "--glyphs",
+            "half",
+        ];
+        let line = line(&given);
+        assert!(line.is_own(&line.own));
+        let render = line.render(&line.own);
+        let rest = r"'it'\''s' --cells 20x10 --view low --eye -1,2.5,3 --zoom 2 --palette gray";
+        let own = "--samples 3 --no-shadows --glyphs half";
+        assert_eq!(render, format!("ray13 render {rest} {own}"));
+        assert_eq!(line.measure_with(64), format!("ray13 trade {rest} {own} --seconds 0 --rays 64 --with"));
+        assert_eq!(line.setting(own).unwrap(), line.own);
+        assert_eq!(line.setting("").unwrap(), line.bare);
+        assert!(line.setting("--sample 3").is_err() && line.setting("--depth -1").is_err());
+        assert_eq!(line.options(&line.bare), "");
+    }
+
+    #[test]
+    fn a_preset_is_named_and_not_written_out() {
+        let line = line(&["die", "--preset", "pcat", "--shadows"]);
+        assert_eq!(line.render(&line.own), "ray13 render die --preset pcat --shadows");
+    }
+}

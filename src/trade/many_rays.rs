@@ -1,0 +1,98 @@
+//! The mean light of many rays a dot, which the exact engine answers for.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use crate::frame::{Frame, Request, Studio};
+use crate::glyph::{self, Cell, Palette};
+use crate::math::{DVec3, Grid};
+use crate::plan::EngineChoice;
+
+/// So many rays a dot are traced by the exact engine in any case, beside the fast one in double precision,
+/// which is to find the same bits. Where it does, it traces the rest; where it does not, the exact one does.
+pub(super) const CHECKED_RAYS: u32 = 4;
+
+/// The mean light of some rays through each dot.
+#[derive(Clone, Debug)]
+pub(super) struct MeanLight {
+    /// Linear, a gray.
+    pub light: Arc<Grid<f64>>,
+    color: Option<Arc<Grid<DVec3>>>,
+}
+
+impl MeanLight {
+    fn of(frame: Frame) -> Self {
+        Self { light: frame.light, color: frame.color }
+    }
+
+    /// The mean of both, which are of as many rays.
+    pub fn with(&self, other: &Self) -> Self {
+        let light = means(self.light.values(), other.light.values(), f64::midpoint);
+        let color = self.color.as_ref().zip(other.color.as_ref());
+        Self {
+            light: Arc::new(Grid::from_values(self.light.size(), light)),
+            color: color.map(|(own, other)| {
+                let color = means(own.values(), other.values(), |a, b| 0.5 * (a + b));
+                Arc::new(Grid::from_values(own.size(), color))
+            }),
+        }
+    }
+
+    /// Its characters, as a request wants them.
+    pub fn composed(&self, request: &Request) -> Grid<Cell> {
+        match (&self.color, request.palette) {
+            (Some(color), Palette::Color(depth)) => {
+                glyph::compose_color(color, request.glyphs, depth, request.tone)
+            }
+            _ => glyph::compose(&self.light, request.glyphs, request.palette, request.tone),
+        }
+    }
+}
+
+fn means<T: Copy>(own: &[T], other: &[T], mean: impl Fn(T, T) -> T) -> Vec<T> {
+    own.iter().zip(other).map(|(own, other)| mean(*own, *other)).collect()
+}
+
+/// The rays of the sampling sequence through each dot of a picture, one after the other.
+pub(super) struct ManyRays<'a> {
+    studio: &'a Studio,
+    /// By the exact engine.
+    request: Request,
+    /// Whether the fast engine found the same bits until now.
+    agrees: bool,
+    /// Whether that is known already, and no ray need be traced by both.
+    is_checked: bool,
+}
+
+impl<'a> ManyRays<'a> {
+    /// Of a picture that the exact engine draws.
+    pub const fn new(studio: &'a Studio, request: Request) -> Self {
+        Self { studio, request, agrees: true, is_checked: false }
+    }
+
+    /// The same rays from another viewpoint or direction, by the engine that was found good.
+    pub const fn of(&self, request: Request) -> Self {
+        Self { studio: self.studio, request, agrees: self.agrees, is_checked: true }
+    }
+
+    /// Whether the fast engine found the bits of the exact one in all rays that both traced.
+    pub const fn agrees(&self) -> bool {
+        self.agrees
+    }
+
+    /// The mean of some points of the sequence.
+    pub fn mean(&mut self, rays: Range<u32>) -> MeanLight {
+        let mut fast = self.request.clone();
+        fast.options.engine = EngineChoice::Fast;
+        if self.agrees && (self.is_checked || rays.start >= CHECKED_RAYS) {
+            return MeanLight::of(self.studio.draw_samples(&fast, rays));
+        }
+        let exact = self.studio.draw_samples(&self.request, rays.clone());
+        if self.agrees && rays.end <= CHECKED_RAYS {
+            let fast = self.studio.draw_samples(&fast, rays);
+            let differ = |(a, b): (&f64, &f64)| a.to_bits() != b.to_bits();
+            self.agrees = !exact.light.values().iter().zip(fast.light.values()).any(differ);
+        }
+        MeanLight::of(exact)
+    }
+}

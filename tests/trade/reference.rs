@@ -1,0 +1,39 @@
+//! A reference knows how well it knows.
+
+use ray13::math::Size;
+use ray13::scene::embedded;
+use ray13::tone::lightness;
+use ray13::trade::LevelDifference;
+
+use super::{inside, picture, reference};
+
+/// What a reference claims holds against one of 16 times the rays, by as much as that one claims itself.
+#[test]
+fn the_claimed_error_holds() {
+    for scene in embedded() {
+        let studio = inside(scene.name);
+        let base = picture(&studio, Size::new(64, 40));
+        let [few, many] = [8, 128].map(|rays| reference(&studio, &base, rays));
+        assert_eq!((few.rays(), many.rays()), (8, 128));
+        let wrong = LevelDifference::between(few.levels(), many.levels()).unwrap();
+        let wrong = wrong.beyond(0) as f64 / wrong.all() as f64;
+        let [claimed, finer] = [few.error(), many.error()];
+        assert!(wrong <= claimed.wrong + finer.wrong, "{}: {wrong}, {claimed:?}, {finer:?}", scene.name);
+        let apart = |(a, b): (&f64, &f64)| (lightness(*a) - lightness(*b)) / (100.0 / 12.0);
+        let squares = few.light().values().iter().zip(many.light().values()).map(apart).map(|x| x * x);
+        let rms = (squares.sum::<f64>() / few.light().size().area() as f64).sqrt();
+        assert!(rms <= claimed.rms + finer.rms, "{}: {rms}, {claimed:?}, {finer:?}", scene.name);
+        assert!(finer.wrong < claimed.wrong / 2.0 && finer.rms < claimed.rms / 2.0, "{}", scene.name);
+    }
+}
+
+/// The exact engine answers for all rays, though it traces few: the fast one is held to its bits.
+#[test]
+fn the_fast_engine_is_trusted_while_it_finds_the_bits() {
+    let studio = inside("glass");
+    let base = picture(&studio, Size::new(32, 16));
+    let found = reference(&studio, &base, 16);
+    assert_eq!((found.rays(), found.exact_rays()), (16, 4));
+    let [two, three] = [2, 3].map(|rays| reference(&studio, &base, rays));
+    assert_eq!([two.exact_rays(), three.exact_rays(), three.rays()], [2, 4, 4]);
+}

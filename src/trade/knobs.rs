@@ -3,7 +3,7 @@
 
 use crate::frame::Request;
 use crate::glyph::GlyphMode;
-use crate::plan::{CUTOFF, EngineChoice, PrecisionChoice, Shading, StructureChoice};
+use crate::plan::{CUTOFF, ERROR, EngineChoice, PrecisionChoice, Shading, StructureChoice};
 
 use super::setting::{Setting, cells};
 
@@ -27,6 +27,9 @@ pub struct Knob {
 /// Rays per dot along each axis that are tried.
 const SAMPLES: [u32; 5] = [1, 2, 3, 4, 6];
 
+/// Errors of a dot, as shares of a level, that are tried with as many rays as each dot needs.
+const ERRORS: [f64; 4] = [4.0 * ERROR, 2.0 * ERROR, ERROR, 0.5 * ERROR];
+
 /// Generations of mirror and Snell rays that are tried.
 const DEPTHS: [u32; 6] = [0, 1, 2, 4, 8, 16];
 
@@ -38,7 +41,7 @@ const CUTOFFS: [f64; 4] = [10.0 * CUTOFF, 3.0 * CUTOFF, CUTOFF, 0.1 * CUTOFF];
 const GLYPHS: [GlyphMode; 4] = [GlyphMode::Blocks, GlyphMode::Quadrant, GlyphMode::Half, GlyphMode::Shade];
 
 /// All knobs.
-pub const KNOBS: [Knob; 10] = [
+pub const KNOBS: [Knob; 11] = [
     Knob {
         name: "engine",
         argument: |s| format!("--engine {}", s.options.engine.name()),
@@ -68,11 +71,27 @@ pub const KNOBS: [Knob; 10] = [
     Knob {
         name: "samples",
         argument: |s| format!("--samples {}", s.options.samples),
-        others: |s, _| with(s, SAMPLES.into_iter(), |s, samples| s.options.samples = samples),
-        set: |s, to| s.options.samples = to.options.samples,
+        others: |s, _| with(s, SAMPLES.into_iter(), take_samples),
+        set: |s, to| take_samples(s, to.options.samples),
         between: |a, b| {
             let [low, high] = ordered(a.options.samples, b.options.samples);
-            middle(low, high).map(|samples| changed(a, |s| s.options.samples = samples))
+            middle(low, high).map(|samples| changed(a, |s| take_samples(s, samples)))
+        },
+        ..WORD
+    },
+    Knob {
+        name: "error",
+        argument: |s| match (s.options.adaptive, s.options.samples) {
+            (Some(error), _) => format!("--aa adaptive --error {error}"),
+            (None, 1) => "--aa off".to_owned(),
+            (None, _) => "--aa fixed".to_owned(),
+        },
+        others: |s, _| with(s, ERRORS.map(Some).into_iter().chain([None]), take_error),
+        set: |s, to| take_error(s, to.options.adaptive),
+        between: |a, b| {
+            let middle = rounded((a.options.adaptive? * b.options.adaptive?).sqrt());
+            let is_new = ![a.options.adaptive, b.options.adaptive].contains(&Some(middle));
+            is_new.then(|| changed(a, |s| take_error(s, Some(middle))))
         },
         ..WORD
     },
@@ -162,6 +181,22 @@ pub const KNOBS: [Knob; 10] = [
         ..WORD
     },
 ];
+
+/// So many rays for each dot: then not as many as it needs.
+fn take_samples(setting: &mut Setting, samples: u32) {
+    setting.options.samples = samples;
+    if samples > 1 {
+        setting.options.adaptive = None;
+    }
+}
+
+/// As many rays as each dot needs, where there is an error: then not as many for each.
+fn take_error(setting: &mut Setting, error: Option<f64>) {
+    setting.options.adaptive = error;
+    if error.is_some() {
+        setting.options.samples = 1;
+    }
+}
 
 /// What a knob has that has words and no numbers, and gives the same picture or a worse one of the same.
 const WORD: Knob = Knob {

@@ -248,6 +248,7 @@ fn exact(options: &Options) -> Options {
         engine: EngineChoice::Exact,
         precision: PrecisionChoice::Double,
         samples: 1,
+        adaptive: None,
         ..*options
     }
 }

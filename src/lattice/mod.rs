@@ -19,7 +19,7 @@ mod sub;
 mod tree;
 
 pub use bvh::{BoundingSphere, BoxVisitor, Bvh8, BvhChild, Candidate, Node, ROOM, Stream, StreamRays, WIDE};
-pub use cells::{CellLine, CsgCells};
+pub use cells::{CellLine, CellsVisitor, CsgCells};
 pub use clip::{Outcode, entry};
 pub use frusta::{FRUSTA, FrustaHits, FrustumSoa};
 pub use frustum::{Frustum, FrustumHits, LONGEST_PATH};

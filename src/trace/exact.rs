@@ -2,11 +2,11 @@
 
 use std::ops::ControlFlow;
 
-use crate::lattice::{self, BoxVisitor, SLACK, Structure, slack};
+use crate::lattice::{self, BoxVisitor, CellsVisitor, SLACK, Structure, slack};
 use crate::math::{Bounds, DVec3, Mask, Number, Ray, Rays, Vector};
 use crate::solid::{
-    self, Assembly, Body, Crossing, Departure, LIMIT, TRange, first_of_expression, first_of_span,
-    first_of_surface,
+    self, Assembly, Body, Crossing, Departure, ExprView, LIMIT, TRange, WorldPrimitive, first_of_expression,
+    first_of_span, first_of_surface,
 };
 use crate::stage::{Meter, Probe, RayEvent, Stage};
 
@@ -144,18 +144,9 @@ impl<'a> Exact<'a> {
         let primitives = &self.assembly.primitives;
         if let Some(cells) = self.structure.cells(object) {
             meter.at(Stage::Cell);
-            let (mut visited, mut best) = (0, None::<Crossing>);
-            cells.walk(ray, to, &mut visited, |part, reach| {
-                let found = first_of_expression(ray, part, primitives, departure, reach, scratch, meter);
-                meter.at(Stage::Cell);
-                best = match (best, found) {
-                    (Some(a), Some(b)) if b.t >= a.t => Some(a),
-                    (one, other) => other.or(one),
-                };
-                best.map_or(to, |c| c.t.min(to))
-            });
-            meter.counts.cells_visited += visited;
-            return best;
+            let mut query = FirstInCells { ray, primitives, departure, to, best: None, scratch, meter };
+            cells.walk(ray, to, &mut query);
+            return query.best;
         }
         match self.structure.sub(object) {
             None => {
@@ -193,6 +184,34 @@ impl<'a> Exact<'a> {
         let goal = Nearest { slack: self.slack };
         ObjectVisitor { exact: self, ray, departure, goal, memory, meter }.walk(entry, f64::INFINITY);
         memory.chosen(ray)
+    }
+}
+
+/// The first crossing of a ray with the parts of an object in cells.
+struct FirstInCells<'a, P> {
+    ray: &'a Ray,
+    primitives: &'a [WorldPrimitive],
+    departure: Option<Departure>,
+    to: f64,
+    best: Option<Crossing>,
+    scratch: &'a mut solid::Scratch,
+    meter: &'a mut Meter<P>,
+}
+
+impl<P: Probe> CellsVisitor for FirstInCells<'_, P> {
+    fn enter(&mut self, from: f64) {
+        self.meter.enter_cell(from);
+    }
+
+    fn visit(&mut self, part: ExprView, reach: TRange) -> f64 {
+        let Self { ray, primitives, departure, scratch, meter, .. } = self;
+        let found = first_of_expression(ray, part, primitives, *departure, reach, scratch, meter);
+        meter.at(Stage::Cell);
+        self.best = match (self.best, found) {
+            (Some(a), Some(b)) if b.t >= a.t => Some(a),
+            (one, other) => other.or(one),
+        };
+        self.best.map_or(self.to, |c| c.t.min(self.to))
     }
 }
 

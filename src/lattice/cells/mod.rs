@@ -145,35 +145,34 @@ impl CsgCells {
         self.expressions.get(cell as usize)
     }
 
-    /// Calls `visit` with the expression in each cell on the way of a ray, and its part there, nearly in
-    /// order. `visit` returns how far the ray still matters.
-    pub fn walk(
-        &self,
-        ray: &Ray,
-        to: f64,
-        cells_visited: &mut u64,
-        visit: impl FnMut(ExprView, TRange) -> f64,
-    ) {
+    /// Leads a ray through its cells, nearly in order, as far as `to` and as the visitor says.
+    pub fn walk(&self, ray: &Ray, to: f64, visitor: &mut impl CellsVisitor) {
         let line = CellLine::new(&Rays::from(ray), f64::MAX);
-        let mut visitor = CellVisitor { cells: self, line, limit: to, cells_visited, visit };
-        self.boxes.walk(ray, 0.0, to, &mut visitor);
+        self.boxes.walk(ray, 0.0, to, &mut CellBoxes { cells: self, line, limit: to, visitor });
     }
 }
 
-/// Visits the expressions in the cells on the way of a ray.
-struct CellVisitor<'a, F> {
+/// What becomes of the cells that a ray meets.
+pub trait CellsVisitor {
+    /// Takes a node of cells that the ray comes into at `from`, or behind that.
+    fn enter(&mut self, from: f64);
+
+    /// Takes the expression in a cell, and the part of the ray there. Returns how far the ray still matters.
+    fn visit(&mut self, part: ExprView, reach: TRange) -> f64;
+}
+
+/// The boxes of cells on the way of a ray.
+struct CellBoxes<'a, V> {
     cells: &'a CsgCells,
     line: CellLine<f64>,
     /// How far the ray still matters.
     limit: f64,
-    /// Counts nodes.
-    cells_visited: &'a mut u64,
-    visit: F,
+    visitor: &'a mut V,
 }
 
-impl<F: FnMut(ExprView, TRange) -> f64> BoxVisitor<()> for CellVisitor<'_, F> {
-    fn enter(&mut self, _: f64) {
-        *self.cells_visited += 1;
+impl<V: CellsVisitor> BoxVisitor<()> for CellBoxes<'_, V> {
+    fn enter(&mut self, from: f64) {
+        self.visitor.enter(from);
     }
 
     #[inline(never)]
@@ -181,7 +180,7 @@ impl<F: FnMut(ExprView, TRange) -> f64> BoxVisitor<()> for CellVisitor<'_, F> {
         let (from, end) = self.line.range(self.cells.bounds(cell));
         if from <= end && from <= self.limit + SLACK {
             let reach = TRange { from: from - SLACK, to: end + SLACK };
-            self.limit = (self.visit)(self.cells.expression(cell), reach);
+            self.limit = self.visitor.visit(self.cells.expression(cell), reach);
         }
         ControlFlow::Continue(self.limit + SLACK)
     }
@@ -192,8 +191,25 @@ mod tests {
     use super::*;
     use crate::math::{DAffine3, DVec3};
     use crate::scene::{Material, MaterialId, Object, Primitive, Scene, Shape, Solid};
-    use crate::solid::{Body, Scratch, first_of_expression};
+    use crate::solid::{Body, Crossing, Scratch, first_of_expression};
     use crate::stage::{Meter, Silent};
+
+    /// Keeps the first crossing.
+    struct Nearest<F> {
+        first: F,
+        found: Option<Crossing>,
+    }
+
+    impl<F: FnMut(ExprView, TRange) -> Option<Crossing>> CellsVisitor for Nearest<F> {
+        fn enter(&mut self, _: f64) {}
+
+        fn visit(&mut self, part: ExprView, reach: TRange) -> f64 {
+            let crossing = (self.first)(part, reach);
+            let is_nearer = |one: &Crossing| self.found.is_none_or(|found| one.t < found.t);
+            self.found = crossing.filter(is_nearer).or(self.found);
+            self.found.map_or(f64::INFINITY, |found| found.t)
+        }
+    }
 
     /// A block from which these are cut.
     fn cut_from_block(shape: &Shape, maps: impl Iterator<Item = DAffine3>) -> Assembly {
@@ -266,16 +282,9 @@ mod tests {
                 first_of_expression(&ray, expression, primitives, None, reach, &mut scratch, &mut meter)
             };
             let expected = first(whole(&assembly).into(), TRange::ALL);
-            let (mut found, mut visited) = (None::<crate::solid::Crossing>, 0);
-            cells.walk(&ray, f64::INFINITY, &mut visited, |expression, reach| {
-                if let Some(crossing) = first(expression, reach)
-                    && found.is_none_or(|found| crossing.t < found.t)
-                {
-                    found = Some(crossing);
-                }
-                found.map_or(f64::INFINITY, |found| found.t)
-            });
-            assert_eq!(found, expected, "{ray:?}");
+            let mut nearest = Nearest { first, found: None };
+            cells.walk(&ray, f64::INFINITY, &mut nearest);
+            assert_eq!(nearest.found, expected, "{ray:?}");
         }
     }
 }

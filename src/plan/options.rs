@@ -1,8 +1,8 @@
 //! What the person asked for, beside the scene and the view.
 
 /// Generations of mirror and Snell rays where nothing is asked for. With 16 no dot of any view of the scenes
-/// inside is half a level off, with 12 some are nearly one, with 5 three (`docs/trade.md`): behind a tumbler of
-/// water there are that many surfaces. What is too faint to see is left to the cut-off.
+/// inside is half a level off, with 12 some are nearly one, with 5 three (`docs/trade.md`): behind a tumbler
+/// of water there are that many surfaces. What is too faint to see is left to the cut-off.
 pub const DEPTH: u32 = 16;
 
 /// The change of light that is too small to follow a ray for: half of the smallest step between two levels,

@@ -7,8 +7,8 @@ use super::measurement::Measurement;
 /// The settings, by their places in `all` and from the fastest, that no other beats: each that is faster has
 /// more wrong levels, by a share of more than `known`, that of the reference itself: less is not told apart.
 /// Of two that are equal in both the first is taken. What shows another picture on purpose is no answer, and
-/// left out; so is what is neither more accurate than the first of all, the request's own, nor faster than the
-/// middle half of its pictures: no reason to turn a knob.
+/// left out; so is what is neither more accurate than the first of all, the request's own, nor faster than
+/// the middle half of its pictures: no reason to turn a knob.
 pub fn front(all: &[Measurement], known: f64) -> Vec<usize> {
     let wrong = |place: usize| all[place].wrong();
     let is_answer = |place: usize| {
@@ -89,8 +89,8 @@ mod tests {
             .map(|(ms, wrong)| measured(ms, wrong))
             .into();
         assert_eq!(front(&all, 0.0), [1, 0, 3, 6]);
-        // What differs by 1 % is not told apart, nor by 4 %: then the first is no better than the fastest, and
-        // only the last better than both.
+        // What differs by 1 % is not told apart, nor by 4 %: then the first is no better than the fastest,
+        // and only the last better than both.
         assert_eq!(front(&all, 0.01), [1, 0, 3]);
         assert_eq!(front(&all, 0.045), [1, 6]);
         all.push(measured(0, 0));

@@ -234,8 +234,8 @@ impl Setting {
         KNOBS.iter().any(|knob| (knob.another_picture)(self, base))
     }
 
-    /// The settings that differ from this one by a single knob, which is that of the request: of each knob one,
-    /// then of each another, so that any first few of them tell of all.
+    /// The settings that differ from this one by a single knob, which is that of the request: of each knob
+    /// one, then of each another, so that any first few of them tell of all.
     pub fn alone(&self, base: &Request) -> Vec<Self> {
         let is_other = |other: &Self| other.is_possible() && other != self;
         let of_each = KNOBS.iter().map(|knob| (knob.others)(self, base).into_iter().filter(is_other));

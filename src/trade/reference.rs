@@ -53,8 +53,8 @@ pub struct ReferenceGoal {
 }
 
 /// How far the light of a reference is from the truth at most, as its two halves tell: were they independent,
-/// their mean would be off by half of what they differ. The points of the sampling sequence are spread so that
-/// each half fills the gaps of the other, and the mean of both is nearer to the truth than that.
+/// their mean would be off by half of what they differ. The points of the sampling sequence are spread so
+/// that each half fills the gaps of the other, and the mean of both is nearer to the truth than that.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReferenceError {
     /// The share of dots whose level is wrong, above 0 to 1: half of those that differ from half to half, and

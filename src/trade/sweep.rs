@@ -167,8 +167,8 @@ impl Sweep {
         self.all.len() - before
     }
 
-    /// Looks between the neighbours on the front until nothing new is found. What is on it is known by several
-    /// pictures of each.
+    /// Looks between the neighbours on the front until nothing new is found. What is on it is known by
+    /// several pictures of each.
     fn refine(&mut self, run: &Run, watch: &mut dyn FnMut(SweepStep)) {
         loop {
             for pictures in 2..=LEAST_PICTURES {

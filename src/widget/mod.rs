@@ -1,5 +1,5 @@
-//! ratatui widgets over a finished frame: the picture and the flow chart; and over what was measured, the plot
-//! of time against accuracy. They need a buffer, not a terminal.
+//! ratatui widgets over a finished frame: the picture and the flow chart; and over what was measured, the
+//! plot of time against accuracy. They need a buffer, not a terminal.
 //!
 //! ```
 //! use ratatui_core::{buffer::Buffer, layout::Rect, widgets::Widget};

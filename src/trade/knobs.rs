@@ -81,10 +81,9 @@ pub const KNOBS: [Knob; 11] = [
     },
     Knob {
         name: "error",
-        argument: |s| match (s.options.adaptive, s.options.samples) {
-            (Some(error), _) => format!("--aa adaptive --error {error}"),
-            (None, 1) => "--aa off".to_owned(),
-            (None, _) => "--aa fixed".to_owned(),
+        // As many rays for each dot are what `--samples` says alone.
+        argument: |s| {
+            s.options.adaptive.map_or("--aa off".to_owned(), |e| format!("--aa adaptive --error {e}"))
         },
         others: |s, _| with(s, ERRORS.map(Some).into_iter().chain([None]), take_error),
         set: |s, to| take_error(s, to.options.adaptive),

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::math::{DAffine3, DVec3};
+use crate::math::{Bounds, DAffine3, DVec3};
 use crate::scene::memory::{ASSEMBLED, ASSEMBLED_FACES, ASSEMBLED_TRIANGLE};
 use crate::scene::model::is_within_reach;
 use crate::scene::outline::{drop_repeated, has_area};
@@ -61,6 +61,10 @@ pub fn assemble(mut mesh: PolygonMesh, format: &'static str, up: UpAxis) -> Resu
     if mesh.faces() == 0 {
         return Err(MeshFault::Empty.of_all());
     }
+    let named = mesh.corners.iter().map(|&corner| mesh.points[corner as usize]);
+    if !is_within_reach(&Bounds::around(named)) {
+        return Err(MeshFault::TooFar.of_all());
+    }
     weld(&mut mesh);
     let mut clipper = EarClipper::default();
     let mut parts: Vec<Part> = groups(&mesh)
@@ -93,14 +97,6 @@ pub fn assemble(mut mesh: PolygonMesh, format: &'static str, up: UpAxis) -> Resu
     }
     if scene.objects.is_empty() {
         return Err(MeshFault::Flat.of_all());
-    }
-    let lies_within = |object: &Object| {
-        let mut within = true;
-        object.solid.visit(&mut |primitive| within &= is_within_reach(&primitive.shape.bounds()));
-        within
-    };
-    if !scene.objects.iter().all(lies_within) {
-        return Err(MeshFault::TooFar.of_all());
     }
     if flat > 0 {
         scene.notes.push(format!("faces without an area are left out ({flat} times)"));

@@ -56,7 +56,7 @@ fn meet(criterion: &mut Criterion, group: &str, name: &str, assembly: &Assembly)
         Body::Single(index) => first_of_span(ray, &primitives[*index as usize], *index, None, &mut meter),
         Body::Surface(index) => first_of_surface(ray, &primitives[*index as usize], *index, None, &mut meter),
         Body::Composite { whole, .. } => {
-            first_of_expression(ray, whole, primitives, None, TRange::ALL, &mut scratch, &mut meter)
+            first_of_expression(ray, &**whole, primitives, None, TRange::ALL, &mut scratch, &mut meter)
         }
     };
     let mut group = criterion.benchmark_group(group);

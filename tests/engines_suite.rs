@@ -16,6 +16,7 @@ mod engines {
     mod events;
     mod glass;
     mod lamps;
+    mod large_csg;
     mod random;
     mod range;
     mod scenes;

@@ -39,7 +39,9 @@ impl Studio {
             if let Some(built) = &built {
                 stage.why += &format!(": {built}");
                 let all = 0..self.assembly.objects.len() as u32;
-                stage.terms.push(sub_lattices(all.filter(|&o| structure.sub(o).is_some()).count()));
+                stage.terms.push(sub_lattices(
+                    all.filter(|&o| structure.sub(o).is_some() || structure.cells(o).is_some()).count(),
+                ));
             }
         }
         stages.push(StagePlan { cost: costs(Stage::Dither), ..levels(request) });

@@ -10,7 +10,8 @@ use std::sync::OnceLock;
 use crate::math::{Bounds, DVec3};
 use crate::solid::{Classification, ExprView, PrunedExpr, Pruning, WorldPrimitive};
 
-/// An expression of fewer primitives is pruned as it is.
+/// An object of so many primitives is cut into cells where these part; one of fewer by a lattice, and an
+/// expression of fewer is pruned as it is.
 pub const MANY: usize = 24;
 
 /// Levels below the whole: the cells of the last stand for a sixteenth of each axis.

@@ -7,6 +7,7 @@
 //! [`crate::solid::Assembly::primitives`].
 
 mod bvh;
+mod cells;
 mod clip;
 mod frusta;
 mod frustum;
@@ -18,6 +19,7 @@ mod sub;
 mod tree;
 
 pub use bvh::{BoundingSphere, BoxVisitor, Bvh8, BvhChild, Candidate, Node, ROOM, Stream, StreamRays, WIDE};
+pub use cells::{CellLine, CsgCells};
 pub use clip::{Outcode, entry};
 pub use frusta::{FRUSTA, FrustaHits, FrustumSoa};
 pub use frustum::{Frustum, FrustumHits, LONGEST_PATH};

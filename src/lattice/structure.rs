@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use crate::math::Ray;
 
-use super::{Bvh8, CellStep, Lattice, SubLattice, SubLattices, Tree};
+use super::{Bvh8, CellStep, CsgCells, Lattice, SubLattice, SubLattices, Tree};
 
 /// How the space of a picture is cut. Every structure leads to the same hits.
 #[derive(Clone, Copy, Debug)]
@@ -50,6 +50,15 @@ impl<'a> Structure<'a> {
         match self {
             Self::None => None,
             Self::Lattice(_, subs) | Self::Tree(_, subs) | Self::Boxes(_, subs) => subs.of(object),
+        }
+    }
+
+    /// The cells of an object of many primitives, where it is cut.
+    #[inline]
+    pub fn cells(&self, object: u32) -> Option<&'a CsgCells> {
+        match self {
+            Self::None => None,
+            Self::Lattice(_, subs) | Self::Tree(_, subs) | Self::Boxes(_, subs) => subs.cells(object),
         }
     }
 

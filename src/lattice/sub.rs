@@ -11,7 +11,8 @@ use crate::solid::{
 };
 use crate::stage::{Progress, Task};
 
-use super::loose_octree::{LooseOctree, MANY};
+use super::cells::CsgCells;
+use super::loose_octree::MANY;
 use super::planes::{CellStep, Planes, SLACK, slack};
 
 /// The most cells of one sub-lattice. Past it planes are left out, which costs tests but changes no hit: 64
@@ -32,8 +33,8 @@ const ALL_LEAVES: f64 = 4.0 * MOST_LEAVES;
 pub struct SubLattices {
     /// By object, up to the last that has one.
     cells: Vec<Option<SubLattice>>,
-    /// By object, up to the last that has one: for frustums, of those with many primitives.
-    loose: Vec<Option<LooseOctree>>,
+    /// By object, up to the last that has some: of those with many primitives.
+    many: Vec<Option<CsgCells>>,
 }
 
 impl SubLattices {
@@ -49,20 +50,22 @@ impl SubLattices {
         let budget = Budget::shared(assembly.objects.iter().filter(composite).count());
         let of = |(number, object): (usize, &WorldObject)| match &object.body {
             Body::Single(_) | Body::Surface(_) => None,
+            Body::Composite { whole, .. } if whole.leaves.len() >= MANY => None,
             Body::Composite { whole, .. } => {
                 progress.reach(number as u64);
                 SubLattice::new(whole, &assembly.primitives, &object.bounds, budget)
             }
         };
-        let loose = |object: &WorldObject| match &object.body {
+        let many = |(number, object): (usize, &WorldObject)| match &object.body {
             Body::Composite { whole, .. } if whole.leaves.len() >= MANY => {
-                Some(LooseOctree::new(object.bounds))
+                progress.reach(number as u64);
+                Some(CsgCells::new(whole, assembly, &object.bounds, budget.leaves))
             }
             _ => None,
         };
         Self {
             cells: unless_none(assembly.objects.iter().enumerate().map(of)),
-            loose: unless_none(assembly.objects.iter().map(loose)),
+            many: unless_none(assembly.objects.iter().enumerate().map(many)),
         }
     }
 
@@ -72,10 +75,10 @@ impl SubLattices {
         self.cells.get(object as usize)?.as_ref()
     }
 
-    /// The loose cells of an object, where it has some.
+    /// The cells of an object of many primitives.
     #[inline]
-    pub fn loose(&self, object: u32) -> Option<&LooseOctree> {
-        self.loose.get(object as usize)?.as_ref()
+    pub fn cells(&self, object: u32) -> Option<&CsgCells> {
+        self.many.get(object as usize)?.as_ref()
     }
 }
 

@@ -104,6 +104,7 @@ impl Real for f32 {
     const EPSILON_RATIO: f64 = (Self::EPSILON as f64) / f64::EPSILON;
     const IS_DOUBLE: bool = false;
     const ZERO: Self = 0.0;
+    const GREATEST: f64 = Self::MAX as f64;
     const INFINITY: Self = Self::INFINITY;
 
     #[inline(always)]

@@ -28,6 +28,8 @@ pub trait Real: Copy + Debug + Default + Into<f64> + Send + Sync + 'static {
     const IS_DOUBLE: bool;
     /// 0.
     const ZERO: Self;
+    /// The greatest number.
+    const GREATEST: f64;
     /// What is beyond all numbers.
     const INFINITY: Self;
 
@@ -112,6 +114,7 @@ impl Real for f64 {
     const EPSILON_RATIO: f64 = 1.0;
     const IS_DOUBLE: bool = true;
     const ZERO: Self = 0.0;
+    const GREATEST: f64 = Self::MAX;
     const INFINITY: Self = Self::INFINITY;
 
     #[inline(always)]

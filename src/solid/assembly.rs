@@ -134,7 +134,7 @@ impl WorldObject {
         start: usize,
         primitives: &[WorldPrimitive],
     ) -> Option<Self> {
-        let tree = CsgTree::new(&object.solid, &mut (start as u32))?;
+        let tree = CsgTree::new(&object.solid, &mut (start as u32))?.simplified(primitives);
         let bounds = tree.bounds(primitives);
         let form = |index: u32| &primitives[index as usize].form;
         let body = match tree {

@@ -15,8 +15,8 @@ use std::ops::{Div, Mul};
 use crate::math::{Number, Ray, Rays};
 use crate::stage::{Meter, Probe, RayEvent, Stage};
 
-use super::expression::Expression;
 use super::primitive::{WorldPrimitive, WorldShape};
+use super::prune::ExprView;
 use super::span::{Departure, End, Ends, Spans};
 use super::state::State;
 
@@ -205,16 +205,16 @@ pub fn first_of_span(
 }
 
 /// The first crossing of an expression within `reach`.
-pub fn first_of_expression(
+pub fn first_of_expression<'e>(
     ray: &Ray,
-    expression: &Expression,
+    expression: impl Into<ExprView<'e>>,
     primitives: &[WorldPrimitive],
     departure: Option<Departure>,
     reach: TRange,
     scratch: &mut Scratch,
     meter: &mut Meter<impl Probe>,
 ) -> Option<Crossing> {
-    let Scratch { events, state } = scratch;
+    let (expression, Scratch { events, state }) = (expression.into(), scratch);
     meter.at(Stage::Solid);
     meter.counts.primitive_tests += expression.leaves.len() as u64;
     gather(ray, expression, primitives, departure, reach, events, meter);
@@ -308,7 +308,7 @@ fn tested(primitive: u32, crossings: impl Iterator<Item = f64>) -> RayEvent {
 /// Collects the crossings of every primitive of the expression that can matter within `reach`.
 fn gather(
     ray: &Ray,
-    expression: &Expression,
+    expression: ExprView,
     primitives: &[WorldPrimitive],
     departure: Option<Departure>,
     reach: TRange,

@@ -10,8 +10,8 @@ use fearless_simd::Simd;
 
 use crate::math::{Mask, Number, Real, RealIds, RealMask, SimdIds, SimdReal};
 
-use super::crossing::{PlaceError, TRange, have_one_slope, start_of};
-use super::csg_query::{CsgQuery, Departures, PacketCrossings};
+use super::crossing::{PlaceError, have_one_slope, start_of};
+use super::csg_query::{CsgQuery, Departures, PacketCrossings, PacketRange};
 use super::expression::Link;
 use super::primitive::WorldPrimitive;
 use super::prune::ExprView;
@@ -60,8 +60,13 @@ pub fn first_of_expressions<S: Simd, T: Real>(
     }
     let (mut some, mut uncertain) = (0, 0);
     scratch.places.clear();
+    scratch.known.make_room(leaves);
     for (leaf, place) in expression.leaves.iter().enumerate() {
-        let (place, [ahead, may]) = scratch.known.look(simd, asked, place.primitive, form(leaf));
+        let (place, [ahead, may]) = {
+            let near = asked.near.get(leaf).copied().unwrap_or(u64::MAX);
+            let asked = CsgQuery { wanted: wanted & near, ..*asked };
+            scratch.known.look(simd, &asked, place.primitive, form(leaf))
+        };
         scratch.places.push(place);
         some |= ahead;
         uncertain |= may;
@@ -177,7 +182,7 @@ fn next_place<S: Simd, T: Real>(
     open: u64,
     sides: &mut Leaves<T>,
     departures: Option<&Departures<T>>,
-    reach: TRange,
+    reach: &PacketRange<T>,
 ) -> [u64; 3] {
     let shift = row * T::LANES;
     let (infinite, zero) = (T::all(simd, f64::INFINITY), T::all(simd, 0.0));
@@ -202,7 +207,7 @@ fn next_place<S: Simd, T: Real>(
         departures.map(|d| d.place_error.load(simd, row)),
     );
     let open = T::mask_of(simd, open, row);
-    let ended = open & (t.is_equal(infinite) | t.is_above(T::all(simd, reach.to)));
+    let ended = open & (t.is_equal(infinite) | t.is_above(reach.to.load(simd, row)));
     let (asking, limit) = (open & !ended, t + error);
     // The first itself reaches back to its place; mostly no other does.
     let none = T::mask_of(simd, 0, row);
@@ -224,11 +229,11 @@ fn next_place<S: Simd, T: Real>(
     let all_before = if !T::IS_DOUBLE {
         let at_start = asking & t.magnitude().is_at_most(start);
         uncertain = T::bits_of(simd, more | at_start, row);
-        t.is_below(T::all(simd, reach.from))
+        t.is_below(reach.from.load(simd, row))
     } else if more.any() {
         one_place(simd, row, asking, sides, FirstEnds { t, error, place_error }, reach)
     } else {
-        t.is_below(T::all(simd, reach.from))
+        t.is_below(reach.from.load(simd, row))
     };
     let early = asking & (t.is_at_most(start) | all_before);
     [T::bits_of(simd, ended, row), T::bits_of(simd, early, row), uncertain]
@@ -252,7 +257,7 @@ fn one_place<S: Simd, T: Real>(
     asking: RealMask<T, S>,
     sides: &mut Leaves<T>,
     first: FirstEnds<T::SimdReal<S>>,
-    reach: TRange,
+    reach: &PacketRange<T>,
 ) -> RealMask<T, S> {
     let FirstEnds { t, error, place_error } = first;
     let shift = row * T::LANES;
@@ -281,7 +286,7 @@ fn one_place<S: Simd, T: Real>(
             let now = T::mask_of(simd, side.crossing, row)
                 & their_t.is_below(end)
                 & (have_one_slope(place_error / error, own / their_error) | exact);
-            all_before = all_before & (!now | their_t.is_below(T::all(simd, reach.from)));
+            all_before = all_before & (!now | their_t.is_below(reach.from.load(simd, row)));
             side.crossing = side.crossing & !(T::REGISTER_BITS << shift) | now.bits() << shift;
         }
     }

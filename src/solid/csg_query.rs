@@ -17,7 +17,30 @@ pub struct CsgQuery<'a, T> {
     /// The surfaces that they leave; none for rays from the eye.
     pub departures: Option<&'a Departures<T>>,
     /// The part of each.
-    pub reach: TRange,
+    pub reach: &'a PacketRange<T>,
+    /// By leaf of the expression: which of them may be in it within their parts, as far as that is known;
+    /// all where there is nothing.
+    pub near: &'a [u64],
+}
+
+/// The part of each ray of a packet that is asked for, as [`TRange`].
+#[derive(Clone, Debug)]
+pub struct PacketRange<T> {
+    /// Crossings before this are passed over.
+    pub from: Lanes<T>,
+    /// Crossings behind this are not looked for.
+    pub to: Lanes<T>,
+}
+
+impl<T: Real> PacketRange<T> {
+    /// Nothing of any ray.
+    pub const NONE: Self = Self { from: Lanes::filled(T::INFINITY), to: Lanes::filled(T::ZERO) };
+
+    /// The same part of all rays.
+    #[inline(always)]
+    pub fn fill(&mut self, TRange { from, to }: TRange) {
+        (self.from, self.to) = (Lanes::filled(T::nearest(from)), Lanes::filled(T::nearest(to)));
+    }
 }
 
 /// The surfaces that the rays of a packet start on: [`super::Departure`] of each.

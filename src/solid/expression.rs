@@ -70,7 +70,7 @@ impl CsgTree {
 
     /// What `leaf` makes of the primitives, put together by `join` at each operator, from the innermost
     /// outwards. Does not recurse, as [`Solid::fold`].
-    fn fold_up<T>(&self, leaf: impl Fn(u32) -> T, join: impl Fn(&Self, Drain<'_, T>) -> T) -> T {
+    pub(super) fn fold_up<T>(&self, leaf: impl Fn(u32) -> T, join: impl Fn(&Self, Drain<'_, T>) -> T) -> T {
         let children = match self {
             Self::Leaf(index) => return leaf(*index),
             Self::Any(children) | Self::All(children) => children,
@@ -248,8 +248,8 @@ fn flatten(tree: &CsgTree) -> (Vec<Leaf>, Vec<Node>) {
     }
 }
 
-/// Counts the children of each operator that are true outside of all primitives.
-fn count_initial(leaves: &[Leaf], nodes: &mut [Node]) {
+/// Counts the children of each operator that are true outside of all primitives, onto an `initial` of 0.
+pub(super) fn count_initial(leaves: &[Leaf], nodes: &mut [Node]) {
     for leaf in leaves.iter().filter(|leaf| leaf.parent.node != Link::ROOT) {
         nodes[leaf.parent.node as usize].initial += u32::from(leaf.parent.negated);
     }

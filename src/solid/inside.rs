@@ -28,7 +28,7 @@ impl Assembly {
             Body::Composite { whole, .. } => {
                 let mut scratch = Scratch::default();
                 let primitives = &self.primitives;
-                first_of_expression(&ray, whole, primitives, None, TRange::ALL, &mut scratch, &mut meter)
+                first_of_expression(&ray, &**whole, primitives, None, TRange::ALL, &mut scratch, &mut meter)
             }
             // A surface has sides, but no inside.
             Body::Surface(_) => return false,

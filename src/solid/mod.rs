@@ -8,6 +8,7 @@ mod crossing;
 mod crossings;
 mod csg_query;
 mod expression;
+mod expressions;
 mod face;
 mod facets;
 mod hull;
@@ -20,6 +21,7 @@ mod prune;
 mod quadric;
 mod ray_batch;
 mod ray_shear;
+mod simplify;
 mod single;
 mod slabs;
 mod span;
@@ -40,8 +42,9 @@ pub use crossing::{
     Crossing, FirstCrossings, RayStarts, Scratch, TRange, first_of_expression, first_of_span, firsts_of_spans,
 };
 pub use crossings::{PacketScratch, first_of_expressions};
-pub use csg_query::{CsgQuery, Departures, PacketCrossings};
+pub use csg_query::{CsgQuery, Departures, PacketCrossings, PacketRange};
 pub use expression::{CsgTree, Expression, Leaf, Operand};
+pub use expressions::Expressions;
 pub use packet_shear::PacketShear;
 pub use primitive::{WorldPrimitive, WorldShape};
 pub use prune::{ExprView, PrunedExpr, Pruning};

@@ -124,9 +124,26 @@ impl ExprView<'_> {
         memory: &mut Pruning,
         remains: &mut PrunedExpr,
     ) -> Classification {
+        memory.leaves.clear();
+        let forms = self.leaves.iter().map(|leaf| &primitives[leaf.primitive as usize].form);
+        memory.leaves.extend(forms.map(|form| form.classify(b)));
+        self.folded(memory, remains)
+    }
+
+    /// Takes out the primitives that are missed, which a bit for each says, the first the lowest, of up to
+    /// 64; as [`ExprView::pruned`].
+    pub fn without(self, missed: u64, memory: &mut Pruning, remains: &mut PrunedExpr) -> Classification {
+        let classification = |leaf: usize| {
+            if leaf < 64 && missed >> leaf & 1 == 1 { Classification::Outside } else { Classification::Mixed }
+        };
+        memory.leaves.clear();
+        memory.leaves.extend((0..self.leaves.len()).map(classification));
+        self.folded(memory, remains)
+    }
+
+    /// Folds the constants that primitives are replaced by.
+    fn folded(self, memory: &mut Pruning, remains: &mut PrunedExpr) -> Classification {
         let Pruning { leaves, children, parents } = memory;
-        leaves.clear();
-        leaves.extend(self.leaves.iter().map(|leaf| primitives[leaf.primitive as usize].form.classify(b)));
         remains.leaves.clear();
         remains.nodes.clear();
         if self.nodes.is_empty() {

@@ -23,7 +23,6 @@ pub(super) fn decide_single<S: Simd, T: Real>(
 ) {
     let CsgQuery { departures, reach, .. } = *asked;
     let (infinite, zero) = (T::all(simd, f64::INFINITY), T::all(simd, 0.0));
-    let (from, to) = (T::all(simd, reach.from), T::all(simd, reach.to));
     let primitive = RealIds::<T, S>::all(simd, primitive);
     let mut inward = 0;
     for register in 0..T::REGISTERS {
@@ -31,6 +30,7 @@ pub(super) fn decide_single<S: Simd, T: Real>(
         if !T::has_any(open, register) {
             continue;
         }
+        let (from, to) = (reach.from.load(simd, register), reach.to.load(simd, register));
         let (enter, leave) = (known.enter.load(simd, register), known.leave.load(simd, register));
         let mut open = T::mask_of(simd, open, register) & !enter.t.is_above(to);
         let one_place = open & (leave.t - leave.error).is_at_most(enter.t + enter.error);

@@ -5,8 +5,7 @@ use fearless_simd::Simd;
 
 use crate::math::{Lanes, Mask, Number, RayPacket, Rays, Real};
 
-use super::crossing::TRange;
-use super::csg_query::CsgQuery;
+use super::csg_query::{CsgQuery, PacketRange};
 use super::primitive::WorldShape;
 use super::span::{Ends, Spans};
 
@@ -31,6 +30,9 @@ macro_rules! with_spans {
 }
 pub(crate) use with_spans;
 
+/// So many spans are kept at most.
+const MANY: usize = 64;
+
 /// One end of the spans in one primitive.
 #[derive(Clone, Debug)]
 pub(super) struct SpanEnds<T> {
@@ -46,7 +48,8 @@ pub(super) struct SpanEnds<T> {
 /// The spans in one primitive.
 #[derive(Clone, Debug)]
 pub(super) struct CachedSpans<T> {
-    primitive: u32,
+    /// The rays that they are known of, whole rows.
+    known: u64,
     /// How far its crossings may be off: [`WorldShape::place_error`]; and the share of that which is our own
     /// rounding.
     pub place_error: f64,
@@ -80,7 +83,7 @@ impl<T: Real> SpanEnds<T> {
 
 impl<T: Real> CachedSpans<T> {
     const NONE: Self = Self {
-        primitive: 0,
+        known: 0,
         place_error: 0.0,
         rounding_share: 0.0,
         any: 0,
@@ -104,14 +107,14 @@ impl<T: Real> CachedSpans<T> {
     /// Looks ahead at the spans of some rays that can matter within `reach`. Far outside it only the state
     /// inside it matters: none for a span that ends before it or starts behind it.
     #[inline(always)]
-    fn look<S: Simd>(&mut self, simd: S, wanted: u64, reach: TRange) -> u64 {
+    fn look<S: Simd>(&mut self, simd: S, wanted: u64, reach: &PacketRange<T>) -> u64 {
         let mut ahead = 0;
         let rays = wanted & self.any;
-        let (from, to) = (T::all(simd, reach.from), T::all(simd, reach.to));
         for register in 0..T::REGISTERS {
             if !T::has_any(rays, register) {
                 continue;
             }
+            let (from, to) = (reach.from.load(simd, register), reach.to.load(simd, register));
             let (leave, enter) = (self.leave.t.load(simd, register), self.enter.t.load(simd, register));
             let ends_before = (leave + self.leave.error.load(simd, register)).is_below(from);
             let starts_behind = (enter - self.enter.error.load(simd, register)).is_above(to);
@@ -129,23 +132,31 @@ impl<T: Real> CachedSpans<T> {
 pub(super) struct SpanCache<T> {
     /// Those that are in use come first.
     spans: Vec<CachedSpans<T>>,
-    count: usize,
+    /// Of those in use: whose they are, each by its index.
+    primitives: Vec<u32>,
 }
 
 impl<T: Real> SpanCache<T> {
     /// Forgets all: another packet follows.
     pub fn clear(&mut self) {
-        self.count = 0;
+        self.primitives.clear();
     }
 
     /// All spans, by their places.
     pub fn spans(&mut self) -> &mut [CachedSpans<T>] {
-        &mut self.spans[..self.count]
+        &mut self.spans[..self.primitives.len()]
+    }
+
+    /// Makes room for so many more, where that takes forgetting all: more than a few dozen are seldom asked
+    /// about again, and each takes up to 3 KB.
+    pub fn make_room(&mut self, more: usize) {
+        if self.primitives.len() + more > MANY {
+            self.clear();
+        }
     }
 
     /// Looks ahead at the spans in a primitive, and gives their place, which rays have one that can matter,
-    /// and of which double precision is to say whether they have one. Until it is cleared no ray is wanted
-    /// that was not wanted before.
+    /// and of which double precision is to say whether they have one.
     pub fn look<S: Simd>(
         &mut self,
         simd: S,
@@ -153,22 +164,27 @@ impl<T: Real> SpanCache<T> {
         primitive: u32,
         form: &WorldShape,
     ) -> (u32, [u64; 2]) {
-        let CsgQuery { packet, wanted, departures, reach } = *asked;
-        let known = self.spans[..self.count].iter().position(|known| known.primitive == primitive);
+        let CsgQuery { packet, wanted, departures, reach, .. } = *asked;
+        // The last are the likeliest.
+        let known = self.primitives.iter().rposition(|&known| known == primitive);
         let place = known.unwrap_or_else(|| {
-            if self.count == self.spans.len() {
+            let place = self.primitives.len();
+            if place == self.spans.len() {
                 self.spans.push(CachedSpans::NONE);
             }
-            self.count += 1;
-            let known = &mut self.spans[self.count - 1];
-            (known.primitive, known.any, known.uncertain) = (primitive, 0, 0);
-            (known.place_error, known.rounding_share) =
+            self.primitives.push(primitive);
+            let new = &mut self.spans[place];
+            (new.known, new.any, new.uncertain) = (0, 0, 0);
+            (new.place_error, new.rounding_share) =
                 (form.place_error() * T::EPSILON_RATIO, form.rounding_share());
-            let (here, inward) = departures.map_or((0, 0), |d| d.here(simd, primitive));
-            with_spans!(simd, form, learn, packet, wanted, here, inward, known);
-            self.count - 1
+            place
         });
         let spans = &mut self.spans[place];
+        if wanted & !spans.known != 0 {
+            let (here, inward) = departures.map_or((0, 0), |d| d.here(simd, primitive));
+            let unknown = wanted & !spans.known;
+            with_spans!(simd, form, learn, packet, unknown, here, inward, spans);
+        }
         let ahead = simd.vectorize(
             #[inline(always)]
             || spans.look(simd, wanted, reach),
@@ -191,6 +207,7 @@ fn learn<S: Simd, T: Real>(
         if !T::has_any(wanted, register) {
             continue;
         }
+        known.known |= T::REGISTER_BITS << (register * T::LANES);
         let mut spans = spans(&packet.load(simd, register));
         let any = spans.any & !T::mask_of(simd, here & !inward, register);
         if !T::IS_DOUBLE {

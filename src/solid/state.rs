@@ -1,6 +1,7 @@
 //! The value of an expression at a place on a ray, kept up to date crossing by crossing.
 
-use super::expression::{Expression, Link};
+use super::expression::Link;
+use super::prune::ExprView;
 
 /// Which primitives a place is inside, and which operators are true there. Memory that is used again for
 /// every ray.
@@ -20,7 +21,7 @@ pub struct State {
 
 impl State {
     /// Goes to where no primitive is.
-    pub fn start(&mut self, expression: &Expression) {
+    pub fn start(&mut self, expression: ExprView) {
         fn all_false(list: &mut Vec<bool>, length: usize) {
             list.clear();
             list.resize(length, false);
@@ -36,14 +37,14 @@ impl State {
 
     /// Whether the place is inside the expression.
     #[inline]
-    pub fn value(&self, expression: &Expression) -> bool {
+    pub fn value(&self, expression: ExprView) -> bool {
         // An expression without operators is one primitive.
         expression.nodes.first().map_or_else(|| self.inside[0], |root| self.counts[0] >= root.threshold)
     }
 
     /// Crosses the surface of a leaf.
     #[inline]
-    pub fn toggle(&mut self, expression: &Expression, leaf: u32) {
+    pub fn toggle(&mut self, expression: ExprView, leaf: u32) {
         let mut now = !self.inside[leaf as usize];
         self.inside[leaf as usize] = now;
         self.flipped[leaf as usize] ^= true;
@@ -71,7 +72,7 @@ impl State {
 
     /// Whether a leaf is a reason of the root's change since the last [`State::settle`]: it and every
     /// operator above it must have changed, each in the direction in which its child pushed.
-    pub fn decides(&self, expression: &Expression, leaf: u32) -> bool {
+    pub fn decides(&self, expression: ExprView, leaf: u32) -> bool {
         if !self.flipped[leaf as usize] {
             return false;
         }

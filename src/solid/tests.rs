@@ -56,7 +56,7 @@ fn first(solid: &scene::Solid, o: [f64; 3], d: [f64; 3]) -> Option<(f64, u32, bo
         }
         Body::Composite { whole, .. } => first_of_expression(
             &ray,
-            whole,
+            &**whole,
             &assembly.primitives,
             None,
             TRange::ALL,

@@ -142,10 +142,25 @@ impl<'a> Exact<'a> {
         }
         let Body::Composite { whole, .. } = &self.assembly.objects[object as usize].body else { return None };
         let primitives = &self.assembly.primitives;
+        if let Some(cells) = self.structure.cells(object) {
+            meter.at(Stage::Cell);
+            let (mut visited, mut best) = (0, None::<Crossing>);
+            cells.walk(ray, to, &mut visited, |part, reach| {
+                let found = first_of_expression(ray, part, primitives, departure, reach, scratch, meter);
+                meter.at(Stage::Cell);
+                best = match (best, found) {
+                    (Some(a), Some(b)) if b.t >= a.t => Some(a),
+                    (one, other) => other.or(one),
+                };
+                best.map_or(to, |c| c.t.min(to))
+            });
+            meter.counts.cells_visited += visited;
+            return best;
+        }
         match self.structure.sub(object) {
             None => {
                 let reach = TRange { from: 0.0, to };
-                first_of_expression(ray, whole, primitives, departure, reach, scratch, meter)
+                first_of_expression(ray, &**whole, primitives, departure, reach, scratch, meter)
             }
             Some(sub) => {
                 meter.at(Stage::Cell);

@@ -16,7 +16,7 @@ mod walk;
 
 use fearless_simd::Level;
 
-use crate::math::DVec3;
+use crate::math::{Bounds, DVec3};
 use crate::solid::Assembly;
 
 use super::planes::slack;
@@ -47,6 +47,12 @@ impl Bvh8 {
             let reach = BuildPrimitive::new(&objects[object].bounds.padded(margin), object as u32);
             if BoundingSphere::is_in(&reach, assembly) { reach.round() } else { reach }
         })
+    }
+
+    /// Parts boxes, each an object by its place among them. They are padded by `margin`.
+    pub fn of_boxes(boxes: &[Bounds], margin: f64) -> Self {
+        let margin = DVec3::splat(margin);
+        Self::over(boxes.len(), |number| BuildPrimitive::new(&boxes[number].padded(margin), number as u32))
     }
 
     /// The hierarchy over the boxes of so many objects.

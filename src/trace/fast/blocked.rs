@@ -59,7 +59,7 @@ impl Fast<'_> {
         let whole = Frustum::towards(simd, &packets, lamp.at, &mut memory.frustums);
         memory.frusta.set(simd, &memory.frustums);
         memory.cullers.iter_mut().for_each(PacketCuller::forget);
-        memory.forget_sheared();
+        memory.forget_tile();
         let mut visitor =
             BlockedVisitor { fast: self, shadow_packets, departures, lamp, open, budget, given_up: 0 };
         walk_tile(simd, self.boxes, &whole, self.slack, &mut visitor, memory);

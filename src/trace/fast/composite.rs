@@ -21,6 +21,10 @@ const CUTS: u32 = 2;
 /// has cells.
 const HALVINGS: u32 = 6;
 
+/// Slices are given up where, for one packet, they are pruned from more primitives than this all together:
+/// an object that is cut into cells has those, which take as long as some ten slices.
+const MOST_WORK: usize = 512;
+
 /// The expression of a whole object, and its classifications by cells.
 pub(super) type Whole<'a> = (&'a LooseOctree, ExprView<'a>);
 
@@ -33,17 +37,22 @@ pub(super) struct CompositeTest<'a, S, T, H> {
     pub whole: Option<Whole<'a>>,
     /// The rays that have not met the object yet, a bit for each.
     pub open: u64,
+    /// How many primitives slices were pruned from; and where that became too many.
+    pub work: usize,
+    pub given_up: Option<f64>,
     pub sink: &'a mut H,
 }
 
 impl<S: Simd, T: Precision, H: HitSink<T>> CompositeTest<'_, S, T, H> {
-    /// Finds what the rays meet first between two distances.
-    pub fn trace(&mut self, expression: ExprView, from: f64, to: f64, memory: &mut TileMemory) {
+    /// Finds what the rays meet first between two distances. Answers up to where nothing is left to be
+    /// found: before the second where slices take too much work.
+    pub fn trace(&mut self, expression: ExprView, from: f64, to: f64, memory: &mut TileMemory) -> f64 {
         self.slice(expression, from, to, HALVINGS, memory);
+        self.given_up.unwrap_or(f64::INFINITY)
     }
 
     fn slice(&mut self, expression: ExprView, from: f64, to: f64, halvings: u32, memory: &mut TileMemory) {
-        if self.open == 0 || from > to {
+        if self.open == 0 || from > to || self.given_up.is_some() {
             return;
         }
         let primitives = &self.fast.assembly.primitives;
@@ -57,6 +66,13 @@ impl<S: Simd, T: Precision, H: HitSink<T>> CompositeTest<'_, S, T, H> {
             self.slice(expression, from, middle, halvings - 1, memory);
             self.slice(expression, middle, to, halvings - 1, memory);
             return;
+        }
+        if self.whole.is_some() {
+            self.work += expression.leaves.len();
+            if self.work > MOST_WORK {
+                self.given_up = Some(from);
+                return;
+            }
         }
         let mut pruned = memory.pruned.pop().unwrap_or_default();
         if expression.pruned(primitives, &b, &mut memory.pruning, &mut pruned) == Classification::Mixed {
@@ -98,8 +114,9 @@ impl<S: Simd, T: Precision, H: HitSink<T>> CompositeTest<'_, S, T, H> {
         memory.counts.primitive_tests += expression.leaves.len() as u64;
         memory.counts.csg_evaluations += 1;
         let PacketSource { rays: packet, departures, .. } = source;
-        let query = CsgQuery { packet, wanted, departures, reach };
-        let PrecisionScratch { csg, found, .. } = U::scratch(memory);
+        let PrecisionScratch { csg, found, reach: part, .. } = U::scratch(memory);
+        part.fill(reach);
+        let query = CsgQuery { packet, wanted, departures, reach: part, near: &[] };
         first_of_expressions(self.simd, &query, expression, &self.fast.assembly.primitives, csg, found);
         self.open &= !found.any;
         offer_crossings(self.simd, found, self.object, self.sink);

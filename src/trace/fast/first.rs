@@ -31,7 +31,7 @@ impl Fast<'_> {
         let slack = self.slack_of::<T>();
         let whole = sources.whole(simd);
         let are_made_late = matches!(sources, PacketSources::Primary { .. });
-        memory.forget_sheared();
+        memory.forget_tile();
         memory.far.clear();
         for (k, found) in traced.nearest.iter_mut().enumerate() {
             memory.far.push(if sources.is_blind(k) { f64::NEG_INFINITY } else { f64::INFINITY });

@@ -2,9 +2,10 @@
 
 use crate::lattice::{FRUSTA, Frustum, FrustumSoa};
 use crate::math::{RayPacket, Real};
-use crate::solid::{PacketCrossings, PacketScratch, PacketShear, PrunedExpr, Pruning};
+use crate::solid::{PacketCrossings, PacketRange, PacketScratch, PacketShear, PrunedExpr, Pruning};
 use crate::stage::Counts;
 
+use super::cell_rays::{CellItem, CellRays};
 use super::incoherent::IncoherentRays;
 use super::packet_culler::PacketCuller;
 use super::packet_hits::PacketHits;
@@ -28,6 +29,12 @@ pub struct TileMemory {
     pub(super) stack: Vec<StackItem>,
     pub(super) doubles: PrecisionScratch<f64>,
     pub(super) singles: PrecisionScratch<f32>,
+    /// What is to be walked of an object's cells.
+    pub(super) cell_stack: Vec<CellItem>,
+    /// By leaf of an expression: the rays that may meet it.
+    pub(super) near: Vec<u64>,
+    /// The objects of the tile whose cells are walked at once, since slices took too much work.
+    pub(super) in_cells: Vec<u32>,
     /// What rays meet of one object.
     pub(super) met: Box<PacketHits>,
     pub(super) pruning: Pruning,
@@ -59,6 +66,11 @@ impl StackItem {
 pub(super) struct PrecisionScratch<T> {
     pub csg: PacketScratch<T>,
     pub found: Box<PacketCrossings<T>>,
+    pub cells: CellRays<T>,
+    /// What is met first in the cells of one object: for the one that is asked about.
+    pub of_object: Vec<PacketHits<T>>,
+    /// The part of each ray that is asked for.
+    pub reach: Box<PacketRange<T>>,
     /// By packet: its rays, and what they met, where those of the tile are in another precision.
     pub rays: Vec<RayPacket<T>>,
     pub nearest: Vec<PacketHits<T>>,
@@ -69,6 +81,9 @@ impl<T: Real> Default for PrecisionScratch<T> {
         Self {
             csg: PacketScratch::default(),
             found: Box::new(PacketCrossings::NONE),
+            cells: CellRays::default(),
+            of_object: Vec::new(),
+            reach: Box::new(PacketRange::NONE),
             rays: Vec::new(),
             nearest: Vec::new(),
         }
@@ -81,8 +96,9 @@ impl TileMemory {
         &mut self.counts
     }
 
-    /// Forgets the planes across the rays of the last tile.
-    pub(super) fn forget_sheared(&mut self) {
+    /// Forgets the planes across the rays of the last tile, and which objects were walked by cells.
+    pub(super) fn forget_tile(&mut self) {
+        self.in_cells.clear();
         self.sheared.iter_mut().for_each(PacketShear::forget);
     }
 }
@@ -100,6 +116,9 @@ impl Default for TileMemory {
             stack: Vec::new(),
             doubles: PrecisionScratch::default(),
             singles: PrecisionScratch::default(),
+            cell_stack: Vec::new(),
+            near: Vec::new(),
+            in_cells: Vec::new(),
             met: Box::default(),
             pruning: Pruning::default(),
             pruned: Vec::new(),

@@ -7,6 +7,8 @@
 //! convex, that ray is left to the exact engine.
 
 mod blocked;
+mod cell_rays;
+mod cells;
 mod composite;
 mod first;
 mod glass;

@@ -9,6 +9,7 @@ use crate::solid::{
 };
 
 use super::Fast;
+use super::cells::CellsTest;
 use super::composite::CompositeTest;
 use super::memory::TileMemory;
 use super::packet_culler::{PacketCuller, Slabs};
@@ -93,14 +94,47 @@ impl Fast<'_> {
                 found.any != 0
             }
             Body::Composite { whole, .. } => {
-                let slack = self.slack_of::<T>();
-                let (from, to) = box_range(simd, &memory.cullers[k], &own.bounds, slack, passing);
-                T::scratch(memory).csg.start();
-                let expression = ExprView::from(&**whole);
-                let loose = self.subs.loose(object).map(|loose| (loose, expression));
-                let mut composite =
-                    CompositeTest { fast: self, simd, source, object, whole: loose, open: passing, sink };
-                composite.trace(expression, from, to.min(test.farthest), memory);
+                let cells = self.subs.cells(object);
+                let (mut open, mut start) = (passing, 0.0);
+                if cells.is_none() || !memory.in_cells.contains(&object) {
+                    let slack = self.slack_of::<T>();
+                    let (from, to) = box_range(simd, &memory.cullers[k], &own.bounds, slack, passing);
+                    T::scratch(memory).csg.start();
+                    let expression = ExprView::from(&**whole);
+                    let loose = cells.map(|cells| (cells.loose(), expression));
+                    let mut composite = CompositeTest {
+                        fast: self,
+                        simd,
+                        source,
+                        object,
+                        whole: loose,
+                        open,
+                        work: 0,
+                        given_up: None,
+                        sink,
+                    };
+                    start = composite.trace(expression, from, to.min(test.farthest), memory);
+                    open = composite.open;
+                }
+                if let Some(cells) = cells.filter(|_| start < f64::INFINITY) {
+                    if !memory.in_cells.contains(&object) {
+                        memory.in_cells.push(object);
+                    }
+                    let farthest = test.farthest;
+                    let mut test = CellsTest {
+                        fast: self,
+                        simd,
+                        source,
+                        object,
+                        cells,
+                        k,
+                        start,
+                        farthest,
+                        open,
+                        uncertain: 0,
+                    };
+                    test.trace(sink, memory);
+                }
                 true
             }
         }

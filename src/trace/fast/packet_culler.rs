@@ -7,7 +7,7 @@
 use fearless_simd::{Select, Simd, SimdBase, SimdMask, f32x16};
 
 use crate::lattice::{BoundingSphere, ROOM};
-use crate::math::{DVec3, PACKET, RayPacket};
+use crate::math::{DVec3, PACKET, RayPacket, lanes};
 use crate::solid::Bar;
 
 /// Rays in a register.
@@ -163,6 +163,27 @@ impl PacketCuller {
         for lane in 0..PACKET {
             // Rounded twice, by half an ulp.
             self.limit[lane] = limit(lane) as f32 * (1.0 + 2.0 * f32::EPSILON);
+        }
+    }
+
+    /// The limits, to be restored.
+    #[inline]
+    pub fn limits(&self) -> [f32; PACKET] {
+        self.limit
+    }
+
+    /// Sets the limits to those that were.
+    #[inline]
+    pub fn restore(&mut self, limits: [f32; PACKET]) {
+        self.limit = limits;
+    }
+
+    /// Sets nearer limits for some lanes, as [`PacketCuller::limit`]; those that are nearer stay.
+    #[inline]
+    pub fn shorten(&mut self, some: u64, limit: impl Fn(usize) -> f64) {
+        for lane in lanes(some) {
+            let shorter = limit(lane) as f32 * (1.0 + 2.0 * f32::EPSILON);
+            self.limit[lane] = if shorter < self.limit[lane] { shorter } else { self.limit[lane] };
         }
     }
 

@@ -76,10 +76,10 @@ impl<U: Real> Found<'_, U> {
     }
 }
 
-/// Offers what some rays met first of one object, in double precision.
-pub(super) fn offer_hits<S: Simd, T: Real>(
+/// Offers what some rays met first of one object.
+pub(super) fn offer_hits<S: Simd, T: Real, U: Real>(
     simd: S,
-    hits: &PacketHits,
+    hits: &PacketHits<U>,
     rays: u64,
     object: u32,
     sink: &mut impl HitSink<T>,

@@ -163,7 +163,7 @@ impl Fast<'_> {
 
     /// Whether a ray leaves a mesh, which has many faces: a packet does not say which.
     #[inline]
-    fn leaves_mesh(&self, departures: &Departures, lane: usize) -> bool {
+    pub(super) fn leaves_mesh(&self, departures: &Departures, lane: usize) -> bool {
         let primitive = departures.primitive.0[lane];
         primitive != Departures::NOWHERE
             && matches!(self.assembly.primitives[primitive as usize].form, WorldShape::Mesh(_))

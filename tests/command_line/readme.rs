@@ -7,8 +7,7 @@ use std::process::{Command, Output, Stdio};
 const README: &str = include_str!("../../README.md");
 
 /// A mesh of one triangle.
-const TRIANGLE: &str =
-    "solid a\nfacet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\nendsolid a\n";
+const TRIANGLE: &str = "solid a\nfacet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\nendsolid a\n";
 
 /// The contents of the fenced blocks of one language.
 fn blocks(language: &str) -> Vec<String> {

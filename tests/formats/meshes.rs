@@ -76,12 +76,12 @@ fn check_says_what_a_mesh_is() {
     let said = ray13(&["check"], &path);
     let expected = format!(
         "{}: 1 object, 1 primitive, 1 material, 0 lights, 0 views\n\
-         STL, z up: 12 triangles, 8 corners, closed, 1 shell, volume 9, area 27, size 2 x 1.5 x 3\n",
+         binary STL, z up: 12 triangles, 8 corners, closed, 1 shell, volume 9, area 27, size 2 x 1.5 x 3\n",
         path.display()
     );
     assert_eq!((text(&said.stdout), text(&said.stderr)), (expected, String::new()));
     let up = ray13(&["check", "--up", "y"], &path);
-    assert!(text(&up.stdout).contains("STL, y up"), "{}", text(&up.stdout));
+    assert!(text(&up.stdout).contains("binary STL, y up"), "{}", text(&up.stdout));
 }
 
 #[test]

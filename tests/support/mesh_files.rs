@@ -4,7 +4,7 @@
 #[derive(Clone, Debug)]
 pub struct MeshText {
     pub points: Vec<[f32; 3]>,
-    pub faces: Vec<Vec<usize>>,
+    pub faces: Vec<Vec<u32>>,
 }
 
 impl MeshText {
@@ -22,8 +22,9 @@ impl MeshText {
 
     /// The faces cut into triangles, which their first corners are common to.
     fn triangles(&self) -> Vec<[[f32; 3]; 3]> {
-        let fan = |face: &Vec<usize>| {
-            let triangle = |i: usize| [face[0], face[i], face[i + 1]].map(|corner| self.points[corner]);
+        let fan = |face: &Vec<u32>| {
+            let triangle =
+                |i: usize| [face[0], face[i], face[i + 1]].map(|corner| self.points[corner as usize]);
             (1..face.len() - 1).map(triangle).collect::<Vec<_>>()
         };
         self.faces.iter().flat_map(fan).collect()
@@ -95,7 +96,7 @@ impl MeshText {
         }
         for face in &self.faces {
             bytes.push(face.len() as u8);
-            bytes.extend(face.iter().flat_map(|&corner| (corner as i32).to_le_bytes()));
+            bytes.extend(face.iter().flat_map(|&corner| corner.to_le_bytes()));
         }
         bytes
     }
@@ -108,7 +109,7 @@ impl MeshText {
         }
         for face in &self.faces {
             bytes.extend((face.len() as u16).to_be_bytes());
-            bytes.extend(face.iter().flat_map(|&corner| (corner as i32).to_be_bytes()));
+            bytes.extend(face.iter().flat_map(|&corner| corner.to_be_bytes()));
         }
         bytes
     }
@@ -120,9 +121,10 @@ impl MeshText {
             text += &format!("v {x} {y} {z}\n");
         }
         text += "vn 0 0 1\n";
+        let count = i64::try_from(self.points.len()).unwrap();
         for (number, face) in self.faces.iter().enumerate() {
-            let corner = |&corner: &usize| match number {
-                0 => format!("{}", corner as i64 - self.points.len() as i64),
+            let corner = |&corner: &u32| match number {
+                0 => format!("{}", i64::from(corner) - count),
                 _ => format!("{}//1", corner + 1),
             };
             text += &format!("f {}\n", words(face.iter().map(corner)));

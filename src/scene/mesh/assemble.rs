@@ -56,8 +56,8 @@ impl Part {
     }
 }
 
-/// Makes a scene of polygons. `format` is what people call the file's.
-pub fn assemble(mut mesh: PolygonMesh, format: &'static str, up: UpAxis) -> Result<Scene, MeshError> {
+/// Makes a scene of polygons.
+pub fn assemble(mut mesh: PolygonMesh, up: UpAxis) -> Result<Scene, MeshError> {
     if mesh.faces() == 0 {
         return Err(MeshFault::Empty.of_all());
     }
@@ -92,7 +92,13 @@ pub fn assemble(mut mesh: PolygonMesh, format: &'static str, up: UpAxis) -> Resu
             flat += surfaces(&mesh, part, up, &mut scene.objects);
         }
         if scene.objects.len() > objects {
-            scene.meshes.push(MeshFacts { format, up, name: part.name.clone(), is_solid, ..facts });
+            scene.meshes.push(MeshFacts {
+                format: mesh.format,
+                up,
+                name: part.name.clone(),
+                is_solid,
+                ..facts
+            });
         }
     }
     if scene.objects.is_empty() {
@@ -129,18 +135,24 @@ fn shown_as_surfaces(meshes: &[MeshFacts]) -> Option<String> {
     Some(format!("{part} {why}; it is shown as a surface{more}"))
 }
 
-/// Makes equal points one: corners name the first of them.
+/// Makes equal points one, numbered in the order in which the file has them.
 fn weld(mesh: &mut PolygonMesh) {
-    let mut first = HashMap::with_capacity(mesh.points.len());
+    let mut numbers = HashMap::with_capacity(mesh.points.len());
+    let mut points = Vec::new();
     let places: Vec<u32> = mesh
         .points
         .iter()
-        .enumerate()
-        .map(|(index, point)| *first.entry(point.to_array().map(f64::to_bits)).or_insert(index as u32))
+        .map(|point| {
+            *numbers.entry(point.to_array().map(f64::to_bits)).or_insert_with(|| {
+                points.push(*point);
+                points.len() as u32 - 1
+            })
+        })
         .collect();
     for corner in &mut mesh.corners {
         *corner = places[*corner as usize];
     }
+    mesh.points = points;
 }
 
 /// All runs that have polygons, with the polygons that they have.

@@ -119,7 +119,7 @@ impl fmt::Display for MeshFacts {
         write!(f, ", {} shell{}", self.shells, plural(self.shells))?;
         match self.volume {
             Some(volume) if volume < 0.0 => {
-                write!(f, ", volume {} (its faces look inwards)", figure(-volume))?
+                write!(f, ", volume {} (its faces look inwards)", figure(-volume))?;
             }
             Some(volume) => write!(f, ", volume {}", figure(volume))?,
             None if self.is_closed() => write!(f, ", no volume told (its faces look both ways)")?,

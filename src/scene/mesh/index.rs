@@ -39,7 +39,10 @@ impl Known {
     fn numbers(&self) -> String {
         match self.count {
             0 => "there are no corners before it".to_owned(),
-            count => format!("they are numbered from {} to {}", self.first, count as i64 - 1 + self.first),
+            count => {
+                let last = count - usize::from(self.first == 0);
+                format!("they are numbered from {} to {last}", self.first)
+            }
         }
     }
 }

@@ -61,5 +61,5 @@ pub(super) fn read(
         return Some(Err(Diagnostics::whole(name, too_little(limit, needed))));
     }
     let up = options.up.unwrap_or(if format == Format::Obj { UpAxis::Y } else { UpAxis::Z });
-    Some(assemble::assemble(polygons, format.name(), up).map_err(|error| error.told(name, bytes)))
+    Some(assemble::assemble(polygons, up).map_err(|error| error.told(name, bytes)))
 }

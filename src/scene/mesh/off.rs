@@ -51,7 +51,7 @@ pub fn read(bytes: &[u8]) -> Result<PolygonMesh, MeshError> {
         ),
         None => return Err(MeshFault::CutOff("the numbers of corners and faces".to_owned()).at(lines.end())),
     };
-    let mut mesh = PolygonMesh::default();
+    let mut mesh = PolygonMesh::of("OFF");
     // Counts are not trusted with memory: the file ends where it ends.
     for _ in 0..corners {
         let mut words = lines.expect("a corner")?;

@@ -8,6 +8,8 @@ use super::fault::MeshFault;
 /// Polygons that share corners.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PolygonMesh {
+    /// What people call the format, as in `binary STL`.
+    pub format: &'static str,
     /// The corners; finite.
     pub points: Vec<DVec3>,
     /// Indices into `points`, polygon after polygon.
@@ -39,6 +41,7 @@ impl Default for PolygonMesh {
     /// One group without a name, of the material of files without materials.
     fn default() -> Self {
         Self {
+            format: "",
             points: Vec::new(),
             corners: Vec::new(),
             ends: Vec::new(),
@@ -51,6 +54,11 @@ impl Default for PolygonMesh {
 }
 
 impl PolygonMesh {
+    /// A mesh without polygons so far, of a file of this format.
+    pub fn of(format: &'static str) -> Self {
+        Self { format, ..Self::default() }
+    }
+
     /// Takes a corner, whose coordinates are finite.
     pub fn add_point(&mut self, point: DVec3) {
         // Adding 0 makes −0 and 0 the same.

@@ -49,7 +49,7 @@ fn read_binary(bytes: &[u8]) -> Result<PolygonMesh, MeshError> {
     if room < count as usize {
         return Err(MeshFault::TooShort { announced: count, room }.at_byte(HEADER - 4, "the header"));
     }
-    let mut mesh = PolygonMesh::default();
+    let mut mesh = PolygonMesh::of("binary STL");
     // So many are there: the count is within the file's length.
     mesh.points.reserve_exact(3 * count as usize);
     mesh.corners.reserve_exact(3 * count as usize);
@@ -81,7 +81,7 @@ fn read_binary(bytes: &[u8]) -> Result<PolygonMesh, MeshError> {
 
 fn read_text(bytes: &[u8]) -> Result<PolygonMesh, MeshError> {
     let mut words = MeshWords::new(bytes, 0..bytes.len());
-    let mut mesh = PolygonMesh { groups: Vec::new(), ..PolygonMesh::default() };
+    let mut mesh = PolygonMesh { groups: Vec::new(), ..PolygonMesh::of("text STL") };
     while let Some(word) = words.next() {
         keyword(word, "solid")?;
         let name = words.rest_of_line();

@@ -74,7 +74,7 @@ pub fn is_obj(bytes: &[u8]) -> bool {
 /// Reads a file. Its materials are looked for in `folder`.
 pub fn read(bytes: &[u8], folder: Option<&Path>) -> Result<PolygonMesh, MeshError> {
     let mut reader =
-        Reader { mesh: PolygonMesh::default(), groups: Groups::default(), colors: Colors::default() };
+        Reader { mesh: PolygonMesh::of("OBJ"), groups: Groups::default(), colors: Colors::default() };
     for mut words in MeshLines::continued(bytes) {
         if let Some(word) = words.next() {
             reader.statement(word, &mut words, folder)?;

@@ -10,7 +10,7 @@ use super::index::Known;
 use super::polygons::PolygonMesh;
 
 pub use header::is_ply;
-use header::{Element, Property};
+use header::{Element, Encoding, Property};
 use values::PlyValues;
 
 /// The names that a list of a face's corners goes by.
@@ -25,7 +25,8 @@ pub fn read(bytes: &[u8]) -> Result<PolygonMesh, MeshError> {
     // off.
     let count = vertices.map_or(0, |element| usize::try_from(element.count).unwrap_or(usize::MAX));
     let known = Known::from_zero(count.min(u32::MAX as usize));
-    let mut mesh = PolygonMesh::default();
+    let format = if header.encoding == Encoding::Ascii { "text PLY" } else { "binary PLY" };
+    let mut mesh = PolygonMesh::of(format);
     for element in &header.elements {
         // What has no values takes no bytes, however many of it there are.
         if element.properties.is_empty() {

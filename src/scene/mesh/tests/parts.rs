@@ -28,7 +28,8 @@ fn an_open_mesh_is_surfaces_and_names_an_edge() {
 #[test]
 fn a_closed_mesh_says_what_it_encloses() {
     let brick = MeshText::brick();
-    let expected = "STL, z up: 12 triangles, 8 corners, closed, 1 shell, volume 9, area 27, size 2 x 1.5 x 3";
+    let expected =
+        "binary STL, z up: 12 triangles, 8 corners, closed, 1 shell, volume 9, area 27, size 2 x 1.5 x 3";
     assert_eq!(facts("a.stl", &brick.stl_binary(b"")).to_string(), expected);
     let mut inverted = brick.clone();
     inverted.faces.iter_mut().for_each(|face| face.reverse());
@@ -56,7 +57,9 @@ fn equal_corners_are_one_at_any_scale() {
         let mut text = String::new();
         let points = [[0.0, 0.0, -0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         for triangle in [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]] {
-            triangle.iter().for_each(|&i: &usize| text += &corner(points[i][0], points[i][1], points[i][2]));
+            for [x, y, z] in triangle.map(|i: usize| points[i]) {
+                text += &corner(x, y, z);
+            }
             text += "f -3 -2 -1\n";
         }
         let tetrahedron = facts("a.obj", text.as_bytes());
@@ -70,7 +73,9 @@ fn concave_faces_are_cut_within_their_outline() {
     let outline = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]];
     let mut text = "OFF 12 8 0\n".to_owned();
     for z in [0, 1] {
-        outline.iter().for_each(|[x, y]| text += &format!("{x} {y} {z}\n"));
+        for [x, y] in outline {
+            text += &format!("{x} {y} {z}\n");
+        }
     }
     text += "6 5 4 3 2 1 0\n6 6 7 8 9 10 11\n";
     for i in 0..6 {

@@ -101,7 +101,7 @@ fn wrong_binary_files_are_refused() {
         (little[..of_little + 3].to_vec(), "a coordinate should be"),
         (little[..of_little + 12].to_vec(), "a value should be"),
         (little[..faces].to_vec(), "face 0, at byte"),
-        (little[..faces + 1].to_vec(), "the number of a corner should be"),
+        (little[..=faces].to_vec(), "the number of a corner should be"),
         (little[..little.len() - 1].to_vec(), "face 5, at byte"),
         (with(&little, of_little, &f32::NAN.to_le_bytes()), "vertex 0, at byte"),
         (with(&little, of_little + 13, &f32::INFINITY.to_le_bytes()), "vertex 1, at byte"),

@@ -77,7 +77,8 @@ pub struct ReadingArguments {
     /// Memory that a scene may take, as in 500MiB or 2GiB [default: half of the machine's]
     #[arg(long, value_name = "BYTES", value_parser = values::bytes)]
     pub memory: Option<u64>,
-    /// The axis of a mesh file that is up: it is given as `--up`, which commands with a camera have for that too.
+    /// The axis of a mesh file that is up: it is given as `--up`, which commands with a camera have for that
+    /// too.
     #[arg(skip)]
     pub up: Option<UpAxis>,
 }

@@ -88,8 +88,8 @@ pub fn read(name: &str, bytes: &[u8], options: &ReadOptions) -> Result<Scene, Di
     }
 }
 
-/// The format of a mesh by the content. Others by the name; by the content where that has no ending, as that of
-/// standard input has none.
+/// The format of a mesh by the content. Others by the name; by the content where that has no ending, as that
+/// of standard input has none.
 fn format_of(name: &str, bytes: &[u8]) -> Format {
     if let Some(format) = mesh::format_of(bytes) {
         return format;

@@ -16,14 +16,16 @@ use super::fault::{MeshError, MeshFault};
 use super::polygons::{FaceRun, PolygonMesh};
 use super::topology::Topology;
 
-/// Bytes that reading takes for a point: its place, where it was welded to, and its entry in the map of places.
+/// Bytes that reading takes for a point: its place, where it was welded to, and its entry in the map of
+/// places.
 const READ_POINT: u64 = 24 + 4 + 48;
 
-/// Bytes that reading takes for a corner of a face: its number, the triangle it makes, and three edges of that.
+/// Bytes that reading takes for a corner of a face: its number, the triangle it makes, and three edges of
+/// that.
 const READ_CORNER: u64 = 4 + 24 + 36;
 
-/// Bytes that a mesh takes at most while it is read and shown, if all of it is shown as surfaces, which is the
-/// more expensive way.
+/// Bytes that a mesh takes at most while it is read and shown, if all of it is shown as surfaces, which is
+/// the more expensive way.
 pub fn bytes(mesh: &PolygonMesh) -> u64 {
     let (points, corners) = (mesh.points.len() as u64, mesh.corners.len() as u64);
     READ_POINT * points

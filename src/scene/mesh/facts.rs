@@ -28,8 +28,8 @@ pub struct MeshFacts {
     pub is_solid: bool,
     /// Parts that have no corner in common.
     pub shells: usize,
-    /// What it encloses, negative where its faces look inwards; none where they look both ways, or where it is
-    /// open.
+    /// What it encloses, negative where its faces look inwards; none where they look both ways, or where it
+    /// is open.
     pub volume: Option<f64>,
     /// The sum of its triangles.
     pub area: f64,

@@ -4,13 +4,13 @@ use super::fault::MeshFault;
 
 /// The corners that there are so far.
 #[derive(Clone, Copy, Debug)]
-pub struct Known {
+pub struct CornerNumbers {
     count: usize,
     /// The number of the first.
     first: i64,
 }
 
-impl Known {
+impl CornerNumbers {
     /// Corners numbered from 0.
     pub const fn from_zero(count: usize) -> Self {
         Self { count, first: 0 }
@@ -53,7 +53,7 @@ mod tests {
 
     #[test]
     fn corners_are_within_what_there_is() {
-        let (zero, one) = (Known::from_zero(3), Known::from_one(3));
+        let (zero, one) = (CornerNumbers::from_zero(3), CornerNumbers::from_one(3));
         assert_eq!([0, 2].map(|i| zero.corner(i)), [Ok(0), Ok(2)]);
         assert_eq!([1, 3, -1, -3].map(|i| one.corner(i)), [Ok(0), Ok(2), Ok(2), Ok(0)]);
         for index in [3, -1, i64::MAX, i64::MIN] {
@@ -62,6 +62,6 @@ mod tests {
         for index in [0, 4, -4, i64::MAX, i64::MIN] {
             assert!(one.corner(index).is_err(), "{index}");
         }
-        assert!(Known::from_one(0).corner(1).unwrap_err().to_string().contains("no corners"));
+        assert!(CornerNumbers::from_one(0).corner(1).unwrap_err().to_string().contains("no corners"));
     }
 }

@@ -3,7 +3,7 @@
 use crate::math::DVec3;
 
 use super::fault::{MeshError, MeshFault};
-use super::index::Known;
+use super::index::CornerNumbers;
 use super::polygons::PolygonMesh;
 use super::words::{MeshLines, MeshWord, MeshWords};
 
@@ -57,7 +57,7 @@ pub fn read(bytes: &[u8]) -> Result<PolygonMesh, MeshError> {
         let mut words = lines.expect("a corner")?;
         mesh.add_point(point(&mut words)?);
     }
-    let known = Known::from_zero(mesh.points.len());
+    let known = CornerNumbers::from_zero(mesh.points.len());
     let mut face = Vec::new();
     for _ in 0..faces {
         let mut words = lines.expect("a face")?;

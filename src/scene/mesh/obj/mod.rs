@@ -1,6 +1,6 @@
 //! OBJ, the text format of Wavefront: corners, and faces that name them from the first or from the last.
 
-mod colors;
+mod materials;
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -8,10 +8,10 @@ use std::path::Path;
 use crate::math::DVec3;
 
 use super::fault::{MeshError, MeshFault};
-use super::index::Known;
+use super::index::CornerNumbers;
 use super::polygons::PolygonMesh;
 use super::words::{MeshLines, MeshWord, MeshWords};
-use colors::Colors;
+use materials::MaterialLibrary;
 
 /// Statements that change nothing of what ray13 shows: texture and normals, smoothing, lines and points, how
 /// other programs display, and curves.
@@ -62,7 +62,8 @@ pub fn is_obj(bytes: &[u8]) -> bool {
             b"v" => return rest.len() == 3 && rest.iter().all(|word| word.number("").is_ok()),
             b"vn" => return rest.len() == 3 && rest.iter().all(|word| word.number("").is_ok()),
             b"vt" => return rest.first().is_some_and(|word| word.number("").is_ok()),
-            // A name, which other formats have too, or smoothing: what is next says more. NFF has spheres `s`.
+            // A name, which other formats have too, or smoothing: what is next says more. NFF has spheres
+            // `s`.
             b"o" | b"g" => {}
             b"s" if rest.len() == 1 => {}
             _ => return false,
@@ -73,22 +74,25 @@ pub fn is_obj(bytes: &[u8]) -> bool {
 
 /// Reads a file. Its materials are looked for in `folder`.
 pub fn read(bytes: &[u8], folder: Option<&Path>) -> Result<PolygonMesh, MeshError> {
-    let mut reader =
-        Reader { mesh: PolygonMesh::of("OBJ"), groups: Groups::default(), colors: Colors::default() };
+    let mut reader = Reader {
+        mesh: PolygonMesh::of("OBJ"),
+        groups: Groups::default(),
+        library: MaterialLibrary::default(),
+    };
     for mut words in MeshLines::continued(bytes) {
         if let Some(word) = words.next() {
             reader.statement(word, &mut words, folder)?;
         }
     }
-    reader.mesh.materials = reader.colors.materials;
-    reader.mesh.notes = reader.colors.notes;
+    reader.mesh.materials = reader.library.materials;
+    reader.mesh.notes = reader.library.notes;
     Ok(reader.mesh)
 }
 
 struct Reader {
     mesh: PolygonMesh,
     groups: Groups,
-    colors: Colors,
+    library: MaterialLibrary,
 }
 
 /// What faces belong to.
@@ -138,10 +142,10 @@ impl Reader {
                 self.groups.is_new = true;
             }
             b"usemtl" => {
-                self.colors.choose(words.rest_of_line());
+                self.library.choose(words.rest_of_line());
                 self.groups.is_new = true;
             }
-            b"mtllib" => self.colors.load(words.rest_of_line(), folder),
+            b"mtllib" => self.library.load(words.rest_of_line(), folder),
             other => {
                 if !IGNORED.iter().any(|ignored| ignored.as_bytes() == other) {
                     let wanted = "a statement of OBJ, such as `v`, `f` or `o`";
@@ -155,10 +159,10 @@ impl Reader {
     fn face(&mut self, statement: MeshWord<'_>, words: &mut MeshWords<'_>) -> Result<(), MeshError> {
         if self.groups.is_new {
             let group = self.groups.current(&mut self.mesh);
-            self.mesh.begin_run(group, self.colors.current);
+            self.mesh.begin_run(group, self.library.current);
             self.groups.is_new = false;
         }
-        let known = Known::from_one(self.mesh.points.len());
+        let known = CornerNumbers::from_one(self.mesh.points.len());
         let mut face = Vec::new();
         for word in words.filter(|word| word.bytes != b"\\") {
             // Behind slashes stand the corner's place in a texture, and its normal.

@@ -6,7 +6,7 @@ mod values;
 use crate::math::DVec3;
 
 use super::fault::{MeshError, MeshFault};
-use super::index::Known;
+use super::index::CornerNumbers;
 use super::polygons::PolygonMesh;
 
 pub use header::is_ply;
@@ -21,10 +21,10 @@ pub fn read(bytes: &[u8]) -> Result<PolygonMesh, MeshError> {
     let header = header::read(bytes)?;
     let mut values = PlyValues::new(bytes, &header);
     let vertices = header.elements.iter().find(|element| element.name == b"vertex");
-    // Faces may come before their corners. Of those that then are not there, the error is that the file is cut
-    // off.
+    // Faces may come before their corners. Of those that then are not there, the error is that the file is
+    // cut off.
     let count = vertices.map_or(0, |element| usize::try_from(element.count).unwrap_or(usize::MAX));
-    let known = Known::from_zero(count.min(u32::MAX as usize));
+    let known = CornerNumbers::from_zero(count.min(u32::MAX as usize));
     let format = if header.encoding == Encoding::Ascii { "text PLY" } else { "binary PLY" };
     let mut mesh = PolygonMesh::of(format);
     for element in &header.elements {
@@ -83,7 +83,7 @@ fn read_corners<'a>(
 
 fn read_faces<'a>(
     element: &Element<'a>,
-    known: Known,
+    known: CornerNumbers,
     values: &mut PlyValues<'a>,
     mesh: &mut PolygonMesh,
 ) -> Result<(), MeshError> {

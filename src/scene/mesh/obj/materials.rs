@@ -15,7 +15,7 @@ const MAX_BYTES: u64 = 16 << 20;
 
 /// The materials, and which is current.
 #[derive(Clone, Debug)]
-pub struct Colors {
+pub struct MaterialLibrary {
     /// The first is that of faces without one.
     pub materials: Vec<Material>,
     /// The index of the one that faces get.
@@ -27,7 +27,7 @@ pub struct Colors {
     missed: HashSet<Vec<u8>>,
 }
 
-impl Default for Colors {
+impl Default for MaterialLibrary {
     fn default() -> Self {
         Self {
             materials: vec![Material::default()],
@@ -42,7 +42,7 @@ impl Default for Colors {
 /// So many notes are made of materials.
 const MAX_NOTES: usize = 5;
 
-impl Colors {
+impl MaterialLibrary {
     /// Makes a material the current one.
     pub fn choose(&mut self, name: &[u8]) {
         self.current = self.known.get(name).copied().unwrap_or(0);
@@ -123,30 +123,31 @@ mod tests {
 
     #[test]
     fn colours_are_those_of_the_file() {
-        let mut colors = Colors::default();
-        colors.add(b"# two\nnewmtl red one\nKd 0.5 0 7\nNs 3\nnewmtl gray\r\nKd .25\nKd a b c\n", "part.mtl");
-        colors.choose(b"red one");
-        assert_eq!(colors.materials[colors.current as usize].color, DVec3::new(0.5, 0.0, 1.0));
-        colors.choose(b"gray");
-        assert_eq!(colors.materials[colors.current as usize].color, DVec3::splat(0.25));
-        assert_eq!(colors.notes.len(), 1, "{:?}", colors.notes);
-        colors.choose(b"none");
-        colors.choose(b"none");
-        assert_eq!((colors.current, colors.notes.len()), (0, 2), "{:?}", colors.notes);
+        let mut library = MaterialLibrary::default();
+        library
+            .add(b"# two\nnewmtl red one\nKd 0.5 0 7\nNs 3\nnewmtl gray\r\nKd .25\nKd a b c\n", "part.mtl");
+        library.choose(b"red one");
+        assert_eq!(library.materials[library.current as usize].color, DVec3::new(0.5, 0.0, 1.0));
+        library.choose(b"gray");
+        assert_eq!(library.materials[library.current as usize].color, DVec3::splat(0.25));
+        assert_eq!(library.notes.len(), 1, "{:?}", library.notes);
+        library.choose(b"none");
+        library.choose(b"none");
+        assert_eq!((library.current, library.notes.len()), (0, 2), "{:?}", library.notes);
     }
 
     #[test]
     fn only_what_lies_beside_is_read() {
-        let mut colors = Colors::default();
+        let mut library = MaterialLibrary::default();
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
         for name in ["../README.md", "/etc/hostname", "scene/mod.rs", "", "scene", "no such file"] {
-            colors.notes.clear();
-            colors.load(name.as_bytes(), Some(&folder));
-            assert_eq!(colors.notes.len(), 1, "{name}");
+            library.notes.clear();
+            library.load(name.as_bytes(), Some(&folder));
+            assert_eq!(library.notes.len(), 1, "{name}");
         }
-        assert_eq!(colors.materials.len(), 1);
-        colors.notes.clear();
-        colors.load(b"./lib.rs", Some(&folder));
-        assert_eq!(colors.notes, Vec::<String>::new());
+        assert_eq!(library.materials.len(), 1);
+        library.notes.clear();
+        library.load(b"./lib.rs", Some(&folder));
+        assert_eq!(library.notes, Vec::<String>::new());
     }
 }

@@ -4,6 +4,7 @@ mod support {
     pub mod agreement;
     pub mod beside;
     pub mod cases;
+    pub mod mesh_files;
     pub mod oracle;
     pub mod rays;
     pub mod request;
@@ -15,6 +16,7 @@ mod formats {
     mod any_text;
     mod leaves;
     mod memory;
+    mod meshes;
     mod nff;
     mod spd;
 }

@@ -7,10 +7,12 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
 use crate::math::{DVec3, Size};
+use crate::scene::UpAxis;
 
 use super::names::{
     AntiAliasing, EngineName, Glyphs, PaletteName, PrecisionName, Preset, StructureName, ToneName,
 };
+use super::up::Up;
 use super::values;
 
 /// Shows solid models in a terminal: ray traced, in 13 gray levels of block characters.
@@ -28,8 +30,8 @@ pub struct Arguments {
 
 #[derive(Clone, Debug, Args)]
 pub struct ViewerArguments {
-    /// The scene: a file of the scene language, OpenSCAD's .csg or NFF, - for standard input, or the name of
-    /// an embedded scene
+    /// The scene: a file of the scene language, OpenSCAD's .csg or NFF, a mesh in STL, OFF, PLY or OBJ, - for
+    /// standard input, or the name of an embedded scene
     pub file: Option<String>,
     #[command(flatten)]
     pub reading: ReadingArguments,
@@ -53,7 +55,7 @@ pub enum Command {
     /// Keep the picture of each view of a scene beside it, or compare it with what was kept
     Snapshot(SnapshotArguments),
     /// Read and validate a scene only
-    Check(SceneArguments),
+    Check(CheckArguments),
     /// List the embedded scenes, or print one
     Scenes {
         /// The scene to print
@@ -80,6 +82,10 @@ pub struct ReadingArguments {
     /// Memory that a scene may take, as in 500MiB or 2GiB [default: half of the machine's]
     #[arg(long, value_name = "BYTES", value_parser = values::bytes)]
     pub memory: Option<u64>,
+    /// The axis of a mesh file that is up: it is given as `--up`, which commands with a camera have for that
+    /// too.
+    #[arg(skip)]
+    pub up: Option<UpAxis>,
 }
 
 #[derive(Clone, Debug, Args)]
@@ -88,6 +94,15 @@ pub struct SceneArguments {
     pub file: String,
     #[command(flatten)]
     pub reading: ReadingArguments,
+}
+
+#[derive(Clone, Debug, Args)]
+pub struct CheckArguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// The axis of a mesh file that is up [default: y of OBJ, else z]
+    #[arg(long, value_name = "y|z", value_parser = values::up_axis)]
+    pub up: Option<UpAxis>,
 }
 
 #[derive(Clone, Debug, Args)]
@@ -289,6 +304,30 @@ pub struct PictureArguments {
     pub threads: Option<u16>,
 }
 
+impl Arguments {
+    /// Moves what `--up` says of mesh files from the camera to how scenes are read.
+    pub fn settle_up(&mut self) {
+        let (reading, camera) = match &mut self.command {
+            None => (&mut self.viewer.reading, &mut self.viewer.picture.camera),
+            Some(Command::Render(a)) => (&mut a.scene.reading, &mut a.picture.camera),
+            Some(Command::Bench(a)) => (&mut a.scene.reading, &mut a.picture.camera),
+            Some(Command::Plan(a)) => (&mut a.scene.reading, &mut a.picture.camera),
+            Some(Command::Trade(a)) => (&mut a.scene.reading, &mut a.picture.camera),
+            Some(Command::Diff(a)) => (&mut a.comparison.reading, &mut a.comparison.picture.camera),
+            Some(Command::Snapshot(a)) => (&mut a.comparison.reading, &mut a.comparison.picture.camera),
+            Some(Command::Check(a)) => {
+                a.scene.reading.up = a.up;
+                return;
+            }
+            Some(Command::Scenes { .. } | Command::Completions { .. } | Command::Man { .. }) => return,
+        };
+        if let Some(axis) = camera.up.and_then(Up::axis) {
+            reading.up = Some(axis);
+            camera.up = None;
+        }
+    }
+}
+
 /// Where the picture is seen from. What is not given is the view's.
 #[derive(Clone, Debug, Args)]
 pub struct CameraArguments {
@@ -301,9 +340,9 @@ pub struct CameraArguments {
     /// The point looked at
     #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
     pub target: Option<DVec3>,
-    /// Upwards in the picture
-    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
-    pub up: Option<DVec3>,
+    /// Upwards in the picture; or the axis of a mesh file that is up [default: y of OBJ, else z]
+    #[arg(long, value_name = "X,Y,Z|y|z", value_parser = values::up, allow_hyphen_values = true)]
+    pub up: Option<Up>,
     /// Full angles across and down, in degrees; the picture contains them
     #[arg(long, value_name = "AxB", value_parser = values::field, allow_hyphen_values = true)]
     pub field: Option<[f64; 2]>,

@@ -25,7 +25,9 @@ pub fn read(file: &str, reading: &ReadingArguments) -> Result<Scene, CliError> {
 
 /// Reads a scene of which the bytes are here already; `file` is where they are from.
 pub fn read_bytes(file: &str, bytes: &[u8], reading: &ReadingArguments) -> Result<Scene, CliError> {
-    scene::read(file, bytes, &options(reading, None)).map_err(|e| no_scene(file, &e))
+    let folder = Path::new(file).parent().map(Path::to_owned);
+    let options = ReadOptions { folder, ..options(reading, None) };
+    scene::read(file, bytes, &options).map_err(|e| no_scene(file, &e))
 }
 
 /// The same, where `progress` says how far this is.
@@ -54,9 +56,9 @@ pub fn read_watched(
 }
 
 fn options(reading: &ReadingArguments, progress: Option<Progress>) -> ReadOptions {
-    let ReadingArguments { skip_unsupported, memory } = *reading;
+    let ReadingArguments { skip_unsupported, memory, up } = *reading;
     let memory = memory.or_else(memory::half_of_all);
-    ReadOptions { skip_unsupported, progress, memory, ..ReadOptions::default() }
+    ReadOptions { skip_unsupported, progress, memory, up, ..ReadOptions::default() }
 }
 
 /// Why a file is no scene, given what the reader says.
@@ -96,16 +98,8 @@ fn named(name: &str) -> Option<&'static EmbeddedScene> {
 }
 
 /// Formats of models that people try first, by the ending of the name. Only asked where a file made no sense.
-const FOREIGN: [(&str, &str); 8] = [
-    ("stl", "an STL mesh"),
-    ("obj", "an OBJ mesh"),
-    ("off", "an OFF mesh"),
-    ("ply", "a PLY mesh"),
-    ("3mf", "a 3MF model"),
-    ("amf", "an AMF model"),
-    ("step", "a STEP model"),
-    ("stp", "a STEP model"),
-];
+const FOREIGN: [(&str, &str); 4] =
+    [("3mf", "a 3MF model"), ("amf", "an AMF model"), ("step", "a STEP model"), ("stp", "a STEP model")];
 
 fn foreign(file: &str) -> Option<&'static str> {
     let ending = Path::new(file).extension()?;

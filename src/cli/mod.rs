@@ -23,6 +23,7 @@ mod trade;
 mod trade_line;
 mod trade_png;
 mod trade_report;
+mod up;
 mod values;
 mod write;
 
@@ -65,7 +66,7 @@ fn command(arguments: Arguments) -> Result<(), CliError> {
         Some(Command::Snapshot(snapshot)) => {
             snapshot::run(&snapshot).map_err(CliError::apart_from_differences)
         }
-        Some(Command::Check(scene)) => check(&scene),
+        Some(Command::Check(check)) => check_scene(&check.scene),
         Some(Command::Scenes { name }) => scenes(name.as_deref()),
         Some(Command::Completions { shell }) => manual::completions(shell),
         Some(Command::Man { command }) => manual::page(command.as_deref()),
@@ -133,8 +134,11 @@ fn load(
     Ok((studio, settings))
 }
 
+/// So many parts of a mesh file are described one by one.
+const MOST_MESHES: usize = 100;
+
 /// Reads and validates only.
-fn check(arguments: &SceneArguments) -> Result<(), CliError> {
+fn check_scene(arguments: &SceneArguments) -> Result<(), CliError> {
     let scene = input::read(&arguments.file, &arguments.reading)?;
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
@@ -153,7 +157,15 @@ fn check(arguments: &SceneArguments) -> Result<(), CliError> {
         count(scene.lights.len(), "light"),
         count(scene.views.len(), "view"),
     );
-    print(line.as_bytes())
+    let mut lines = line;
+    for facts in scene.meshes.iter().take(MOST_MESHES) {
+        lines += &visible(&format!("{facts}"));
+        lines.push('\n');
+    }
+    if let Some(more) = scene.meshes.len().checked_sub(MOST_MESHES).filter(|&more| more > 0) {
+        lines += &format!("and {} more\n", count(more, "part"));
+    }
+    print(lines.as_bytes())
 }
 
 /// Lists the embedded scenes, or prints one.

@@ -17,7 +17,10 @@ const NO_SCENE: [&str; 2] = ["completions", "man"];
 /// The arguments; nothing where help or the version was asked for, and is written.
 pub fn parse() -> Result<Option<Arguments>, CliError> {
     let error = match Arguments::try_parse() {
-        Ok(arguments) => return Ok(Some(arguments)),
+        Ok(mut arguments) => {
+            arguments.settle_up();
+            return Ok(Some(arguments));
+        }
         Err(error) => error,
     };
     if !error.use_stderr() {

@@ -13,6 +13,7 @@ use super::arguments::{CameraArguments, PictureArguments};
 use super::error::CliError;
 use super::names::{AntiAliasing, Glyphs, PaletteName, Preset};
 use super::terminal::capabilities;
+use super::up::Up;
 use super::values::MOST_DOTS;
 
 /// The screen that is assumed where there is none.
@@ -242,7 +243,7 @@ impl CameraArguments {
         let camera = Camera {
             eye: self.eye.unwrap_or(base.eye),
             target: self.target.unwrap_or(base.target),
-            up: self.up.unwrap_or(base.up),
+            up: self.up.and_then(Up::direction).unwrap_or(base.up),
             field: field.unwrap_or(base.field),
             span: if field.is_some() { FieldSpan::Edges } else { base.span },
             zoom: self.zoom.unwrap_or(base.zoom),

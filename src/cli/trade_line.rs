@@ -4,10 +4,12 @@ use clap::{Parser, ValueEnum};
 
 use crate::frame::Request;
 use crate::math::DVec3;
+use crate::scene::UpAxis;
 use crate::trade::Setting;
 
 use super::arguments::{Arguments, PictureArguments, TradeArguments};
 use super::error::CliError;
+use super::up::Up;
 
 /// The command line of a trade, but for its knobs.
 pub struct CommandLine {
@@ -28,10 +30,15 @@ impl CommandLine {
         let bare = without_knobs(picture)?;
         let bare = Setting { options: bare.options()?, glyphs: bare.look(None).glyphs };
         let skip = if arguments.scene.reading.skip_unsupported { " --skip-unsupported" } else { "" };
+        let turned = match arguments.scene.reading.up {
+            None => "",
+            Some(UpAxis::Y) => " --up y",
+            Some(UpAxis::Z) => " --up z",
+        };
         Ok(Self {
             picture: picture.clone(),
             file: quoted(&arguments.scene.file),
-            rest: format!("{skip}{}", rest(picture, request)),
+            rest: format!("{skip}{turned}{}", rest(picture, request)),
             bare,
             own: Setting::of(request),
         })
@@ -115,7 +122,7 @@ fn rest(picture: &PictureArguments, request: &Request) -> String {
     put("view", camera.view.as_deref().map(quoted));
     put("eye", camera.eye.map(point));
     put("target", camera.target.map(point));
-    put("up", camera.up.map(point));
+    put("up", camera.up.and_then(Up::direction).map(point));
     put("field", camera.field.map(|[across, down]| format!("{across}x{down}")));
     put("zoom", camera.zoom.map(|zoom| zoom.to_string()));
     put("palette", name(picture.palette));

@@ -4,6 +4,9 @@ use std::str::FromStr;
 use std::time::Duration;
 
 use crate::math::{DVec3, Size};
+use crate::scene::UpAxis;
+
+use super::up::Up;
 
 /// The most dots or cells along one side of a picture.
 const MOST_ACROSS: u32 = 32_768;
@@ -31,6 +34,23 @@ pub fn point(text: &str) -> Result<DVec3, String> {
     let Some(&[x, y, z]) = numbers.as_deref() else { return Err("expected X,Y,Z, as in 0,-9,3".into()) };
     let point = DVec3::new(x, y, z);
     if point.is_finite() { Ok(point) } else { Err("coordinates must be finite".into()) }
+}
+
+/// An axis of a mesh file.
+pub fn up_axis(text: &str) -> Result<UpAxis, String> {
+    match text {
+        "y" | "Y" => Ok(UpAxis::Y),
+        "z" | "Z" => Ok(UpAxis::Z),
+        _ => Err("expected y or z".into()),
+    }
+}
+
+/// A direction, or an axis of a mesh file.
+pub fn up(text: &str) -> Result<Up, String> {
+    if let Ok(axis) = up_axis(text) {
+        return Ok(Up::Axis(axis));
+    }
+    point(text).map(Up::Direction).map_err(|error| format!("{error}; or y or z, the axis of a mesh file"))
 }
 
 /// Full angles across and down in degrees, as in `40x25`.

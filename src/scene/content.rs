@@ -7,7 +7,7 @@ struct Binary {
 }
 
 /// Binary files that are given in place of a scene, by the bytes that each format begins with.
-const BINARY: [Binary; 9] = [
+const BINARY: [Binary; 8] = [
     Binary { name: "a PNG picture", is: |bytes| bytes.starts_with(b"\x89PNG\r\n\x1a\n") },
     Binary { name: "a JPEG picture", is: |bytes| bytes.starts_with(b"\xff\xd8\xff") },
     Binary { name: "a PDF document", is: |bytes| bytes.starts_with(b"%PDF-") },
@@ -16,22 +16,11 @@ const BINARY: [Binary; 9] = [
     Binary { name: "an ELF program", is: |bytes| bytes.starts_with(b"\x7fELF") },
     Binary { name: "UTF-16 text", is: |bytes| bytes.starts_with(b"\xff\xfe") },
     Binary { name: "UTF-16 text", is: |bytes| bytes.starts_with(b"\xfe\xff") },
-    Binary { name: "a binary STL mesh", is: is_binary_stl },
 ];
 
 /// What the bytes are, where they are of a binary format that is known and no scene.
 pub fn binary(bytes: &[u8]) -> Option<&'static str> {
     BINARY.iter().find(|format| (format.is)(bytes)).map(|format| format.name)
-}
-
-/// A binary STL mesh begins with 80 bytes of anything and the number of its triangles, each of which takes 50
-/// bytes: no text is so short that four of its characters are that number.
-fn is_binary_stl(bytes: &[u8]) -> bool {
-    let Some(count) = bytes.get(80..84).and_then(|count| count.try_into().ok()).map(u32::from_le_bytes)
-    else {
-        return false;
-    };
-    bytes.len() as u64 == 84 + 50 * u64::from(count)
 }
 
 /// Whether the bytes begin as a file of NFF does, whatever its name: behind comments, with the word of an
@@ -66,16 +55,6 @@ mod tests {
         for text in text {
             assert_eq!(binary(text), None);
         }
-    }
-
-    #[test]
-    fn a_binary_stl_mesh_is_as_long_as_it_says() {
-        let mut stl = vec![b' '; 84 + 2 * 50];
-        stl[80..84].copy_from_slice(&2_u32.to_le_bytes());
-        assert_eq!(binary(&stl), Some("a binary STL mesh"));
-        stl.pop();
-        assert_eq!(binary(&stl), None);
-        assert_eq!(binary(&[b' '; 84]), None);
     }
 
     #[test]

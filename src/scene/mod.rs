@@ -5,17 +5,22 @@ mod diagnostic;
 mod embedded;
 mod language;
 mod memory;
+mod mesh;
 mod model;
 mod nff;
 mod options;
+mod outline;
 mod read;
+mod triangulation;
+mod unit_vector;
 
 pub use diagnostic::{Diagnostic, Diagnostics, Severity};
 pub use embedded::{EmbeddedScene, embedded};
 pub use language::reference;
+pub use mesh::MeshFacts;
 pub use model::{
     Anchor, Camera, CameraError, Corner, Facets, FieldSpan, HalfSpace, Light, Material, MaterialId, Mesh,
     Object, Primitive, REACH, Scene, Shape, Solid, World,
 };
-pub use options::{Format, ReadOptions};
+pub use options::{Format, ReadOptions, UpAxis};
 pub use read::{MAX_FILE_BYTES, ReadError, read, read_file};

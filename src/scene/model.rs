@@ -6,6 +6,8 @@ use std::vec::Drain;
 
 use crate::math::{Bounds, DAffine3, DVec3};
 
+use super::MeshFacts;
+
 /// Scenes reach no farther than this from the origin along any axis. It is a thousandth of the largest
 /// number: so far may an eye that sees all of a scene stand off, and the lights that go with it.
 pub const REACH: f64 = 1e305;
@@ -29,6 +31,8 @@ pub struct Scene {
     pub views: Vec<Camera>,
     /// Ambient light, background and depth constant.
     pub world: World,
+    /// What the parts of a mesh file are; empty of other scenes.
+    pub meshes: Vec<MeshFacts>,
     /// What the reader left out or took differently, one sentence each, for the person who looks.
     pub notes: Vec<String>,
 }

@@ -1,7 +1,8 @@
 //! How a scene is written, and how it is to be read.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use crate::math::DVec3;
 use crate::stage::Progress;
 
 /// How a scene is written.
@@ -12,13 +13,31 @@ pub enum Format {
     Language,
     /// Eric Haines's Neutral File Format.
     Nff,
+    /// STL, binary or text.
+    Stl,
+    /// OFF, Geomview's.
+    Off,
+    /// PLY, Stanford's, binary or text.
+    Ply,
+    /// OBJ, Wavefront's.
+    Obj,
 }
+
+/// The formats that names tell.
+const ENDINGS: [(&str, Format); 5] = [
+    ("nff", Format::Nff),
+    ("stl", Format::Stl),
+    ("off", Format::Off),
+    ("ply", Format::Ply),
+    ("obj", Format::Obj),
+];
 
 impl Format {
     /// The format of a file by the end of its name. A name that says nothing means the scene language.
     pub fn of(name: &str) -> Self {
         let extension = Path::new(name).extension();
-        if extension.is_some_and(|e| e.eq_ignore_ascii_case("nff")) { Self::Nff } else { Self::Language }
+        let named = |&(ending, _): &(&str, Self)| extension.is_some_and(|e| e.eq_ignore_ascii_case(ending));
+        ENDINGS.iter().find(|ending| named(ending)).map_or(Self::Language, |&(_, format)| format)
     }
 
     /// What messages call it.
@@ -26,6 +45,30 @@ impl Format {
         match self {
             Self::Language => "the scene language",
             Self::Nff => "NFF",
+            Self::Stl => "STL",
+            Self::Off => "OFF",
+            Self::Ply => "PLY",
+            Self::Obj => "OBJ",
+        }
+    }
+}
+
+/// The axis of a mesh file that is up in the scene, where z is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum UpAxis {
+    /// The second: the file is turned by 90 degrees around x.
+    Y,
+    /// The third.
+    Z,
+}
+
+impl UpAxis {
+    /// A place of the file in the scene.
+    pub fn turned(self, place: DVec3) -> DVec3 {
+        match self {
+            // 0 − z and not −z: there is no −0 among places.
+            Self::Y => DVec3::new(place.x, 0.0 - place.z, place.y),
+            Self::Z => place,
         }
     }
 }
@@ -42,4 +85,8 @@ pub struct ReadOptions {
     /// Bytes of memory that the scene, and what will show it, may take; as many as there are where it is not
     /// given.
     pub memory: Option<u64>,
+    /// The axis of a mesh that is up, where it is not the one usual in its format.
+    pub up: Option<UpAxis>,
+    /// Where the files are that a mesh names; [`read_file`](super::read_file) takes the folder of its own.
+    pub folder: Option<PathBuf>,
 }

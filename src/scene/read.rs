@@ -6,7 +6,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use super::options::{Format, ReadOptions};
-use super::{Diagnostic, Diagnostics, Scene, content, language, memory, nff};
+use super::{Diagnostic, Diagnostics, Scene, content, language, memory, mesh, nff};
 
 /// The largest file that is read: 256 MiB.
 pub const MAX_FILE_BYTES: u64 = 256 << 20;
@@ -47,7 +47,8 @@ pub fn read_file(path: &Path, options: &ReadOptions) -> Result<Scene, ReadError>
     // The length above is a promise only of plain files: a pipe or a growing file is cut off here.
     let mut bytes = Vec::with_capacity(metadata.len() as usize + 1);
     file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(file_error)?;
-    Ok(read(&name, &bytes, options)?)
+    let folder = options.folder.clone().or_else(|| path.parent().map(Path::to_owned));
+    Ok(read(&name, &bytes, &ReadOptions { folder, ..options.clone() })?)
 }
 
 /// Reads a scene from the bytes of a file; `name` is what messages call it.
@@ -70,14 +71,29 @@ pub fn read(name: &str, bytes: &[u8], options: &ReadOptions) -> Result<Scene, Di
         return Err(no_scene(name, what));
     }
     let format = options.format.unwrap_or_else(|| format_of(name, bytes));
+    if let Some(scene) = mesh::read(name, bytes, format, options) {
+        return scene;
+    }
+    if options.up.is_some() {
+        let error = Diagnostic::error(0..0, "an axis that is up is chosen for meshes only, and this is none");
+        return Err(Diagnostics::whole(
+            name,
+            error.help("leave out `--up`, or give it X,Y,Z: the direction upwards"),
+        ));
+    }
+    let text = text(name, bytes, format)?;
     match format {
-        Format::Language => language::read(name, text(name, bytes, format)?, options),
-        Format::Nff => nff::read(name, text(name, bytes, format)?, options),
+        Format::Nff => nff::read(name, text, options),
+        _ => language::read(name, text, options),
     }
 }
 
-/// The format by the name; by the content where the name has no ending, as that of standard input has none.
+/// The format of a mesh by the content. Others by the name; by the content where that has no ending, as that
+/// of standard input has none.
 fn format_of(name: &str, bytes: &[u8]) -> Format {
+    if let Some(format) = mesh::format_of(bytes) {
+        return format;
+    }
     match Path::new(name).extension() {
         None if content::is_nff(bytes) => Format::Nff,
         _ => Format::of(name),
@@ -88,7 +104,7 @@ fn no_scene(name: &str, what: &str) -> Diagnostics {
     let error = Diagnostic::error(0..0, format!("this is {what}, not a scene"));
     Diagnostics::whole(
         name,
-        error.help("ray13 reads its scene language, OpenSCAD's .csg and NFF, all of them UTF-8 text"),
+        error.help("ray13 reads its scene language, OpenSCAD's .csg and NFF, all of them UTF-8 text, and meshes: STL, OFF, PLY and OBJ"),
     )
 }
 

@@ -233,6 +233,15 @@ impl Setting {
         KNOBS.iter().any(|knob| (knob.another_picture)(self, base))
     }
 
+    /// `base` with what this setting shows otherwise on purpose.
+    pub fn what_is_meant(&self, base: &Self) -> Self {
+        let meant = KNOBS.iter().filter(|knob| (knob.another_picture)(self, base));
+        meant.fold(*base, |mut setting, knob| {
+            (knob.set)(&mut setting, self);
+            setting
+        })
+    }
+
     /// The settings that differ from this one by a single knob, which is that of the request: of each knob
     /// one, then of each another, so that any first few of them tell of all.
     pub fn alone(&self, base: &Request) -> Vec<Self> {

@@ -34,8 +34,18 @@ impl Measurement {
         let accuracy = reference.accuracy(&request, &frame, moved.as_ref());
         // A scene without mirrors shows the same without mirror rays.
         let meant = setting.shows_another_picture(&Setting::of(base));
-        let differs = own.is_some_and(|own| own.accuracy.light != accuracy.light);
-        Self { setting, times: Times::default(), accuracy, is_another_picture: meant && differs }
+        let differs = |own: &Self| {
+            let meant_alone = setting.what_is_meant(&Setting::of(base));
+            if meant_alone == setting {
+                return own.accuracy.light != accuracy.light;
+            }
+            // What else it changes is not meant: the picture without that says.
+            let request = meant_alone.request(base);
+            let frame = studio.draw_anew(&Request { wants: all, ..request.clone() });
+            own.accuracy.light != reference.accuracy(&request, &frame, None).light
+        };
+        let is_another_picture = meant && own.is_some_and(differs);
+        Self { setting, times: Times::default(), accuracy, is_another_picture }
     }
 
     /// Draws the picture once more, as it was asked for, and takes its time.

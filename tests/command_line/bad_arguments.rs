@@ -53,7 +53,7 @@ fn do_not_include_the_request_for_help() {
 }
 
 // Each from an attack on the arguments: a message of no words, a picture that ended for want of memory, a
-// direction that overflowed, a mesh taken for a scene, and a misspelt scene with no word of those that there
+// direction that overflowed, a model taken for a scene, and a misspelt scene with no word of those that there
 // are.
 #[test]
 fn arguments_out_of_range_are_explained() {
@@ -63,10 +63,10 @@ fn arguments_out_of_range_are_explained() {
     let message = fails(&run(&["render", &file, "--cells", "4096x8192"]), 2);
     assert!(message.contains("8192 × 32768 traced dots"), "{message}");
     fails(&run(&["render", &file, "--eye", "1e308,0,0", "--target", "-1e308,0,0"]), 2);
-    let mesh = folder("foreign").join("part.STL");
-    fs::write(&mesh, "solid part\nfacet normal 0 0 1\n").unwrap();
-    let message = fails(&run(&["check", mesh.to_str().unwrap()]), 2);
-    assert!(message.contains("an STL mesh"), "{message}");
+    let model = folder("foreign").join("part.STEP");
+    fs::write(&model, "ISO-10303-21;\nHEADER;\n").unwrap();
+    let message = fails(&run(&["check", model.to_str().unwrap()]), 2);
+    assert!(message.contains("a STEP model"), "{message}");
     let message = fails(&run(&["render", "hanyan"]), 2);
     assert!(message.contains("hanyang"), "{message}");
 }

@@ -6,6 +6,9 @@ use std::process::{Command, Output, Stdio};
 
 const README: &str = include_str!("../../README.md");
 
+/// A mesh of one triangle.
+const TRIANGLE: &str = "solid a\nfacet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\nendsolid a\n";
+
 /// The contents of the fenced blocks of one language.
 fn blocks(language: &str) -> Vec<String> {
     let fence = format!("```{language}\n");
@@ -30,6 +33,7 @@ fn folder(test: &str) -> PathBuf {
     fs::create_dir_all(&folder).unwrap();
     fs::write(folder.join("fitting.scene"), &blocks("openscad")[0]).unwrap();
     fs::write(folder.join("part.csg"), "cube(1);\n").unwrap();
+    fs::write(folder.join("part.stl"), TRIANGLE).unwrap();
     folder
 }
 

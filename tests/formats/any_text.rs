@@ -9,6 +9,7 @@ use std::{fs, thread};
 
 use crate::support::beside;
 use crate::support::cases::cases;
+use crate::support::mesh_files::MeshText;
 use crate::support::scribble::{Mutation, language, nff, soup};
 use crate::support::sound::Pictures;
 use proptest::prelude::*;
@@ -86,6 +87,7 @@ pub fn placed(errors: &Diagnostics) -> Result<(), String> {
 static TEXTS: LazyLock<Vec<(&str, Vec<u8>)>> = LazyLock::new(|| {
     let mut all: Vec<_> = embedded().iter().map(|s| ("test.scene", s.text.as_bytes().to_vec())).collect();
     all.extend(KEPT.map(|(name, text)| (name, text.to_vec())));
+    all.extend(MeshText::brick().files());
     for (folder, name) in [("openscad", "test.csg"), ("spd", "test.nff")] {
         for path in beside::files(folder) {
             let mut text = fs::read(&path).unwrap();

@@ -7,7 +7,6 @@
 mod entity;
 mod ignored;
 mod light;
-mod polygon;
 mod room;
 mod solids;
 #[cfg(test)]

@@ -10,7 +10,7 @@ use crate::scene::{Corner, Diagnostic, MaterialId, Object, Primitive, REACH, Sha
 
 use super::entity::Entity;
 use super::light::Fills;
-use super::polygon::{drop_repeated, has_area};
+use crate::scene::outline::{drop_repeated, has_area};
 
 /// The shortest corner that can be written: three digits, each with a blank.
 const CORNER_BYTES: usize = 6;

@@ -8,6 +8,7 @@ use crate::scene::Diagnostic;
 use crate::scene::diagnostic::Sink;
 use crate::scene::language::syntax::{Spanned, Value};
 use crate::scene::language::vocabulary::MapWord;
+use crate::scene::unit_vector::unit;
 
 /// The map of a call alone.
 pub fn map_of(word: MapWord, arguments: &BoundArguments<'_, '_>, sink: &mut Sink) -> Result<DAffine3, Lost> {
@@ -89,18 +90,6 @@ fn mirror(normal: DVec3) -> DMat3 {
     let Some(n) = unit(normal) else { return DMat3::IDENTITY };
     let column = |axis: DVec3| axis - n * (2.0 * n.dot(axis));
     DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z))
-}
-
-/// The direction of a vector of any finite length; none for 0. Scaled by a power of two first, so that no
-/// square overflows.
-pub fn unit(v: DVec3) -> Option<DVec3> {
-    let largest = v.abs().max_element();
-    if largest == 0.0 {
-        return None;
-    }
-    let exponent = libm::ilogb(largest);
-    let scaled = DVec3::from_array(v.to_array().map(|entry| libm::scalbn(entry, -exponent)));
-    Some(scaled / scaled.dot(scaled).sqrt())
 }
 
 #[cfg(test)]

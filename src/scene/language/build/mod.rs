@@ -27,12 +27,12 @@ use super::syntax::{Call, SyntaxEvent};
 use super::vocabulary::Word;
 use crate::scene::diagnostic::Sink;
 use crate::scene::memory::Memory;
+use crate::scene::triangulation::EarClipper;
 use crate::scene::{Diagnostic, ReadOptions, Scene, Solid};
 use context::Context;
 use facets::Polygons;
 use frame::OpenCall;
 use materials::Surfaces;
-use polyhedron::EarClipper;
 use survey::{Survey, is_definition};
 
 /// Whether to read on.

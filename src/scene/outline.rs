@@ -1,4 +1,4 @@
-//! The outlines of `p` and `pp`.
+//! Outlines of polygons: what repeats in them, and whether they have an area.
 
 use crate::math::DVec3;
 

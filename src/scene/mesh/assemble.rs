@@ -1,0 +1,262 @@
+//! From polygons to objects: a closed part is one solid, an open one a surface for each of its polygons.
+
+use std::collections::HashMap;
+use std::ops::Range;
+use std::sync::Arc;
+
+use crate::math::{Bounds, DAffine3, DVec3};
+use crate::scene::memory::{ASSEMBLED, ASSEMBLED_FACES, ASSEMBLED_TRIANGLE};
+use crate::scene::model::is_within_reach;
+use crate::scene::outline::{drop_repeated, has_area};
+use crate::scene::triangulation::{EarClipper, cancel_pairs, triangulate};
+use crate::scene::{MaterialId, Mesh, Object, Primitive, Scene, Shape, Solid, UpAxis};
+
+use super::facts::{MeshFacts, place};
+use super::fault::{MeshError, MeshFault};
+use super::polygons::{FaceRun, PolygonMesh};
+use super::topology::Topology;
+
+/// Bytes that reading takes for a point: its place, where it was welded to, and its entry in the map of
+/// places.
+const READ_POINT: u64 = 24 + 4 + 48;
+
+/// Bytes that reading takes for a corner of a face: its number, the triangle it makes, and three edges of
+/// that.
+const READ_CORNER: u64 = 4 + 24 + 36;
+
+/// Bytes that a mesh takes at most while it is read and shown, if all of it is shown as surfaces, which is
+/// the more expensive way.
+pub fn bytes(mesh: &PolygonMesh) -> u64 {
+    let (points, corners) = (mesh.points.len() as u64, mesh.corners.len() as u64);
+    READ_POINT * points
+        + READ_CORNER * corners
+        + (size_of::<Object>() as u64 + ASSEMBLED + ASSEMBLED_FACES) * mesh.faces() as u64
+        + ASSEMBLED_TRIANGLE * corners.saturating_sub(2 * mesh.faces() as u64)
+}
+
+/// The polygons of a part, and the triangles they are cut into.
+struct Part {
+    name: Option<String>,
+    runs: Vec<Range<u32>>,
+    /// The material of each run.
+    materials: Vec<u32>,
+    triangles: Vec<[u32; 3]>,
+    topology: Topology,
+    /// Whether each of its triangles was there twice, so that nothing lies between them.
+    is_doubled: bool,
+}
+
+impl Part {
+    /// The material of all of it, where that is one.
+    fn material(&self) -> Option<u32> {
+        let &first = self.materials.first()?;
+        self.materials.iter().all(|&material| material == first).then_some(first)
+    }
+
+    fn is_solid(&self) -> bool {
+        self.topology.is_closed() && !self.is_doubled && self.material().is_some()
+    }
+}
+
+/// Makes a scene of polygons.
+pub fn assemble(mut mesh: PolygonMesh, up: UpAxis) -> Result<Scene, MeshError> {
+    if mesh.faces() == 0 {
+        return Err(MeshFault::Empty.of_all());
+    }
+    let named = mesh.corners.iter().map(|&corner| mesh.points[corner as usize]);
+    if !is_within_reach(&Bounds::around(named)) {
+        return Err(MeshFault::TooFar.of_all());
+    }
+    weld(&mut mesh);
+    let mut clipper = EarClipper::default();
+    let mut parts: Vec<Part> = groups(&mesh)
+        .into_iter()
+        .filter_map(|(name, runs)| {
+            Some(part(&mesh, name, &runs, &mut clipper)).filter(|part| !part.triangles.is_empty())
+        })
+        .collect();
+    // Groups may be of the faces of one solid, such as those of a side.
+    if parts.len() > 1 && parts.iter().any(|part| !part.is_solid()) {
+        let whole = part(&mesh, None, &runs(&mesh), &mut clipper);
+        if whole.is_solid() {
+            parts = vec![whole];
+        }
+    }
+    let mut scene = Scene { notes: mesh.notes.clone(), ..Scene::default() };
+    let mut flat = 0;
+    for part in &parts {
+        let facts = MeshFacts::of(&part.triangles, &mesh.points, &part.topology);
+        let is_solid = part.is_solid();
+        let objects = scene.objects.len();
+        if is_solid {
+            scene.objects.extend(solid(&mesh, part, up));
+        } else {
+            flat += surfaces(&mesh, part, up, &mut scene.objects);
+        }
+        if scene.objects.len() > objects {
+            scene.meshes.push(MeshFacts {
+                format: mesh.format,
+                up,
+                name: part.name.clone(),
+                is_solid,
+                ..facts
+            });
+        }
+    }
+    if scene.objects.is_empty() {
+        return Err(MeshFault::Flat.of_all());
+    }
+    if flat > 0 {
+        scene.notes.push(format!("faces without an area are left out ({flat} times)"));
+    }
+    scene.notes.extend(shown_as_surfaces(&scene.meshes));
+    scene.materials = mesh.materials;
+    Ok(scene)
+}
+
+/// The note on parts that are no solids.
+fn shown_as_surfaces(meshes: &[MeshFacts]) -> Option<String> {
+    let mut surfaces = meshes.iter().filter(|facts| !facts.is_solid);
+    let first = surfaces.next()?;
+    let others = surfaces.count();
+    let part = match &first.name {
+        Some(name) => format!("the part `{name}`"),
+        None => "the mesh".to_owned(),
+    };
+    let why = match first.open_edge {
+        Some([from, to]) => {
+            format!("is not closed: nothing meets its edge from {} to {}", place(from), place(to))
+        }
+        None => "is no solid, since its faces have several materials or lie on each other".to_owned(),
+    };
+    let more = match others {
+        0 => String::new(),
+        1 => "; and so is one part more".to_owned(),
+        others => format!("; and so are {others} parts more"),
+    };
+    Some(format!("{part} {why}; it is shown as a surface{more}"))
+}
+
+/// Makes equal points one, numbered in the order in which the file has them.
+fn weld(mesh: &mut PolygonMesh) {
+    let mut numbers = HashMap::with_capacity(mesh.points.len());
+    let mut points = Vec::new();
+    let places: Vec<u32> = mesh
+        .points
+        .iter()
+        .map(|point| {
+            *numbers.entry(point.to_array().map(f64::to_bits)).or_insert_with(|| {
+                points.push(*point);
+                points.len() as u32 - 1
+            })
+        })
+        .collect();
+    for corner in &mut mesh.corners {
+        *corner = places[*corner as usize];
+    }
+    mesh.points = points;
+}
+
+/// All runs that have polygons, with the polygons that they have.
+fn runs(mesh: &PolygonMesh) -> Vec<(FaceRun, Range<u32>)> {
+    let ends = mesh.runs.iter().skip(1).map(|run| run.first).chain([mesh.faces() as u32]);
+    mesh.runs
+        .iter()
+        .zip(ends)
+        .map(|(&run, end)| (run, run.first..end))
+        .filter(|(_, faces)| !faces.is_empty())
+        .collect()
+}
+
+type GroupOfRuns = (Option<String>, Vec<(FaceRun, Range<u32>)>);
+
+/// The groups with their runs, in the order in which the file names them.
+fn groups(mesh: &PolygonMesh) -> Vec<GroupOfRuns> {
+    let mut groups: Vec<GroupOfRuns> = mesh.groups.iter().map(|name| (name.clone(), Vec::new())).collect();
+    for (run, faces) in runs(mesh) {
+        groups[run.group as usize].1.push((run, faces));
+    }
+    groups
+}
+
+/// The part that runs make up.
+fn part(
+    mesh: &PolygonMesh,
+    name: Option<String>,
+    runs: &[(FaceRun, Range<u32>)],
+    clipper: &mut EarClipper,
+) -> Part {
+    let mut triangles = cut(mesh, runs, clipper);
+    cancel_pairs(&mut triangles);
+    let is_doubled = triangles.is_empty();
+    if is_doubled {
+        triangles = cut(mesh, runs, clipper);
+    }
+    let triangles: Vec<[u32; 3]> = triangles.into_iter().map(|(triangle, ())| triangle).collect();
+    let topology = Topology::of(&triangles, mesh.points.len());
+    let materials = runs.iter().map(|(run, _)| run.material).collect();
+    let runs = runs.iter().map(|(_, faces)| faces.clone()).collect();
+    Part { name, runs, materials, triangles, topology, is_doubled }
+}
+
+/// Cuts the polygons of runs into triangles.
+fn cut(mesh: &PolygonMesh, runs: &[(FaceRun, Range<u32>)], clipper: &mut EarClipper) -> Vec<([u32; 3], ())> {
+    let mut triangles = Vec::new();
+    let mut polygon = Vec::new();
+    for face in runs.iter().flat_map(|(_, faces)| faces.clone()) {
+        polygon.clear();
+        polygon.extend_from_slice(mesh.face(face as usize));
+        drop_repeated(&mut polygon, |&corner| mesh.points[corner as usize]);
+        if polygon.len() >= 3 {
+            triangulate(&mesh.points, &polygon, clipper, |triangle| triangles.push((triangle, ())));
+        }
+    }
+    triangles
+}
+
+/// The solid of a closed part; none where it has no area.
+fn solid(mesh: &PolygonMesh, part: &Part, up: UpAxis) -> Option<Object> {
+    let place = |corner: u32| up.turned(mesh.points[corner as usize]);
+    if !part.triangles.iter().any(|triangle| has_area(triangle.iter().map(|&corner| place(corner)))) {
+        return None;
+    }
+    let mut used: Vec<u32> = part.triangles.iter().flatten().copied().collect();
+    used.sort_unstable();
+    used.dedup();
+    let points: Vec<DVec3> = used.iter().map(|&corner| place(corner)).collect();
+    // Corners in the order of their numbers: where most are used, each is near its own number.
+    let index = |corner: u32| used.partition_point(|&other| other < corner) as u32;
+    let triangles = if used.last().is_some_and(|&last| last as usize + 1 == used.len()) {
+        part.triangles.clone()
+    } else {
+        part.triangles.iter().map(|triangle| triangle.map(index)).collect()
+    };
+    let shape = Shape::Mesh(Arc::new(Mesh { points, triangles }));
+    Some(object(part, shape, part.material().unwrap_or(0)))
+}
+
+/// A surface for each polygon of a part; gives how many were left out, for they have no area.
+fn surfaces(mesh: &PolygonMesh, part: &Part, up: UpAxis, objects: &mut Vec<Object>) -> usize {
+    let mut flat = 0;
+    for (faces, &material) in part.runs.iter().zip(&part.materials) {
+        for face in faces.clone() {
+            let mut corners: Vec<DVec3> = mesh
+                .face(face as usize)
+                .iter()
+                .map(|&corner| up.turned(mesh.points[corner as usize]))
+                .collect();
+            drop_repeated(&mut corners, |&corner| corner);
+            if corners.len() >= 3 && has_area(corners.iter().copied()) {
+                objects.push(object(part, Shape::Face(Arc::from(corners)), material));
+            } else {
+                flat += 1;
+            }
+        }
+    }
+    flat
+}
+
+fn object(part: &Part, shape: Shape, material: u32) -> Object {
+    let primitive = Primitive::new(shape, DAffine3::IDENTITY, MaterialId(material));
+    Object { name: part.name.clone(), solid: Solid::Primitive(primitive) }
+}

@@ -1,0 +1,65 @@
+//! Mesh files: STL, OFF, PLY and OBJ.
+//!
+//! Bytes → polygons ([`polygons`]), by a reader for each format → objects ([`assemble`]). Readers stop at the
+//! first mistake, and take memory for what there is, not for what the file says there is. `docs/meshes.md`
+//! describes the formats for people, `docs/decisions/24-mesh-files.md` why the readers are our own.
+
+mod assemble;
+mod facts;
+mod fault;
+mod index;
+mod obj;
+mod off;
+mod ply;
+mod polygons;
+mod stl;
+#[cfg(test)]
+mod tests;
+mod topology;
+mod words;
+
+use super::memory::too_little;
+use super::{Diagnostics, Format, ReadOptions, Scene, UpAxis};
+
+pub use facts::MeshFacts;
+
+/// The format of a mesh by its content, whatever its name.
+pub(super) fn format_of(bytes: &[u8]) -> Option<Format> {
+    if ply::is_ply(bytes) {
+        Some(Format::Ply)
+    } else if stl::is_binary(bytes) || stl::is_text(bytes) {
+        Some(Format::Stl)
+    } else if off::is_off(bytes) {
+        Some(Format::Off)
+    } else if obj::is_obj(bytes) {
+        Some(Format::Obj)
+    } else {
+        None
+    }
+}
+
+/// Reads a scene of a mesh; `None` where the format is another.
+pub(super) fn read(
+    name: &str,
+    bytes: &[u8],
+    format: Format,
+    options: &ReadOptions,
+) -> Option<Result<Scene, Diagnostics>> {
+    let polygons = match format {
+        Format::Stl => stl::read(bytes),
+        Format::Off => off::read(bytes),
+        Format::Ply => ply::read(bytes),
+        Format::Obj => obj::read(bytes, options.folder.as_deref()),
+        Format::Language | Format::Nff => return None,
+    };
+    let polygons = match polygons {
+        Ok(polygons) => polygons,
+        Err(error) => return Some(Err(error.told(name, bytes))),
+    };
+    let needed = bytes.len() as u64 + assemble::bytes(&polygons);
+    if let Some(limit) = options.memory.filter(|&limit| needed > limit) {
+        return Some(Err(Diagnostics::whole(name, too_little(limit, needed))));
+    }
+    let up = options.up.unwrap_or(if format == Format::Obj { UpAxis::Y } else { UpAxis::Z });
+    Some(assemble::assemble(polygons, up).map_err(|error| error.told(name, bytes)))
+}

@@ -234,6 +234,7 @@ impl Setting {
     }
 
     /// `base` with what this setting shows otherwise on purpose.
+    #[must_use]
     pub fn what_is_meant(&self, base: &Self) -> Self {
         let meant = KNOBS.iter().filter(|knob| (knob.another_picture)(self, base));
         meant.fold(*base, |mut setting, knob| {

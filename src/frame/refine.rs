@@ -15,7 +15,7 @@ use crate::integrate::{History, TileIntegrator};
 use crate::lattice::FRUSTA;
 use crate::math::{DVec3, Grid, PACKET};
 use crate::shade::Channel;
-use crate::stage::{Counts, Meter, Silent};
+use crate::stage::{Counts, Meter, Stopwatch};
 use crate::tone::{Level, Tone};
 use crate::view::{PointPacket, Tile, edge_error, missed_edge_error, sample_point, tiles};
 
@@ -239,7 +239,7 @@ pub(super) fn refine<C: Channel, I: TileIntegrator<C>>(
         let chunks = open.par_chunks_mut(at_once);
         let counted = chunks.map(|some| {
             workers.with(renderer, |worker| {
-                let mut meter = Meter::new(Silent);
+                let mut meter = Meter::new(Stopwatch::still());
                 add_samples(some, had..rays, accuracy, renderer, worker, &mut meter);
                 meter.counts
             })
@@ -265,7 +265,7 @@ fn add_samples<C: Channel, I: TileIntegrator<C>>(
     accuracy: Accuracy,
     renderer: &TileRenderer<I>,
     worker: &mut Worker<I::Memory, C>,
-    meter: &mut Meter<Silent>,
+    meter: &mut Meter<Stopwatch>,
 ) {
     let Worker { memory, refining: PointScratch { points, packets, light }, .. } = worker;
     let samples: Vec<_> = numbers.map(sample_point).collect();

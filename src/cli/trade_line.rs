@@ -53,7 +53,13 @@ impl CommandLine {
     pub fn setting(&self, options: &str) -> Result<Setting, CliError> {
         let words = ["ray13"].into_iter().chain(options.split_whitespace());
         let refused = |e: clap::Error| CliError::Arguments(format!("in --with: {e}").trim_end().to_owned());
-        let given = Arguments::try_parse_from(words).map_err(refused)?.viewer.picture;
+        let given = Arguments::try_parse_from(words).map_err(refused)?;
+        let is_knobs = given.command.is_none() && given.viewer.file.is_none();
+        let given = given.viewer.picture;
+        if !is_knobs || has_more_than_knobs(&given) {
+            let what = "in --with: only options that trade speed for accuracy, as \"--samples 3 --depth 2\"";
+            return Err(CliError::Arguments(what.to_owned()));
+        }
         let turned = PictureArguments { preset: self.picture.preset, ..given };
         Ok(Setting { options: turned.options()?, glyphs: turned.look(None).glyphs })
     }
@@ -82,6 +88,23 @@ impl CommandLine {
         let blank = if own.is_empty() { "" } else { " " };
         format!("ray13 trade {}{}{blank}{own} --seconds 0 --rays {rays} --with", self.file, self.rest)
     }
+}
+
+/// Whether anything is given that no setting has: what the picture shows, and how large it is.
+fn has_more_than_knobs(given: &PictureArguments) -> bool {
+    let camera = &given.camera;
+    let moved = [camera.eye, camera.target].iter().any(Option::is_some) || camera.up.is_some();
+    moved
+        || camera.view.is_some()
+        || camera.field.is_some()
+        || camera.zoom.is_some()
+        || given.cells.is_some()
+        || given.dots.is_some()
+        || given.palette.is_some()
+        || given.tone.is_some()
+        || given.preset.is_some()
+        || given.invert
+        || given.no_invert
 }
 
 /// The arguments as if no knob were turned.

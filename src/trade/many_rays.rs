@@ -12,6 +12,10 @@ use crate::plan::EngineChoice;
 /// which is to find the same bits. Where it does, it traces the rest; where it does not, the exact one does.
 pub(super) const CHECKED_RAYS: u32 = 4;
 
+/// The number of its first ray in the sampling sequence: past all that a setting may take, 64 × 64, so that
+/// no picture is held against rays of its own.
+const FIRST_RAY: u32 = 4096;
+
 /// The mean light of some rays through each dot.
 #[derive(Clone, Debug)]
 pub(super) struct MeanLight {
@@ -80,16 +84,17 @@ impl<'a> ManyRays<'a> {
         self.agrees
     }
 
-    /// The mean of some points of the sequence.
+    /// The mean of some of them, by their numbers from 0.
     pub fn mean(&mut self, rays: Range<u32>) -> MeanLight {
+        let samples = FIRST_RAY + rays.start..FIRST_RAY + rays.end;
         let mut fast = self.request.clone();
         fast.options.engine = EngineChoice::Fast;
         if self.agrees && (self.is_checked || rays.start >= CHECKED_RAYS) {
-            return MeanLight::of(self.studio.draw_samples(&fast, rays));
+            return MeanLight::of(self.studio.draw_samples(&fast, samples));
         }
-        let exact = self.studio.draw_samples(&self.request, rays.clone());
+        let exact = self.studio.draw_samples(&self.request, samples.clone());
         if self.agrees && rays.end <= CHECKED_RAYS {
-            let fast = self.studio.draw_samples(&fast, rays);
+            let fast = self.studio.draw_samples(&fast, samples);
             let differ = |(a, b): (&f64, &f64)| a.to_bits() != b.to_bits();
             self.agrees = !exact.light.values().iter().zip(fast.light.values()).any(differ);
         }

@@ -27,6 +27,20 @@ fn the_claimed_error_holds() {
     }
 }
 
+/// From `--samples 2`, which took the very four rays of a reference of four: 0 wrong levels, and recommended.
+#[test]
+fn no_setting_is_held_against_its_own_rays() {
+    let studio = inside("die");
+    let base = picture(&studio, Size::new(64, 40));
+    for (samples, rays) in [(2, 4), (4, 16)] {
+        let mut request = base.clone();
+        request.options.samples = samples;
+        let frame = studio.draw_anew(&request);
+        let found = reference(&studio, &base, rays);
+        assert_ne!(frame.light.values(), found.light().values(), "{rays} rays");
+    }
+}
+
 /// The exact engine answers for all rays, though it traces few: the fast one is held to its bits.
 #[test]
 fn the_fast_engine_is_trusted_while_it_finds_the_bits() {

@@ -25,6 +25,7 @@ pub use facts::MeshFacts;
 
 /// The format of a mesh by its content, whatever its name.
 pub(super) fn format_of(bytes: &[u8]) -> Option<Format> {
+    let bytes = without_mark(bytes);
     if ply::is_ply(bytes) {
         Some(Format::Ply)
     } else if stl::is_binary(bytes) || stl::is_text(bytes) {
@@ -38,6 +39,15 @@ pub(super) fn format_of(bytes: &[u8]) -> Option<Format> {
     }
 }
 
+/// What is behind the byte order mark that some editors put before a text. The header of a binary STL may be
+/// anything.
+fn without_mark(bytes: &[u8]) -> &[u8] {
+    match bytes.strip_prefix("\u{feff}".as_bytes()) {
+        Some(text) if !stl::is_binary(bytes) => text,
+        _ => bytes,
+    }
+}
+
 /// Reads a scene of a mesh; `None` where the format is another.
 pub(super) fn read(
     name: &str,
@@ -45,6 +55,7 @@ pub(super) fn read(
     format: Format,
     options: &ReadOptions,
 ) -> Option<Result<Scene, Diagnostics>> {
+    let bytes = without_mark(bytes);
     let polygons = match format {
         Format::Stl => stl::read(bytes),
         Format::Off => off::read(bytes),

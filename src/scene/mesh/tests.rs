@@ -52,6 +52,17 @@ fn all_refused(name: &str, files: &[(&[u8], &str)]) {
     }
 }
 
+/// Editors of Windows put it before a text; an STL was then taken for a binary one that is cut off.
+#[test]
+fn a_byte_order_mark_is_passed_over() {
+    for (name, bytes) in MeshText::brick().files() {
+        let marked = [&b"\xef\xbb\xbf"[..], &bytes].concat();
+        if std::str::from_utf8(&bytes).is_ok_and(|text| !text.contains('\0')) {
+            assert_eq!(facts(name, &marked), facts(name, &bytes), "{name}");
+        }
+    }
+}
+
 #[test]
 fn every_format_gives_the_same_solid() {
     for (mesh, corners, triangles, volume) in

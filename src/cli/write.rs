@@ -43,7 +43,11 @@ impl Destination {
             Self::Standard => ("standard output".to_owned(), standard_output()),
             Self::File(path) => (path.display().to_string(), fs::metadata(path).ok()),
         };
-        let is_source = found.is_some_and(|found| found.is_file() && is_same(&found, &source))
+        // What a mesh takes its colours from is part of the scene, and no picture has this name.
+        let is_library =
+            |path: &Path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mtl"));
+        let is_source = self.path().is_some_and(|path| is_library(path) && path.exists())
+            || found.is_some_and(|found| found.is_file() && is_same(&found, &source))
             || self.path().is_some_and(|path| is_same_path(path, Path::new(scene)));
         if !is_source {
             return Ok(());
@@ -129,7 +133,7 @@ impl FileId {
 /// Why a picture is not written to a file.
 fn lost(name: &str) -> CliError {
     CliError::Input(format!(
-        "{name} is the file that the scene is read from, and would be lost: give the picture another name"
+        "{name} is a file that the scene is read from, and would be lost: give the picture another name"
     ))
 }
 

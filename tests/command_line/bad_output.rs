@@ -3,7 +3,7 @@
 use std::fs;
 use std::process::Stdio;
 
-use super::{BALL, done, fails, ray13, run, scene, text};
+use super::{BALL, done, fails, folder, ray13, run, scene, text};
 
 #[test]
 fn has_exit_code_1_and_leaves_nothing() {
@@ -82,10 +82,23 @@ fn is_never_the_scene_itself() {
     for read in &names {
         for written in &names {
             let message = fails(&run(&["render", read, "-o", written, "--format", "txt"]), 2);
-            assert!(message.contains("the file that the scene is read from"), "{message}");
+            assert!(message.contains("a file that the scene is read from"), "{message}");
         }
     }
     assert_eq!(fs::read_to_string(&file).unwrap(), BALL);
+}
+
+// From a review: the colours of a mesh were gone, and a picture stood in their file.
+#[test]
+fn is_never_the_library_of_a_mesh() {
+    let folder = folder("library");
+    let [mesh, library] = ["part.obj", "part.mtl"].map(|name| folder.join(name));
+    fs::write(&mesh, "mtllib part.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
+    fs::write(&library, "newmtl red\nKd 1 0 0\n").unwrap();
+    let [mesh, written] = [&mesh, &library].map(|path| path.to_str().unwrap());
+    let message = fails(&run(&["render", mesh, "-o", written, "--format", "txt"]), 2);
+    assert!(message.contains("a file that the scene is read from"), "{message}");
+    assert_eq!(fs::read_to_string(&library).unwrap(), "newmtl red\nKd 1 0 0\n");
 }
 
 #[cfg(unix)]

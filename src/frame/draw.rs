@@ -67,11 +67,7 @@ impl Studio {
     pub fn draw_samples(&self, request: &Request, samples: Range<u32>) -> Frame {
         let start = Instant::now();
         let workers = self.workers(request.options.threads);
-        let work = || with_cells(self.traced(request, None, Some(samples)), request);
-        let frame = match workers {
-            Some(pool) => pool.install(work),
-            None => work(),
-        };
+        let frame = by(workers.as_deref(), || with_cells(self.traced(request, None, Some(samples)), request));
         Frame { total: start.elapsed(), ..frame }
     }
 
@@ -81,14 +77,10 @@ impl Studio {
             Some(frame) if !frame.lacks_cells(request) => None,
             _ => self.workers(request.options.threads),
         };
-        let work = || {
+        let mut frame = by(workers.as_deref(), || {
             let frame = frame.unwrap_or_else(|| self.traced(request, hits.as_ref(), None));
             with_cells(frame, request)
-        };
-        let mut frame = match workers {
-            Some(pool) => pool.install(work),
-            None => work(),
-        };
+        });
         frame.total = start.elapsed();
         self.keep(request, &frame, hits);
         frame.only(request)
@@ -184,6 +176,14 @@ impl<C: Channel> Work<C> for Whole<'_> {
         }
         workers.give_back(renderer);
         all
+    }
+}
+
+/// Has work done by workers, or else by the caller's thread.
+fn by<T: Send>(workers: Option<&rayon::ThreadPool>, work: impl FnOnce() -> T + Send) -> T {
+    match workers {
+        Some(pool) => pool.install(work),
+        None => work(),
     }
 }
 

@@ -159,24 +159,25 @@ impl<'a> FirstRays<'a> {
             };
             [beside(-1), beside(1)]
         });
-        if is_smooth {
+        let possible = if is_smooth {
             for [before, behind] in opposites.into_iter().filter(|_| is_inside) {
                 let [before, behind] = [before, behind].map(|at| accuracy.parts(self.light::<C>(at)));
                 let bent = |k: usize| parts[k] + BEND * (before[k] + behind[k] - 2.0 * parts[k]);
                 around.add(std::array::from_fn(bent));
             }
-            let dot = OpenDot { column, row, sum: own, rays: 1, own: LightRange::of(parts), around };
-            return (self.small[(column, row)] || !accuracy.decides(&around)).then_some(dot);
-        }
-        for j in rows {
-            for i in columns.clone() {
-                around.add(accuracy.parts(self.light::<C>((i, j))));
+            around
+        } else {
+            for j in rows {
+                for i in columns.clone() {
+                    around.add(accuracy.parts(self.light::<C>((i, j))));
+                }
             }
-        }
-        // Between two edges it may be nearly all of what is seen on both sides; one takes half of it at most.
-        let differs = |at: (u32, u32)| self.history[at] != history;
-        let is_between = is_inside && opposites.into_iter().any(|sides| sides.into_iter().all(differs));
-        let possible = if is_between { around } else { around.halfway_to(parts) };
+            // Between two edges it may be nearly all of what is seen on both sides; one takes half of it at
+            // most.
+            let differs = |at: (u32, u32)| self.history[at] != history;
+            let is_between = is_inside && opposites.into_iter().any(|sides| sides.into_iter().all(differs));
+            if is_between { around } else { around.halfway_to(parts) }
+        };
         let dot = OpenDot { column, row, sum: own, rays: 1, own: LightRange::of(parts), around };
         (self.small[(column, row)] || !accuracy.decides(&possible)).then_some(dot)
     }

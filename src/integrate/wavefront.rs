@@ -3,9 +3,9 @@
 
 use std::ops::Range;
 
-use fearless_simd::{Level, dispatch};
+use fearless_simd::Level;
 
-use crate::math::{LANES, LaneVector, Lanes, PACKET, RayIndex, RayPacket, lanes};
+use crate::math::{LANES, LaneVector, Lanes, PACKET, RayIndex, RayPacket, dispatch, lanes};
 use crate::shade::{Channel, MediumStack, SurfaceInteraction, Surfaces};
 use crate::solid::{Departure, Departures};
 use crate::trace::{Hit, PacketHits};

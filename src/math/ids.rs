@@ -59,10 +59,10 @@ impl Lanes<u32> {
 
 #[cfg(test)]
 mod tests {
-    use fearless_simd::{Level, dispatch};
+    use fearless_simd::Level;
 
     use super::*;
-    use crate::math::{PACKET, SimdReal};
+    use crate::math::{PACKET, SimdReal, dispatch};
 
     #[test]
     fn ids_of_any_size_are_kept_where_they_are_put() {

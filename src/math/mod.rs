@@ -2,6 +2,7 @@
 //! trigonometry come from `libm`, so that every platform computes the same bits.
 
 mod bounds;
+mod dispatch;
 mod exact;
 mod f32x16;
 mod grid;
@@ -14,6 +15,7 @@ mod real;
 mod vector;
 
 pub use bounds::Bounds;
+pub(crate) use dispatch::dispatch;
 pub use exact::{product_rest, two_product_in_range, two_sum};
 pub use glam::{DAffine3, DMat3, DVec2, DVec3};
 pub use grid::{Grid, Size};

@@ -1,9 +1,9 @@
 //! The light of a packet's surfaces, eight at a time, by the formulas of [`super::lamp`] and
 //! [`super::material`].
 
-use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
+use fearless_simd::{Level, Simd, SimdBase, f64x8};
 
-use crate::math::{DVec3, LANES, LaneVector, Lanes, Mask, Number, REGISTERS, RayPacket, mask_of};
+use crate::math::{DVec3, LANES, LaneVector, Lanes, Mask, Number, REGISTERS, RayPacket, dispatch, mask_of};
 use crate::trace::ShadowPacket;
 
 use super::channel::{Channel, limited};

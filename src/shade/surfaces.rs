@@ -1,8 +1,10 @@
 //! The surfaces that a packet met: what [`super::SurfaceInteraction`] is of one ray, eight at a time.
 
-use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
+use fearless_simd::{Level, Simd, SimdBase, f64x8};
 
-use crate::math::{DVec3, LANES, LaneVector, Lanes, Mask, Number, REGISTERS, RayPacket, Vector, mask_of};
+use crate::math::{
+    DVec3, LANES, LaneVector, Lanes, Mask, Number, REGISTERS, RayPacket, Vector, dispatch, mask_of,
+};
 use crate::solid::{Assembly, Departures, WorldShape};
 use crate::trace::PacketHits;
 

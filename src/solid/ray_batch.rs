@@ -3,9 +3,9 @@
 //! Rays that run apart meet different primitives of a few forms. What is asked of one form is collected, and
 //! computed for eight at a time by the formulas for one.
 
-use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
+use fearless_simd::{Level, Simd, SimdBase, f64x8};
 
-use crate::math::{LANES, Mask, Ray, Rays, Vector};
+use crate::math::{LANES, Mask, Ray, Rays, Vector, dispatch};
 
 use super::ball::Balls;
 use super::crossing::{Crossing, FirstCrossings, RayStarts, firsts_of_spans};

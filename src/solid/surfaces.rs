@@ -194,11 +194,11 @@ impl SurfaceRays<'_> {
 mod tests {
     use std::sync::Arc;
 
-    use fearless_simd::{Level, dispatch};
+    use fearless_simd::Level;
     use proptest::prelude::*;
 
     use super::*;
-    use crate::math::{DAffine3, DVec3, PACKET, Placement, Ray};
+    use crate::math::{DAffine3, DVec3, PACKET, Placement, Ray, dispatch};
     use crate::scene::{Corner, MaterialId, Shape};
     use crate::solid::Departure;
 

@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
+use fearless_simd::{Level, Simd, SimdBase, f64x8};
 
-use crate::math::{DVec3, LaneVector, Number, REGISTERS, RayPacket, Size};
+use crate::math::{DVec3, LaneVector, Number, REGISTERS, RayPacket, Size, dispatch};
 
 use super::direction::all_settled;
 use super::pinhole::PinholeCamera;

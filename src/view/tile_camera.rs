@@ -1,11 +1,11 @@
 //! A tile of the picture as seen from the eye: its packets of rays, which are made only where they may meet
 //! something, and the corners between which they run.
 
-use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x8};
+use fearless_simd::{Level, Simd, SimdBase, f64x8};
 
 use std::ops::Range;
 
-use crate::math::{DVec3, LANES, LaneVector, Lanes, PACKET, REGISTERS, RayPacket, Size};
+use crate::math::{DVec3, LANES, LaneVector, Lanes, PACKET, REGISTERS, RayPacket, Size, dispatch};
 
 use super::block::{BLOCK, Block};
 use super::direction::all_settled;

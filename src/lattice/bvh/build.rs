@@ -5,7 +5,8 @@
 //! the slots that a part may fill (H. Ylitie, T. Karras, S. Laine: Efficient incoherent ray traversal on GPUs
 //! through compressed wide BVHs, 2017).
 
-use fearless_simd::{Level, dispatch};
+use crate::math::dispatch;
+use fearless_simd::Level;
 use rayon::prelude::*;
 
 use super::build_primitive::{About, BuildPrimitive};

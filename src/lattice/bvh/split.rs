@@ -3,7 +3,8 @@
 //! Where to part is looked for among a few bins of the boxes' centres (I. Wald: On fast construction of
 //! SAH-based bounding volume hierarchies, 2007).
 
-use fearless_simd::{Level, Simd, SimdBase, dispatch, f32x4};
+use crate::math::dispatch;
+use fearless_simd::{Level, Simd, SimdBase, f32x4};
 use rayon::prelude::*;
 
 use super::build_primitive::{About, BuildPrimitive};

@@ -4,9 +4,9 @@
 //! processor can predict. So each of many takes one step in its turn, and the others' steps fill the stalls
 //! of one.
 
-use fearless_simd::{Simd, SimdBase, dispatch, f32x8};
+use fearless_simd::{Simd, SimdBase, f32x8};
 
-use crate::math::Ray;
+use crate::math::{Ray, dispatch};
 
 use super::Bvh8;
 use super::node::{INNER, Node, WIDE};

@@ -2,9 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use fearless_simd::{Simd, SimdBase, SimdMask, dispatch, f32x8};
+use fearless_simd::{Simd, SimdBase, SimdMask, f32x8};
 
-use crate::math::Ray;
+use crate::math::{Ray, dispatch};
 
 use super::Bvh8;
 use super::node::{INNER, Node, WIDE};

@@ -27,10 +27,10 @@ mod stream;
 mod transmittance;
 mod walk;
 
-use fearless_simd::{Level, Simd, dispatch};
+use fearless_simd::{Level, Simd};
 
 use crate::lattice::{Bvh8, FRUSTA, Structure, SubLattices, slack};
-use crate::math::{Lanes, PACKET, RayPacket, Real};
+use crate::math::{Lanes, PACKET, RayPacket, Real, dispatch};
 use crate::solid::{Assembly, Departures};
 use crate::stage::Probe;
 

@@ -1,8 +1,8 @@
 //! The rays from the eye through a tile, in packets that are made where anything may lie in their way.
 
-use fearless_simd::{Level, Simd, dispatch};
+use fearless_simd::{Level, Simd};
 
-use crate::math::{LaneVector, Lanes, REGISTERS, RayPacket};
+use crate::math::{LaneVector, Lanes, REGISTERS, RayPacket, dispatch};
 use crate::view::TileCamera;
 
 use super::super::exact::all_moved_nearer;

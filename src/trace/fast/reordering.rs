@@ -168,10 +168,10 @@ fn place(ray: u16) -> (usize, usize) {
 
 #[cfg(test)]
 mod tests {
-    use fearless_simd::{Level, dispatch};
+    use fearless_simd::Level;
 
     use super::*;
-    use crate::math::Ray;
+    use crate::math::{Ray, dispatch};
 
     #[test]
     fn rays_that_were_mixed_are_sorted_by_the_lights_view_and_get_their_own_answers() {

@@ -168,12 +168,12 @@ fn around<S: Simd>(simd: S, packets: &[RayPacket]) -> Frustum {
 
 #[cfg(test)]
 mod tests {
-    use fearless_simd::{SimdBase, dispatch, f32x8};
+    use fearless_simd::{SimdBase, f32x8};
     use proptest::prelude::*;
 
     use super::super::super::exact::all_moved_nearer;
     use super::*;
-    use crate::math::{DVec3, REGISTERS, Size, lanes};
+    use crate::math::{DVec3, REGISTERS, Size, dispatch, lanes};
     use crate::scene::{Camera, FieldSpan};
     use crate::stage::Silent;
     use crate::view::{Picture, PinholeCamera, TileCamera, TileRays, tiles};

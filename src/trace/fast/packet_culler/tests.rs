@@ -1,10 +1,10 @@
 //! Whether what a culler leaves out is never met.
 
-use fearless_simd::{Level, dispatch};
+use fearless_simd::Level;
 use proptest::prelude::*;
 
 use super::*;
-use crate::math::Ray;
+use crate::math::{Ray, dispatch};
 
 fn point() -> impl Strategy<Value = DVec3> {
     // BoundingSphere numbers make rays along axes, and along the sides of boxes.

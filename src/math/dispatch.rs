@@ -1,9 +1,9 @@
 //! Which SIMD levels are compiled.
 
-/// Runs `$op` with the registers of `$level`, as [`fearless_simd::dispatch`] does, compiled for fewer levels where
-/// nothing is built for speed: each level is all kernels once more, which is most of what a compilation takes. With
-/// debug assertions they are the baseline and AVX2, in unit tests the baseline alone: what is the same at all levels
-/// is held by the suite `engines`, which `.ci/run` repeats as it is released.
+/// Runs `$op` with the registers of `$level`, as [`fearless_simd::dispatch`] does, compiled for fewer levels
+/// where nothing is built for speed: each level is all kernels once more. With debug assertions they are the
+/// baseline and AVX2, in unit tests the baseline alone. That all levels give the same is held by the suite
+/// `engines`, which `.ci/run` repeats as it is released.
 #[cfg(not(all(target_arch = "x86_64", not(feature = "fallback"), any(test, debug_assertions))))]
 macro_rules! dispatch {
     ($level:expr, $simd:pat => $op:expr) => {

@@ -11,7 +11,7 @@ use super::{given, inside, picture};
 /// Half a level, in twelfths of L*.
 const HALF: f64 = 0.5;
 
-const DOTS: Size = Size::new(160, 96);
+const DOTS: Size = Size::new(96, 58);
 
 fn drawn(studio: &Studio, options: Options) -> Frame {
     studio.draw(&Request { options, ..picture(studio, DOTS) })

@@ -8,6 +8,7 @@ use super::events::{Event, Gone, Inbox};
 use super::identity::Identity;
 use super::model::{Effect, Model, Subject};
 use super::pacing::Pacing;
+use super::refinement::{Detail, Refinement};
 use super::screen;
 use super::shown::Shown;
 use super::suspend::suspend;
@@ -21,7 +22,7 @@ use crate::stage::WorkStep;
 pub struct Viewer<'a> {
     painter: &'a dyn Painter,
     model: Model,
-    tracer: Tracer,
+    drawing: Drawing,
     terminal: &'a mut Terminal,
     inbox: &'a mut Inbox,
     pacing: Pacing,
@@ -34,6 +35,12 @@ pub struct Viewer<'a> {
     next_subject: Option<Subject>,
     /// Whether something is to be shown that waits for the terminal.
     waits: bool,
+}
+
+/// Who draws the pictures, and how finely.
+pub struct Drawing {
+    pub tracer: Tracer,
+    pub refinement: Refinement,
 }
 
 /// How the viewer ends when nothing fails.
@@ -50,7 +57,7 @@ impl<'a> Viewer<'a> {
     pub fn new(
         painter: &'a dyn Painter,
         model: Model,
-        tracer: Tracer,
+        drawing: Drawing,
         terminal: &'a mut Terminal,
         inbox: &'a mut Inbox,
         pacing: Pacing,
@@ -59,7 +66,7 @@ impl<'a> Viewer<'a> {
         Self {
             painter,
             model,
-            tracer,
+            drawing,
             terminal,
             inbox,
             pacing,
@@ -87,6 +94,10 @@ impl<'a> Viewer<'a> {
                         finished = Some(frame);
                         self.working = None;
                     }
+                    Event::GivenUp => {
+                        self.drawing.refinement.given_up(Instant::now());
+                        (self.next_subject, self.working) = (None, None);
+                    }
                     Event::Working(step) => self.working = Some(step),
                     event => {
                         if let Some(end) = self.take_in(event)? {
@@ -95,6 +106,9 @@ impl<'a> Viewer<'a> {
                     }
                 }
                 next = self.inbox.try_next();
+            }
+            if self.drawing.refinement.is_outdated(self.model.request().as_ref()) {
+                self.drawing.tracer.give_up();
             }
             self.show(finished)?;
         }
@@ -125,7 +139,7 @@ impl<'a> Viewer<'a> {
             Event::HungUp => return Err(AppError::HungUp),
             Event::Failed(error) => return Err(error.into()),
             Event::Panicked => return Err(AppError::Panicked),
-            Event::Drawn(_) | Event::Working(_) | Event::Loaded => {}
+            Event::Drawn(_) | Event::GivenUp | Event::Working(_) | Event::Loaded => {}
         }
         Ok(None)
     }
@@ -148,19 +162,22 @@ impl<'a> Viewer<'a> {
             }
         }
         self.waits = !open
-            && (self.next_request().is_some() || !self.terminal.shows(&self.screen(self.shown.as_ref())));
+            && (self.next_picture().is_some() || !self.terminal.shows(&self.screen(self.shown.as_ref())));
         Ok(())
     }
 
-    /// The picture that is to be begun; absent while one is being traced, and where it has been.
-    fn next_request(&self) -> Option<Request> {
-        let request = self.model.request().filter(|request| !self.tracer.has_been_asked(request));
-        request.filter(|_| self.next_subject.is_none())
+    /// The picture that is to be begun, and how finely; absent while one is being traced, and where all has
+    /// been.
+    fn next_picture(&self) -> Option<(Request, Detail)> {
+        let request = self.model.request()?;
+        let detail = self.drawing.refinement.next(&request)?;
+        Some((request, detail))
     }
 
     fn begin_picture(&mut self, now: Instant) {
-        if let Some(request) = self.next_request() {
-            self.tracer.ask(request);
+        if let Some((request, detail)) = self.next_picture() {
+            let order = self.drawing.refinement.begin(&request, detail, now);
+            self.drawing.tracer.ask(order);
             self.next_subject = Some(self.model.subject());
             self.pacing.begin(now);
         } else if self.next_subject.is_none() {
@@ -174,7 +191,8 @@ impl<'a> Viewer<'a> {
         let begun = Instant::now();
         self.subject = self.next_subject.take().unwrap_or_else(|| self.model.subject());
         let before = self.shown.as_ref().map_or((0, Duration::ZERO), |shown| (shown.bytes, shown.display));
-        let mut shown = Shown { frame, bytes: before.0, display: before.1 };
+        let rays = self.drawing.refinement.finished(&frame);
+        let mut shown = Shown { frame, rays, bytes: before.0, display: before.1 };
         shown.bytes = self.terminal.queue(self.screen(Some(&shown)));
         shown.display = begun.elapsed();
         self.terminal.queue(self.screen(Some(&shown)));

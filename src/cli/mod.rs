@@ -30,6 +30,7 @@ mod write;
 use std::io::{self, IsTerminal};
 use std::process::ExitCode;
 use std::sync::Arc;
+use std::time::Duration;
 
 use crate::app::{self, Opening, Settings};
 use crate::frame::Studio;
@@ -124,6 +125,8 @@ fn load(
         view: view.unwrap_or(0),
         camera: picture.moves_camera().then(|| picture.camera(&studio, 1.6)).transpose()?,
         options: picture.options()?,
+        frame_time: frame_time(arguments.fps),
+        adaptive_at_rest: picture.says_nothing_of_rays(),
         glyphs: picture.look(Some(opening.terminal)).glyphs,
         palette: opening.palette,
         ground: picture.ground(),
@@ -132,6 +135,11 @@ fn load(
         terminal: opening.terminal,
     };
     Ok((studio, settings))
+}
+
+/// The time of a picture where there are so many in a second; none where there are 0.
+fn frame_time(fps: f64) -> Option<Duration> {
+    (fps > 0.0).then(|| Duration::try_from_secs_f64(1.0 / fps).unwrap_or(Duration::MAX))
 }
 
 /// So many parts of a mesh file are described one by one.

@@ -6,27 +6,41 @@ use super::measurement::Measurement;
 
 /// The settings, by their places in `all` and from the fastest, that no other beats: each that is faster has
 /// more wrong levels, by a share of more than `known`, that of the reference itself: less is not told apart.
-/// Of two that are equal in both the first is taken. What shows another picture on purpose is no answer, and
-/// left out; so is what is neither more accurate than the first of all, the request's own, nor faster than
-/// the middle half of its pictures: no reason to turn a knob.
+///
+/// Times have a spread, and which of two that are as fast ([`Measurement::is_as_fast_as`]) is the faster one
+/// changes from run to run. So the fastest of those that are more accurate than what is on the front already
+/// stands for all that are as fast as it: of these the most accurate is taken, and of several that are as
+/// accurate as that one, the one nearest to what was asked for: with the fewest knobs turned, then the first
+/// that was measured.
+///
+/// What shows another picture on purpose is no answer, and left out; so is what is neither more accurate than
+/// the first of all, the request's own, nor faster: no reason to turn a knob.
 pub fn front(all: &[Measurement], known: f64) -> Vec<usize> {
     let wrong = |place: usize| all[place].wrong();
     let is_answer = |place: usize| {
         let is_more_accurate = wrong(place) + known < wrong(0);
-        let is_faster = all[place].cost() < all[0].times.middle_half()[0];
+        let is_faster = all[place].cost() < all[0].cost() && !all[place].is_as_fast_as(&all[0]);
         !all[place].is_another_picture && (place == 0 || is_more_accurate || is_faster)
     };
-    let mut places: Vec<usize> = (0..all.len()).filter(|&place| is_answer(place)).collect();
-    places.sort_by(|&a, &b| all[a].cost().cmp(&all[b].cost()).then(wrong(a).total_cmp(&wrong(b))));
-    let mut least = f64::INFINITY;
-    places.retain(|&place| {
-        let is_better = wrong(place) + known < least;
-        if is_better {
-            least = wrong(place);
-        }
+    let mut left: Vec<usize> = (0..all.len()).filter(|&place| is_answer(place)).collect();
+    let mut found: Vec<usize> = Vec::new();
+    while let Some(&fastest) = left.iter().min_by_key(|&&place| (all[place].cost(), place)) {
+        let as_fast = || left.iter().copied().filter(|&place| all[place].is_as_fast_as(&all[fastest]));
+        let least = as_fast().map(wrong).fold(f64::INFINITY, f64::min);
+        let as_accurate = as_fast().filter(|&place| wrong(place) <= least + known);
+        let Some(nearest) = as_accurate.min_by_key(|&place| (all[place].turned, place)) else { break };
+        found.push(nearest);
+        left.retain(|&place| wrong(place) + known < wrong(nearest));
+    }
+    // One whose times are spread widely may stand for faster ones, and then be slower than the next.
+    found.sort_by_key(|&place| (all[place].cost(), place));
+    let mut best = f64::INFINITY;
+    found.retain(|&place| {
+        let is_better = wrong(place) < best;
+        best = best.min(wrong(place));
         is_better
     });
-    places
+    found
 }
 
 /// What an answer has to keep to.
@@ -80,6 +94,7 @@ mod tests {
                 characters: None,
             },
             is_another_picture: false,
+            turned: 0,
         }
     }
 

@@ -35,6 +35,7 @@ pub fn run(arguments: &TradeArguments) -> Result<(), CliError> {
     let format = plot_format(arguments)?;
     input::say(&effects::check(&arguments.picture, effects::Presentation::Cells)?);
     let scene = input::read(&arguments.scene.file, &arguments.scene.reading)?;
+    to.check_libraries(&scene)?;
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
     // A size in dots is that of a picture without characters.

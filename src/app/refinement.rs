@@ -18,12 +18,18 @@ const COARSEST: u32 = 8;
 /// before, it is finished, for else a held key would show nothing.
 const PATIENCE: u32 = 2;
 
+/// After this time without a move the eye is taken to rest: a key that is held repeats at least 10.9 times a
+/// second, which is what a PC's keyboard does by itself. Sooner, every other picture of a flight would be one
+/// that nobody looks at.
+const REST: Duration = Duration::from_millis(100);
+
 /// How finely a picture is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Detail {
     /// A ray for each square of so many dots across and down, which have the light of its middle.
     Coarse(u32),
     /// A ray for each dot.
+    #[default]
     OneRay,
     /// As many as were asked for.
     Full,
@@ -41,7 +47,7 @@ pub struct Order {
 }
 
 /// The rays of a picture, in words.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RaysTold {
     detail: Detail,
     samples: u32,
@@ -58,6 +64,8 @@ pub struct Refinement {
     /// What is shown: the model's request, and how finely that was drawn.
     shown: Option<(Request, Detail)>,
     in_hand: Option<InHand>,
+    /// When the first picture was begun of what is wanted.
+    moved: Option<Instant>,
     /// Seconds of a ray from the eye, with all that follows from it, by the last picture of which each was
     /// traced.
     cost: Option<f64>,
@@ -105,7 +113,7 @@ impl Refinement {
         if self.in_hand.is_some() {
             return None;
         }
-        match self.shown.as_ref().filter(|(shown, _)| shown == wanted) {
+        match self.shown.as_ref().filter(|_| self.refines(wanted)) {
             None => Some(self.first(wanted)),
             Some((_, Detail::Coarse(_))) => Some(Detail::OneRay),
             Some((_, Detail::OneRay)) if !self.ends_with_one_ray(wanted) => Some(Detail::Full),
@@ -113,9 +121,17 @@ impl Refinement {
         }
     }
 
+    /// When it is to be begun; absent where that is at once.
+    pub fn due(&self, wanted: &Request) -> Option<Instant> {
+        self.moved.filter(|_| self.refines(wanted)).map(|moved| moved + REST)
+    }
+
     /// Notes that this is being drawn, and says how.
     pub fn begin(&mut self, wanted: &Request, detail: Detail, now: Instant) -> Order {
-        let refines = self.shown.as_ref().is_some_and(|(shown, _)| shown == wanted);
+        let refines = self.refines(wanted);
+        if !refines {
+            self.moved = Some(now);
+        }
         let factor = if let Detail::Coarse(factor) = detail { factor } else { 1 };
         let options = if detail == Detail::Full { self.full(wanted) } else { one_ray(wanted) };
         // What is only refined is there already.
@@ -150,13 +166,17 @@ impl Refinement {
     /// Notes that it was given up.
     pub fn given_up(&mut self, now: Instant) {
         let Some(InHand { request, detail, begun }) = self.in_hand.take() else { return };
-        let refines = self.shown.as_ref().is_some_and(|(shown, _)| *shown == request);
-        if !refines && detail != Detail::Full {
+        if !self.refines(&request) && detail != Detail::Full {
             // It would have taken longer.
             let least = now.saturating_duration_since(begun).as_secs_f64();
             let least = least / rays(&request, detail, 1).max(1) as f64;
             self.cost = Some(self.cost.map_or(least, |cost| cost.max(least)));
         }
+    }
+
+    /// Whether a picture of what is wanted is shown already.
+    fn refines(&self, wanted: &Request) -> bool {
+        self.shown.as_ref().is_some_and(|(shown, _)| shown == wanted)
     }
 
     /// The finest that is drawn within the time of a picture.
@@ -236,6 +256,10 @@ mod tests {
         }
     }
 
+    fn blank(dots: Size) -> Frame {
+        Frame::blank(dots, Grid::from_values(Size::new(0, 0), Vec::new()))
+    }
+
     /// Draws the next picture, which takes so long for each dot that it would be as long for all of them.
     fn draw(refinement: &mut Refinement, wanted: &Request, all: Duration) -> Option<(Order, String)> {
         let detail = refinement.next(wanted)?;
@@ -243,7 +267,7 @@ mod tests {
         assert_eq!(refinement.next(wanted), None);
         let drawn = order.request.coarser(order.factor).dots.area() as u64;
         let samples = u64::from(order.request.options.samples).pow(2);
-        let blank = Frame::blank(wanted.dots, Grid::filled(Size::new(1, 1), crate::glyph::Cell::default()));
+        let blank = blank(wanted.dots);
         let frame = Frame {
             counts: Counts { primary_rays: drawn * samples, ..Counts::default() },
             total: all.mul_f64((drawn * samples) as f64 / wanted.dots.area() as f64),
@@ -323,10 +347,18 @@ mod tests {
         let mut refinement = Refinement::new(Some(50 * MS), true);
         let [here, there] = [request(1.0), request(2.0)];
         draw(&mut refinement, &here, MS);
-        let order = refinement.begin(&here, Detail::Full, begin);
+        assert_eq!(refinement.due(&there), None);
+        refinement.begin(&there, Detail::OneRay, begin);
+        refinement.finished(&blank(here.dots));
+        assert_eq!((refinement.due(&there), refinement.due(&here)), (Some(begin + REST), None));
+        refinement.begin(&here, Detail::OneRay, begin);
+        refinement.finished(&blank(here.dots));
+        let order = refinement.begin(&here, Detail::Full, begin + REST);
+        // What refines it does not begin the time anew.
+        assert_eq!(refinement.due(&here), Some(begin + REST));
         assert_eq!(order.patience, Duration::ZERO);
         assert!(refinement.is_outdated(Some(&there)) && !refinement.is_outdated(Some(&here)));
-        refinement.given_up(begin + MS);
+        refinement.given_up(begin + REST + MS);
         // That teaches nothing of the time; what is shown is what it was.
         assert_eq!(refinement.next(&there), Some(Detail::OneRay));
         assert_eq!(refinement.next(&here), Some(Detail::Full));
@@ -340,8 +372,7 @@ mod tests {
     #[test]
     fn what_was_taken_over_teaches_nothing() {
         let mut refinement = Refinement::new(Some(50 * MS), false);
-        let blank =
-            Frame::blank(Size::new(160, 96), Grid::filled(Size::new(1, 1), crate::glyph::Cell::default()));
+        let blank = blank(Size::new(160, 96));
         refinement.begin(&request(1.0), Detail::OneRay, Instant::now());
         refinement.finished(&Frame { total: 900 * MS, ..blank });
         assert_eq!(refinement.next(&request(2.0)), Some(Detail::OneRay));

@@ -82,10 +82,10 @@ fn draw_choices(model: &Model, shown: Option<&Shown>, inside: Rect, theme: &Them
         ("shading", format!("({}) {}", settings.options.shading.number(), name(settings.options.shading))),
         ("shadows", if settings.options.shadows { "on" } else { "off" }.to_owned()),
         ("glyphs", settings.glyphs.name().to_owned()),
-        ("rays", rays.unwrap_or_default()),
     ];
-    let top = inside.bottom().saturating_sub(choices.len() as u16);
-    for (y, (name, choice)) in (top..inside.bottom()).zip(choices) {
+    let all: Vec<_> = choices.into_iter().chain(rays.map(|rays| ("rays", rays))).collect();
+    let top = inside.bottom().saturating_sub(all.len() as u16);
+    for (y, (name, choice)) in (top..inside.bottom()).zip(all) {
         let row = Rect { y, height: 1, ..inside };
         Line::from(vec![Span::styled(format!(" {name:<9}"), theme.dim), Span::raw(choice)])
             .render(row, buffer);
@@ -124,6 +124,7 @@ mod tests {
 
     use super::*;
     use crate::app::model::Window;
+    use crate::app::refinement::RaysTold;
     use crate::app::{Painter, Settings, keys::Action};
     use crate::frame::{NothingInView, Request, Space, Studio};
     use crate::glyph::{self, GlyphMode, Ground, Paint, Palette};
@@ -201,7 +202,7 @@ mod tests {
             total: Duration::from_millis(5),
             ..Frame::blank(math::Size::new(0, 0), cells)
         };
-        Shown { frame, rays: None, bytes: 1_946, display: Duration::from_micros(200) }
+        Shown { frame, rays: Some(RaysTold::default()), bytes: 1_946, display: Duration::from_micros(200) }
     }
 
     fn drawn(model: &Model, shown: Option<&Shown>) -> Buffer {

@@ -33,8 +33,8 @@ pub struct Viewer<'a> {
     subject: Subject,
     /// What is to be told beside the picture that is being traced; absent while none is.
     next_subject: Option<Subject>,
-    /// Whether something is to be shown that waits for the terminal.
-    waits: bool,
+    /// When something is to be done that waits: for the terminal, or for the eye to rest.
+    wakes: Option<Instant>,
 }
 
 /// Who draws the pictures, and how finely.
@@ -74,7 +74,7 @@ impl<'a> Viewer<'a> {
             working: None,
             subject,
             next_subject: None,
-            waits: false,
+            wakes: None,
         }
     }
 
@@ -83,10 +83,9 @@ impl<'a> Viewer<'a> {
     pub fn run(&mut self) -> Result<SessionEnd, AppError> {
         self.show(None)?;
         loop {
-            // By the clock it wakes only while something waits for the terminal.
-            let wakes = if self.waits { self.pacing.opens() } else { None };
+            // By the clock it wakes only while something waits.
             // The threads that listen keep their ends of the channel for as long as there is a terminal.
-            let mut next = self.inbox.next(wakes).map_err(|Gone| AppError::HungUp)?;
+            let mut next = self.inbox.next(self.wakes).map_err(|Gone| AppError::HungUp)?;
             let mut finished = None;
             while let Some(event) = next {
                 match event {
@@ -161,8 +160,11 @@ impl<'a> Viewer<'a> {
                 self.pacing.begin(now);
             }
         }
-        self.waits = !open
-            && (self.next_picture().is_some() || !self.terminal.shows(&self.screen(self.shown.as_ref())));
+        let next = self.next_picture().map(|(request, _)| self.drawing.refinement.due(&request));
+        let due = next.flatten();
+        let is_to_send =
+            !open && (next == Some(None) || !self.terminal.shows(&self.screen(self.shown.as_ref())));
+        self.wakes = if is_to_send { self.pacing.opens() } else { due.max(due.and(self.pacing.opens())) };
         Ok(())
     }
 
@@ -175,7 +177,8 @@ impl<'a> Viewer<'a> {
     }
 
     fn begin_picture(&mut self, now: Instant) {
-        if let Some((request, detail)) = self.next_picture() {
+        let rests = |request: &Request| self.drawing.refinement.due(request).is_none_or(|due| due <= now);
+        if let Some((request, detail)) = self.next_picture().filter(|(request, _)| rests(request)) {
             let order = self.drawing.refinement.begin(&request, detail, now);
             self.drawing.tracer.ask(order);
             self.next_subject = Some(self.model.subject());

@@ -38,9 +38,9 @@ pub struct ViewerArguments {
     #[command(flatten)]
     pub picture: PictureArguments,
     /// Pictures a second while the eye moves: where one ray a dot takes longer, dots are larger until nothing
-    /// moves; 0 for no limit
-    #[arg(long, value_name = "N", value_parser = values::not_negative, default_value = "20", allow_hyphen_values = true)]
-    pub fps: f64,
+    /// moves; 0 for no limit [default: 20]
+    #[arg(long, value_name = "N", value_parser = values::not_negative, allow_hyphen_values = true)]
+    pub fps: Option<f64>,
 }
 
 #[derive(Debug, Subcommand)]

@@ -54,7 +54,8 @@ impl CommandLine {
         let words = ["ray13"].into_iter().chain(options.split_whitespace());
         let refused = |e: clap::Error| CliError::Arguments(format!("in --with: {e}").trim_end().to_owned());
         let given = Arguments::try_parse_from(words).map_err(refused)?;
-        let is_knobs = given.command.is_none() && given.viewer.file.is_none();
+        let viewer = &given.viewer;
+        let is_knobs = given.command.is_none() && viewer.file.is_none() && viewer.fps.is_none();
         let given = given.viewer.picture;
         if !is_knobs || has_more_than_knobs(&given) {
             let what = "in --with: only options that trade speed for accuracy, as \"--samples 3 --depth 2\"";

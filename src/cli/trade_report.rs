@@ -56,7 +56,7 @@ const COLUMNS: [Column; 10] = [
             let time = one.cost().as_secs_f64().max(f64::MIN_POSITIVE);
             Some(format!("{:.0}", 100.0 * one.times.spread().as_secs_f64() / time))
         },
-        meaning: "half the width in which the middle half of its pictures lies; times that are closer are one",
+        meaning: "half the width in which the middle half of its pictures lies; where two overlap, they are as fast",
     },
     Column {
         name: "wrong%",

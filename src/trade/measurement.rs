@@ -97,10 +97,11 @@ impl Measurement {
         self.times.median()
     }
 
-    /// Whether its time is not told from that of another: their medians are no farther apart than the larger
-    /// of their spreads, which is what is printed behind ±.
+    /// Whether its time is not told from that of another: the times in which the middle half of the pictures
+    /// of each lie have some in common.
     pub fn is_as_fast_as(&self, other: &Self) -> bool {
-        self.cost().abs_diff(other.cost()) <= self.times.spread().max(other.times.spread())
+        let [own, other] = [self, other].map(|one| one.times.middle_half());
+        own[0] <= other[1] && other[0] <= own[1]
     }
 
     /// The share of dots with a wrong level, 0 to 1.

@@ -115,7 +115,7 @@ fn what_makes_no_sense_is_refused() {
     }
     fails(&run(&["trade", "die", "--json", "--within", "1s"]), 2);
     // These were taken for the setting that was asked for already.
-    for with in ["junk", "--view nope", "--dots 9x9", "scenes"] {
+    for with in ["junk", "--view nope", "--dots 9x9", "--fps 9", "scenes"] {
         let message = fails(&run(&["trade", "die", "--with", with]), 2);
         assert!(message.contains("--with"), "{with}: {message}");
     }

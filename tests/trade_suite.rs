@@ -10,12 +10,12 @@ mod trade {
     mod reference;
     mod sweep;
 
-    use std::sync::atomic::AtomicBool;
     use std::time::Instant;
 
     use ray13::frame::{Request, Studio};
     use ray13::math::Size;
     use ray13::scene::{ReadOptions, embedded, read};
+    use ray13::stage::GiveUp;
     use ray13::trade::{EyeDistance, Reference, ReferenceGoal};
 
     use crate::support::request::request;
@@ -39,6 +39,6 @@ mod trade {
     /// A reference of so many rays a dot.
     pub fn reference(studio: &Studio, base: &Request, rays: u32) -> Reference {
         let goal = ReferenceGoal { apart: 0.01, rays: Some(rays), until: Instant::now() };
-        Reference::new(studio, base, &goal, EyeDistance::default(), &AtomicBool::new(false))
+        Reference::new(studio, base, &goal, EyeDistance::default(), &GiveUp::never()).unwrap()
     }
 }

@@ -31,9 +31,12 @@ const STATUS_REQUEST: &[u8] = b"\x1b[5n";
 /// An embedded scene that looks different from every side.
 const SCENE: &str = "die";
 
+/// The viewer on the scene with one ray a dot, moving or not: each key has one picture.
+const PLAIN: [&str; 6] = [VIEWER, SCENE, "--aa", "off", "--fps", "0"];
+
 /// The viewer on the scene, its first picture drawn.
 fn viewer(size: Size) -> Pty {
-    let mut pty = Pty::start(&[VIEWER, SCENE], size);
+    let mut pty = Pty::start(&PLAIN, size);
     pty.wait_for("the first picture", Reading::drawn);
     pty
 }
@@ -42,6 +45,7 @@ fn viewer(size: Size) -> Pty {
 trait Reading {
     fn drawn(&self) -> bool;
     fn eye(&self) -> String;
+    fn rays(&self) -> String;
     fn picture(&self) -> String;
 }
 
@@ -62,6 +66,10 @@ impl Reading for Pty {
     fn eye(&self) -> String {
         let status = self.row(self.size().rows - 3);
         status.split("EYE").nth(1).and_then(|rest| rest.split("DIR").next()).unwrap_or_default().to_owned()
+    }
+
+    fn rays(&self) -> String {
+        rays(&(0..self.size().rows).map(|row| self.row(row)).collect::<Vec<_>>())
     }
 
     /// What stands inside the panel of the picture, right of its left border.
@@ -104,7 +112,7 @@ fn the_screen_follows_the_size_of_the_terminal() {
 
 #[test]
 fn a_terminal_without_a_size_is_taken_as_80_by_25() {
-    let mut pty = Pty::start(&[VIEWER, SCENE], Size { columns: 0, rows: 0 });
+    let mut pty = Pty::start(&PLAIN, Size { columns: 0, rows: 0 });
     pty.wait_for("the first picture", |pty| pty.size() == USUAL && pty.drawn());
 }
 
@@ -178,7 +186,7 @@ fn an_update_is_one_write() {
     }
     let log = Path::new(env!("CARGO_TARGET_TMPDIR")).join("writes");
     let trace = ["strace", "-f", "-qq", "-e", "trace=write", "-e", "write=none", "-s", "0", "-o"];
-    let command: Vec<&str> = trace.into_iter().chain([log.to_str().unwrap(), VIEWER, SCENE]).collect();
+    let command: Vec<&str> = trace.into_iter().chain([log.to_str().unwrap()]).chain(PLAIN).collect();
     let mut pty = Pty::start(&command, SMALLEST);
     pty.wait_for("the first picture", |pty| pty.drawn() && pty.log().ends_with(STATUS_REQUEST));
     for _ in 0..5 {
@@ -195,18 +203,88 @@ fn an_update_is_one_write() {
     assert_eq!(to_terminal, updates + 3, "{writes}");
 }
 
-/// At rest nothing is sent, though a question may have no answer.
+/// At rest nothing is sent, though a question may have no answer; once the picture is refined, nothing is
+/// computed either.
 #[test]
-fn at_rest_nothing_is_sent() {
+fn at_rest_nothing_is_sent_and_nothing_computed() {
     for answers in [Some(Duration::ZERO), None] {
         let mut pty = Pty::start(&[VIEWER, SCENE], SMALLEST);
         pty.answer_after(answers);
-        pty.wait_for("the first picture", |pty| pty.drawn() && pty.log().ends_with(STATUS_REQUEST));
-        let before = pty.log().len();
+        pty.wait_for("the refined picture", |pty| {
+            pty.drawn() && pty.rays() == "adaptive" && pty.log().ends_with(STATUS_REQUEST)
+        });
+        let before = (pty.log().len(), pty.ticks());
         let end = Instant::now() + Duration::from_millis(1_500);
         while Instant::now() < end && pty.take_output(end) {}
-        assert_eq!(pty.log().len(), before);
+        let after = (pty.log().len(), pty.ticks());
+        assert_eq!(after.0, before.0);
+        // What was begun with the last update may still have ended in this time: two hundredths of a second.
+        assert!(after.1 <= before.1 + 2, "{before:?} {after:?}");
     }
+}
+
+/// The rays of each picture that was shown since a place in the log.
+fn rays_shown(pty: &Pty, since: usize) -> Vec<String> {
+    let mut all: Vec<String> =
+        pty.screens(since).iter().map(|rows| rays(rows)).filter(|rays| !rays.is_empty()).collect();
+    all.dedup();
+    all
+}
+
+/// What the panel says of the rays.
+fn rays(rows: &[String]) -> String {
+    let said = rows.iter().find_map(|row| row.split("│ rays ").nth(1));
+    said.and_then(|rest| rest.split('│').next()).unwrap_or_default().trim().to_owned()
+}
+
+/// With no time at all for a picture, each has the largest dots while the eye moves, and is refined at rest;
+/// what was fixed by options is what there is at rest.
+#[test]
+fn a_picture_is_coarse_while_the_eye_moves_and_refined_at_rest() {
+    for (options, at_rest) in [
+        (&[][..], &["1 a dot", "adaptive"][..]),
+        (&["--aa", "off"], &["1 a dot"]),
+        (&["--samples", "2"], &["1 a dot", "4 a dot"]),
+        (&["--error", "0.25"], &["1 a dot", "adaptive"]),
+    ] {
+        let last = *at_rest.last().unwrap();
+        let command = [&[VIEWER, SCENE, "--fps", "1000000"][..], options].concat();
+        let mut pty = Pty::start(&command, SMALLEST);
+        pty.wait_for(last, |pty| pty.drawn() && pty.rays() == last && pty.log().ends_with(STATUS_REQUEST));
+        // Nothing has moved yet.
+        assert_eq!(rays_shown(&pty, 0), at_rest, "{options:?}");
+        let (eye, picture, before) = (pty.eye(), pty.picture(), pty.log().len());
+        pty.send("\x1b[C");
+        pty.wait_for(last, |pty| {
+            pty.eye() != eye && pty.rays() == last && pty.log().ends_with(STATUS_REQUEST)
+        });
+        let shown = rays_shown(&pty, before);
+        assert_eq!(shown[..2], [last, "1 for 64 dots"], "{options:?}");
+        assert_eq!(shown[2..], *at_rest, "{options:?}");
+        // Back again it is the same picture.
+        pty.send("\x1b[H");
+        pty.wait_for("the first picture", |pty| {
+            pty.rays() == last && pty.eye() == eye && pty.picture() == picture
+        });
+        pty.send("q");
+        pty.wait_for_end(0);
+    }
+}
+
+/// A key ends what is refined at once, and so does the end.
+#[test]
+fn a_key_does_not_wait_for_a_picture_that_is_refined() {
+    // With an error so small every dot at an edge has all its rays.
+    let mut pty =
+        Pty::start(&[VIEWER, "glass", "--error", "1e-9", "--threads", "1"], Size { columns: 200, rows: 60 });
+    pty.wait_for("the first picture", |pty| pty.drawn() && pty.rays() == "1 a dot");
+    for _ in 0..3 {
+        let eye = pty.eye();
+        pty.send("\x1b[C");
+        pty.wait_for("the next", |pty| pty.eye() != eye);
+    }
+    pty.send("q");
+    pty.wait_for_end(0);
 }
 
 #[test]
@@ -257,7 +335,7 @@ fn a_foreign_answer_is_no_key_in_any_pieces() {
 
 #[test]
 fn a_terminal_that_answers_nothing_shows_the_picture_all_the_same() {
-    let mut pty = Pty::start(&[VIEWER, SCENE], SMALLEST);
+    let mut pty = Pty::start(&PLAIN, SMALLEST);
     pty.answer_after(None);
     pty.wait_for("the first picture", Reading::drawn);
     pty.send("q");
@@ -283,7 +361,7 @@ fn late_answers_are_not_left_to_the_shell() {
 /// What is typed while the viewer asks who draws its screen counts.
 #[test]
 fn keys_typed_before_the_first_picture_count() {
-    let mut pty = Pty::start(&[VIEWER, SCENE], SMALLEST);
+    let mut pty = Pty::start(&PLAIN, SMALLEST);
     pty.answer_after(None);
     pty.wait_for("the question", |pty| pty.log().ends_with(b"\x1b[5n"));
     pty.send("q");
@@ -301,7 +379,7 @@ fn a_signal_leaves_the_terminal_as_it_was_and_ends_the_process_by_that_signal() 
 
 #[test]
 fn suspended_it_gives_the_terminal_back_and_continued_it_takes_it_again() {
-    let mut pty = Pty::start_job(&[VIEWER, SCENE], SMALLEST);
+    let mut pty = Pty::start_job(&PLAIN, SMALLEST);
     pty.wait_for("the first picture", Reading::drawn);
     let picture = pty.picture();
     pty.send("\x1a");
@@ -319,7 +397,7 @@ fn suspended_it_gives_the_terminal_back_and_continued_it_takes_it_again() {
 
 #[test]
 fn what_stops_only_the_process_does_not_spoil_the_screen() {
-    let mut pty = Pty::start_job(&[VIEWER, SCENE], SMALLEST);
+    let mut pty = Pty::start_job(&PLAIN, SMALLEST);
     pty.wait_for("the first picture", Reading::drawn);
     // Nothing can give the terminal back before a SIGSTOP; the shell writes over the picture.
     pty.signal("STOP");

@@ -10,7 +10,7 @@ use std::time::Duration;
 use ray13::frame::{Request, Studio, Wants};
 use ray13::glyph::{CELL_ASPECT, GlyphMode, Palette};
 use ray13::math::Size;
-use ray13::plan::Options;
+use ray13::plan::{ERROR, Options};
 use ray13::scene::{self, ReadOptions, embedded};
 use ray13::tone::Tone;
 use ray13::trade::{EyeDistance, Setting, Sweep, SweepLimits, TradePlot, svg};
@@ -21,6 +21,11 @@ const CELLS: Size = Size::new(80, 45);
 
 /// The time of each scene: the reference takes two fifths of it.
 const TIME: Duration = Duration::from_secs(30);
+
+/// Anti-aliasing that is measured of each scene in any case: rays for each dot along each axis, and errors of
+/// as many rays as a dot needs, as shares of a level.
+const SAMPLES: [u32; 2] = [2, 3];
+const ERRORS: [f64; 3] = [4.0 * ERROR, 2.0 * ERROR, ERROR];
 
 const OTHERS: [&str; 3] = ["balls", "rings", "tree"];
 const BESIDE: &str = "../shared/scenes/spd";
@@ -55,9 +60,13 @@ fn curve(name: &str, studio: &Studio, pictures: &Path) -> Result<String, Box<dyn
         palette: Palette::DOS,
         tone: Tone::Lightness,
     };
-    let limits =
-        SweepLimits { time: TIME, also: Vec::new(), apart: 0.01, rays: None, eye: EyeDistance::default() };
-    let sweep = Sweep::new(studio, &base, &limits, &AtomicBool::new(false), &mut |_| ());
+    let own = Setting::of(&base);
+    // Wherever a sweep leads, the curve has these: both kinds of anti-aliasing, side by side.
+    let adaptive = ERRORS.map(|error| Options { adaptive: Some(error), ..base.options });
+    let fixed = SAMPLES.map(|samples| Options { samples, ..base.options });
+    let also = fixed.into_iter().chain(adaptive).map(|options| Setting { options, ..own }).collect();
+    let limits = SweepLimits { time: TIME, also, apart: 0.01, rays: None, eye: EyeDistance::default() };
+    let sweep = Sweep::new(studio, &base, &limits, &AtomicBool::new(false), &mut |_| ())?;
     let file = format!("trade-{name}.svg");
     fs::write(pictures.join(&file), svg(&TradePlot::new(&sweep)))?;
 
@@ -73,12 +82,15 @@ fn curve(name: &str, studio: &Studio, pictures: &Path) -> Result<String, Box<dyn
         reference.error().rms,
         reference.shimmer().unwrap_or(0.0),
     );
-    let own = Setting::of(&base);
-    let mut rows = sweep.front();
-    // What was asked for, and the other pictures, are shown wherever they are.
-    let others: Vec<usize> = (0..sweep.all.len())
-        .filter(|&place| !rows.contains(&place) && (place == 0 || sweep.all[place].is_another_picture))
-        .collect();
+    let front = sweep.front();
+    let mut rows = front.clone();
+    // What was asked for, anti-aliasing, and the other pictures, are shown wherever they are.
+    let is_shown = |place: usize| {
+        let one = &sweep.all[place];
+        place == 0 || one.is_another_picture || limits.also.contains(&one.setting)
+    };
+    let others: Vec<usize> =
+        (0..sweep.all.len()).filter(|&place| !rows.contains(&place) && is_shown(place)).collect();
     rows.extend(others);
     for place in rows {
         let one = &sweep.all[place];
@@ -87,7 +99,12 @@ fn curve(name: &str, studio: &Studio, pictures: &Path) -> Result<String, Box<dyn
             none if none.is_empty() => "the defaults".to_owned(),
             some => format!("`{some}`"),
         };
-        let mark = if one.is_another_picture { " (another picture)" } else { "" };
+        let mark = match place {
+            _ if one.is_another_picture => " (another picture)",
+            0 => "",
+            _ if front.contains(&place) => "",
+            _ => " (beaten)",
+        };
         let hits = one.accuracy.geometry.map_or("–".to_owned(), |geometry| percent(geometry.share()));
         writeln!(
             text,

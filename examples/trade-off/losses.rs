@@ -77,21 +77,9 @@ pub fn table() -> Result<String, Box<dyn Error>> {
     Ok(table)
 }
 
-/// Nine glass balls, each in the one before, at depth 9: the scene of `tests/trade/defaults.rs`.
+/// Nine glass balls, each in the one before, at depth 9: what `tests/trade/defaults.rs` holds.
 pub fn nested_glass() -> Result<String, Box<dyn Error>> {
-    let mut text = "camera(eye = [0, -9, 3], target = [0, 0, 0], field = [16, 10]);\n\
-        light(at = [6, -8, 10], intensity = 0.9);\n\
-        world(ambient = 0.1, background = 0.4);\n\
-        material(kd = 0.7) translate([-20, -20, -3]) cube([40, 40, 1]);\n"
-        .to_owned();
-    for ball in 0..9 {
-        writeln!(
-            text,
-            "material(kd = 0, ks = 0, kr = 0.1, kt = 0.85, index = {}) object(\"{ball}\") sphere({});",
-            1.0 + 0.05 * f64::from(ball % 3 + 1),
-            0.1 * f64::from(10 - ball),
-        )?;
-    }
+    let text = include_str!("../../tests/files/nested-glass.scene");
     let studio = Studio::new(scene::read("glass.scene", text.as_bytes(), &ReadOptions::default())?)?;
     let drawn = |cutoff: f64| {
         let request = request(&studio, 0, Options { depth: 9, cutoff, ..Options::default() });

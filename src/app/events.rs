@@ -29,6 +29,8 @@ pub enum Event {
     Loaded,
     /// A picture is finished.
     Drawn(Box<Frame>),
+    /// A picture that nobody wanted any more was given up.
+    GivenUp,
     /// The thread that traces, or the one that reads the scene, panicked; its message is out.
     Panicked,
     /// The terminal is gone.

@@ -24,6 +24,7 @@ mod model;
 mod motion;
 mod pacing;
 mod painter;
+mod refinement;
 mod screen;
 mod settings;
 mod shown;
@@ -56,10 +57,11 @@ use loading::{Loading, Waited};
 use model::Model;
 use pacing::Pacing;
 pub use painter::Painter;
+use refinement::Refinement;
 pub use settings::{Questions, Settings};
 use terminal::Terminal;
 use tracer::Tracer;
-use viewer::{SessionEnd, Viewer};
+use viewer::{Drawing, SessionEnd, Viewer};
 
 /// Shows the scene until the person quits. Standard output has to be a terminal; keys come from standard
 /// input, or from the controlling terminal where standard input is something else.
@@ -162,8 +164,10 @@ impl Session {
         let tracer = Tracer::start(painter.clone(), self.sender.clone())?;
         let (terminal, inbox) = (&mut self.terminal, &mut self.inbox);
         let pacing = look_ahead(terminal, inbox, &mut settings)?;
+        let refinement = Refinement::new(settings.frame_time, settings.adaptive_at_rest);
         let model = Model::new(&**painter, settings, terminal::window());
-        let mut viewer = Viewer::new(&**painter, model, tracer, terminal, inbox, pacing);
+        let mut viewer =
+            Viewer::new(&**painter, model, Drawing { tracer, refinement }, terminal, inbox, pacing);
         let end = viewer.run();
         drop(viewer);
         self.end(end)

@@ -2,7 +2,7 @@
 
 use crate::frame::{Frame, Request, Studio};
 use crate::scene::{Camera, Scene};
-use crate::stage::Progress;
+use crate::stage::{GiveUp, Progress};
 
 /// What the viewer asks for scene, views and pictures. Pictures are drawn on a thread of their own.
 pub trait Painter: Send + Sync {
@@ -15,6 +15,11 @@ pub trait Painter: Send + Sync {
 
     /// Draws one picture.
     fn draw(&self, request: &Request) -> Frame;
+
+    /// Draws one picture, unless it is given up. Keys wait for a painter that can not give up.
+    fn draw_unless(&self, request: &Request, _give_up: &GiveUp) -> Option<Frame> {
+        Some(self.draw(request))
+    }
 
     /// Where it can be read how far a picture is that is being drawn.
     fn progress(&self) -> Progress {
@@ -33,6 +38,10 @@ impl Painter for Studio {
 
     fn draw(&self, request: &Request) -> Frame {
         self.draw(request)
+    }
+
+    fn draw_unless(&self, request: &Request, give_up: &GiveUp) -> Option<Frame> {
+        self.draw_unless(request, give_up)
     }
 
     fn progress(&self) -> Progress {

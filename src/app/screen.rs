@@ -30,7 +30,7 @@ pub fn draw(model: &Model, shown: Option<&Shown>, working: Option<WorkStep>, buf
     if let Around::Panels(panels) = &model.layout.around {
         let inside = layout::inside(panels.chart);
         draw_chart(model, shown, working, inside, &theme, buffer);
-        draw_choices(model, inside, &theme, buffer);
+        draw_choices(model, shown, inside, &theme, buffer);
         let status = status::line(model, shown, panels.status.width);
         Line::from(status).style(theme.text).render(panels.status, buffer);
     }
@@ -74,16 +74,18 @@ fn draw_chart(
     chart.styles(theme.text, theme.dim).render(area, buffer);
 }
 
-/// What the keys have chosen, at the bottom of the flow chart's panel.
-fn draw_choices(model: &Model, inside: Rect, theme: &Theme, buffer: &mut Buffer) {
+/// What the keys have chosen, and the rays of what is shown, at the bottom of the flow chart's panel.
+fn draw_choices(model: &Model, shown: Option<&Shown>, inside: Rect, theme: &Theme, buffer: &mut Buffer) {
     let settings = &model.settings;
+    let rays = shown.and_then(|shown| shown.rays).map(|rays| rays.to_string());
     let choices = [
         ("shading", format!("({}) {}", settings.options.shading.number(), name(settings.options.shading))),
         ("shadows", if settings.options.shadows { "on" } else { "off" }.to_owned()),
         ("glyphs", settings.glyphs.name().to_owned()),
     ];
-    let top = inside.bottom().saturating_sub(choices.len() as u16);
-    for (y, (name, choice)) in (top..inside.bottom()).zip(choices) {
+    let all: Vec<_> = choices.into_iter().chain(rays.map(|rays| ("rays", rays))).collect();
+    let top = inside.bottom().saturating_sub(all.len() as u16);
+    for (y, (name, choice)) in (top..inside.bottom()).zip(all) {
         let row = Rect { y, height: 1, ..inside };
         Line::from(vec![Span::styled(format!(" {name:<9}"), theme.dim), Span::raw(choice)])
             .render(row, buffer);
@@ -122,6 +124,7 @@ mod tests {
 
     use super::*;
     use crate::app::model::Window;
+    use crate::app::refinement::RaysTold;
     use crate::app::{Painter, Settings, keys::Action};
     use crate::frame::{NothingInView, Request, Space, Studio};
     use crate::glyph::{self, GlyphMode, Ground, Paint, Palette};
@@ -199,7 +202,7 @@ mod tests {
             total: Duration::from_millis(5),
             ..Frame::blank(math::Size::new(0, 0), cells)
         };
-        Shown { frame, bytes: 1_946, display: Duration::from_micros(200) }
+        Shown { frame, rays: Some(RaysTold::default()), bytes: 1_946, display: Duration::from_micros(200) }
     }
 
     fn drawn(model: &Model, shown: Option<&Shown>) -> Buffer {
@@ -296,7 +299,8 @@ mod tests {
                 (model.settings.glyphs, model.settings.palette) = (glyphs, palette);
                 model.settings.ground = Ground::Light;
                 let frame = studio.draw(&model.request().unwrap());
-                let buffer = drawn(&model, Some(&Shown { frame, bytes: 0, display: Duration::ZERO }));
+                let buffer =
+                    drawn(&model, Some(&Shown { frame, rays: None, bytes: 0, display: Duration::ZERO }));
                 let symbol = buffer[model.layout.picture.as_position()].symbol();
                 assert_eq!(symbol.replace('\u{2800}', " "), dark, "{glyphs:?} {palette:?}");
             }

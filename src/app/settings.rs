@@ -1,5 +1,7 @@
 //! With what the viewer starts.
 
+use std::time::Duration;
+
 use crate::glyph::{GlyphMode, Ground, Palette};
 use crate::output::Capabilities;
 use crate::plan::Options;
@@ -15,8 +17,14 @@ pub struct Settings {
     pub view: usize,
     /// A camera of one's own, in place of the view; the first press of Tab leaves it for the view.
     pub camera: Option<Camera>,
-    /// Shading model, shadows, structure, threads.
+    /// Shading model, shadows, structure, threads; and how many rays a dot has when nothing moves.
     pub options: Options,
+    /// The time of a picture while the eye moves: where one ray a dot takes longer, there are fewer and larger
+    /// dots until nothing moves. Absent where pictures take what they take.
+    pub frame_time: Option<Duration>,
+    /// Whether, where `options` have one ray a dot, the picture is anti-aliased when nothing moves: with as
+    /// many rays as each dot needs for [`ERROR`](crate::plan::ERROR).
+    pub adaptive_at_rest: bool,
     /// Characters.
     pub glyphs: GlyphMode,
     /// Colours, of the picture and of the panels.

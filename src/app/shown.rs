@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use super::refinement::RaysTold;
 use crate::frame::Frame;
 
 /// The last finished picture and what it took to send it.
@@ -9,6 +10,8 @@ use crate::frame::Frame;
 pub struct Shown {
     /// The picture.
     pub frame: Frame,
+    /// Its rays.
+    pub rays: Option<RaysTold>,
     /// Bytes to the terminal; 0 until they are known.
     pub bytes: usize,
     /// The time it took to draw the screen and turn it into these bytes.

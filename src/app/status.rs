@@ -24,6 +24,11 @@ pub fn line(model: &Model, shown: Option<&Shown>, columns: u16) -> String {
         parts.extend([milliseconds(ms), rate(ms), figures::bytes(shown.bytes) + "/f"]);
     }
     let wide = format!(" {}", parts.join("  "));
+    let rays = shown.and_then(|shown| shown.rays).map(|rays| format!("{wide}  RAYS {rays}"));
+    // The panel of the flow chart says that too.
+    if let Some(all) = rays.filter(|all| all.chars().count() <= columns.into()) {
+        return all;
+    }
     // Long coordinates take the room from between the figures first.
     if wide.chars().count() <= columns.into() { wide } else { format!(" {}", parts.join(" ")) }
 }

@@ -2,66 +2,82 @@
 
 use std::io;
 use std::panic::{self, AssertUnwindSafe};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::Sender;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
+use std::time::Instant;
 
 use super::Painter;
 use super::events::Event;
+use super::refinement::Order;
 use super::watch::Watch;
-use crate::frame::Request;
+use crate::stage::GiveUp;
 
-/// The way to the tracing thread. Dropping it ends the thread after the picture in hand.
+/// The way to the tracing thread. Dropping it ends the thread, which gives up what it has in hand.
 pub struct Tracer {
     mailbox: Arc<Mailbox>,
-    /// The last request that was posted.
-    asked: Option<Request>,
+    /// Whether nobody wants what was asked for last.
+    unwanted: Arc<AtomicBool>,
+}
+
+/// What is to be drawn, and whether nobody wants it any more.
+struct Job {
+    order: Order,
+    unwanted: Arc<AtomicBool>,
 }
 
 impl Tracer {
-    /// Starts the thread. It sends each finished picture, or that it has panicked, to `events`.
+    /// Starts the thread. It sends each finished picture, that one was given up, or that it has panicked, to
+    /// `events`.
     pub fn start(painter: Arc<dyn Painter>, events: Sender<Event>) -> io::Result<Self> {
         let mailbox = Arc::new(Mailbox::default());
         let inbox = mailbox.clone();
         let watch = Watch::start(painter.progress(), events.clone())?;
         thread::Builder::new().name("tracer".to_owned()).spawn(move || {
-            while let Some(request) = inbox.take() {
+            while let Some(Job { order, unwanted }) = inbox.take() {
                 watch.begin();
+                let begin = Instant::now();
+                let when = || unwanted.load(Ordering::Relaxed) && begin.elapsed() >= order.patience;
                 // What a panicking painter leaves half done is not looked at again: the program ends.
-                let drawn = panic::catch_unwind(AssertUnwindSafe(|| painter.draw(&request)));
+                let drawn =
+                    panic::catch_unwind(AssertUnwindSafe(|| order.draw(&*painter, &GiveUp::when(&when))));
                 watch.end();
                 let panicked = drawn.is_err();
-                let event = drawn.map_or(Event::Panicked, |frame| Event::Drawn(Box::new(frame)));
+                let event = match drawn {
+                    Ok(Some(frame)) => Event::Drawn(Box::new(frame)),
+                    Ok(None) => Event::GivenUp,
+                    Err(_) => Event::Panicked,
+                };
                 if events.send(event).is_err() || panicked {
                     break;
                 }
             }
             watch.close();
         })?;
-        Ok(Self { mailbox, asked: None })
+        Ok(Self { mailbox, unwanted: Arc::default() })
     }
 
-    /// Whether this is the request that was asked last.
-    pub fn has_been_asked(&self, request: &Request) -> bool {
-        self.asked.as_ref() == Some(request)
+    /// Asks for a picture in place of any that has not been begun.
+    pub fn ask(&mut self, order: Order) {
+        self.unwanted = Arc::default();
+        self.mailbox.post(Job { order, unwanted: self.unwanted.clone() });
     }
 
-    /// Asks for a picture in place of any that has not been begun. The same request twice is asked once.
-    pub fn ask(&mut self, request: Request) {
-        if !self.has_been_asked(&request) {
-            self.mailbox.post(request.clone());
-            self.asked = Some(request);
-        }
+    /// Says that nobody wants what was asked for last. It is given up when its patience is over.
+    pub fn give_up(&self) {
+        self.unwanted.store(true, Ordering::Relaxed);
     }
 }
 
 impl Drop for Tracer {
     fn drop(&mut self) {
+        self.give_up();
         self.mailbox.close();
     }
 }
 
-/// Room for one request: the latest wins.
+/// Room for one job: the latest wins.
 #[derive(Default)]
 struct Mailbox {
     slot: Mutex<Slot>,
@@ -70,13 +86,13 @@ struct Mailbox {
 
 #[derive(Default)]
 struct Slot {
-    request: Option<Request>,
+    job: Option<Job>,
     closed: bool,
 }
 
 impl Mailbox {
-    fn post(&self, request: Request) {
-        self.lock().request = Some(request);
+    fn post(&self, job: Job) {
+        self.lock().job = Some(job);
         self.changed.notify_one();
     }
 
@@ -85,12 +101,12 @@ impl Mailbox {
         self.changed.notify_one();
     }
 
-    /// Waits for a request; absent once the mailbox is closed.
-    fn take(&self) -> Option<Request> {
-        let waiting = |slot: &mut Slot| slot.request.is_none() && !slot.closed;
+    /// Waits for a job; absent once the mailbox is closed.
+    fn take(&self) -> Option<Job> {
+        let waiting = |slot: &mut Slot| slot.job.is_none() && !slot.closed;
         let slot = self.changed.wait_while(self.lock(), waiting);
         let mut slot = slot.unwrap_or_else(PoisonError::into_inner);
-        if slot.closed { None } else { slot.request.take() }
+        if slot.closed { None } else { slot.job.take() }
     }
 
     fn lock(&self) -> MutexGuard<'_, Slot> {
@@ -102,9 +118,10 @@ impl Mailbox {
 #[cfg(test)]
 mod tests {
     use std::sync::mpsc::{self, Receiver};
+    use std::time::Duration;
 
     use super::*;
-    use crate::frame::{Frame, Studio, Wants};
+    use crate::frame::{Frame, Request, Studio, Wants};
     use crate::glyph::{GlyphMode, Palette};
     use crate::math::Size;
     use crate::plan::Options;
@@ -132,9 +149,9 @@ mod tests {
         }
     }
 
-    /// A request told apart by its width.
-    fn request(width: u32) -> Request {
-        Request {
+    /// An order told apart by its width, that is finished whoever wants it.
+    fn order(width: u32) -> Order {
+        let request = Request {
             camera: Studio::new(Scene::default()).unwrap().camera(0, 1.0),
             dots: Size::new(width, 1),
             dot_aspect: 1.0,
@@ -143,7 +160,8 @@ mod tests {
             glyphs: GlyphMode::Shade,
             palette: Palette::DOS,
             tone: Tone::Lightness,
-        }
+        };
+        Order { request, factor: 1, patience: Duration::MAX }
     }
 
     fn start() -> (Tracer, Receiver<u32>, Sender<()>, Receiver<Event>) {
@@ -163,10 +181,10 @@ mod tests {
     #[test]
     fn only_the_latest_of_the_waiting_requests_is_drawn() {
         let (mut tracer, begun, finish, events) = start();
-        tracer.ask(request(1));
+        tracer.ask(order(1));
         assert_eq!(begun.recv().unwrap(), 1);
         for width in 2..=9 {
-            tracer.ask(request(width));
+            tracer.ask(order(width));
         }
         finish.send(()).unwrap();
         assert_eq!(begun.recv().unwrap(), 9);
@@ -177,24 +195,58 @@ mod tests {
         }
     }
 
-    #[test]
-    fn the_same_request_is_drawn_once() {
-        let (mut tracer, begun, finish, _events) = start();
-        for width in [1, 2] {
-            tracer.ask(request(width));
-            assert_eq!(begun.recv().unwrap(), width);
-            tracer.ask(request(width));
-            finish.send(()).unwrap();
+    /// Draws until it is to give up.
+    struct Endless(Studio, Mutex<Sender<()>>);
+
+    impl Painter for Endless {
+        fn scene(&self) -> &Scene {
+            self.0.scene()
         }
+        fn camera(&self, index: usize, aspect: f64) -> Camera {
+            self.0.camera(index, aspect)
+        }
+        fn draw(&self, _request: &Request) -> Frame {
+            unreachable!("it is drawn unless it is given up")
+        }
+        fn draw_unless(&self, request: &Request, give_up: &GiveUp) -> Option<Frame> {
+            self.1.lock().unwrap().send(()).unwrap();
+            if request.dots.width > 1 {
+                return Some(self.0.draw(request));
+            }
+            while !give_up.is_due() {
+                thread::yield_now();
+            }
+            None
+        }
+    }
+
+    #[test]
+    fn what_nobody_wants_is_given_up() {
+        let (begin, begun) = mpsc::channel();
+        let (sender, events) = mpsc::channel();
+        let endless = Endless(Studio::new(Scene::default()).unwrap(), Mutex::new(begin));
+        let mut tracer = Tracer::start(Arc::new(endless), sender).unwrap();
+        tracer.ask(Order { patience: Duration::ZERO, ..order(1) });
+        begun.recv().unwrap();
+        tracer.give_up();
+        assert!(matches!(done(&events), Event::GivenUp));
+        // The next is not touched by that.
+        tracer.ask(order(2));
+        assert!(matches!(done(&events), Event::Drawn(_)));
+        // The end gives up what is in hand.
+        tracer.ask(Order { patience: Duration::ZERO, ..order(1) });
+        begun.recv().unwrap();
+        begun.recv().unwrap();
         drop(tracer);
-        assert_eq!(begun.iter().count(), 0);
+        assert!(matches!(done(&events), Event::GivenUp));
+        assert!(events.recv().is_err(), "the thread has ended");
     }
 
     #[test]
     fn a_panic_is_an_event_and_ends_the_thread() {
         let (mut tracer, begun, finish, events) = start();
         drop(finish); // the order to finish never comes, and the painter panics
-        tracer.ask(request(1));
+        tracer.ask(order(1));
         assert!(matches!(done(&events), Event::Panicked));
         assert!(events.recv().is_err(), "the thread has dropped its sender");
         assert_eq!(begun.recv().unwrap(), 1);

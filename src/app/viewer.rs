@@ -8,6 +8,7 @@ use super::events::{Event, Gone, Inbox};
 use super::identity::Identity;
 use super::model::{Effect, Model, Subject};
 use super::pacing::Pacing;
+use super::refinement::{Detail, Refinement};
 use super::screen;
 use super::shown::Shown;
 use super::suspend::suspend;
@@ -21,7 +22,7 @@ use crate::stage::WorkStep;
 pub struct Viewer<'a> {
     painter: &'a dyn Painter,
     model: Model,
-    tracer: Tracer,
+    drawing: Drawing,
     terminal: &'a mut Terminal,
     inbox: &'a mut Inbox,
     pacing: Pacing,
@@ -32,8 +33,14 @@ pub struct Viewer<'a> {
     subject: Subject,
     /// What is to be told beside the picture that is being traced; absent while none is.
     next_subject: Option<Subject>,
-    /// Whether something is to be shown that waits for the terminal.
-    waits: bool,
+    /// When something is to be done that waits: for the terminal, or for the eye to rest.
+    wakes: Option<Instant>,
+}
+
+/// Who draws the pictures, and how finely.
+pub struct Drawing {
+    pub tracer: Tracer,
+    pub refinement: Refinement,
 }
 
 /// How the viewer ends when nothing fails.
@@ -50,7 +57,7 @@ impl<'a> Viewer<'a> {
     pub fn new(
         painter: &'a dyn Painter,
         model: Model,
-        tracer: Tracer,
+        drawing: Drawing,
         terminal: &'a mut Terminal,
         inbox: &'a mut Inbox,
         pacing: Pacing,
@@ -59,7 +66,7 @@ impl<'a> Viewer<'a> {
         Self {
             painter,
             model,
-            tracer,
+            drawing,
             terminal,
             inbox,
             pacing,
@@ -67,7 +74,7 @@ impl<'a> Viewer<'a> {
             working: None,
             subject,
             next_subject: None,
-            waits: false,
+            wakes: None,
         }
     }
 
@@ -76,16 +83,19 @@ impl<'a> Viewer<'a> {
     pub fn run(&mut self) -> Result<SessionEnd, AppError> {
         self.show(None)?;
         loop {
-            // By the clock it wakes only while something waits for the terminal.
-            let wakes = if self.waits { self.pacing.opens() } else { None };
+            // By the clock it wakes only while something waits.
             // The threads that listen keep their ends of the channel for as long as there is a terminal.
-            let mut next = self.inbox.next(wakes).map_err(|Gone| AppError::HungUp)?;
+            let mut next = self.inbox.next(self.wakes).map_err(|Gone| AppError::HungUp)?;
             let mut finished = None;
             while let Some(event) = next {
                 match event {
                     Event::Drawn(frame) => {
                         finished = Some(frame);
                         self.working = None;
+                    }
+                    Event::GivenUp => {
+                        self.drawing.refinement.given_up(Instant::now());
+                        (self.next_subject, self.working) = (None, None);
                     }
                     Event::Working(step) => self.working = Some(step),
                     event => {
@@ -95,6 +105,9 @@ impl<'a> Viewer<'a> {
                     }
                 }
                 next = self.inbox.try_next();
+            }
+            if self.drawing.refinement.is_outdated(self.model.request().as_ref()) {
+                self.drawing.tracer.give_up();
             }
             self.show(finished)?;
         }
@@ -125,7 +138,7 @@ impl<'a> Viewer<'a> {
             Event::HungUp => return Err(AppError::HungUp),
             Event::Failed(error) => return Err(error.into()),
             Event::Panicked => return Err(AppError::Panicked),
-            Event::Drawn(_) | Event::Working(_) | Event::Loaded => {}
+            Event::Drawn(_) | Event::GivenUp | Event::Working(_) | Event::Loaded => {}
         }
         Ok(None)
     }
@@ -147,20 +160,27 @@ impl<'a> Viewer<'a> {
                 self.pacing.begin(now);
             }
         }
-        self.waits = !open
-            && (self.next_request().is_some() || !self.terminal.shows(&self.screen(self.shown.as_ref())));
+        let next = self.next_picture().map(|(request, _)| self.drawing.refinement.due(&request));
+        let due = next.flatten();
+        let is_to_send =
+            !open && (next == Some(None) || !self.terminal.shows(&self.screen(self.shown.as_ref())));
+        self.wakes = if is_to_send { self.pacing.opens() } else { due.max(due.and(self.pacing.opens())) };
         Ok(())
     }
 
-    /// The picture that is to be begun; absent while one is being traced, and where it has been.
-    fn next_request(&self) -> Option<Request> {
-        let request = self.model.request().filter(|request| !self.tracer.has_been_asked(request));
-        request.filter(|_| self.next_subject.is_none())
+    /// The picture that is to be begun, and how finely; absent while one is being traced, and where all has
+    /// been.
+    fn next_picture(&self) -> Option<(Request, Detail)> {
+        let request = self.model.request()?;
+        let detail = self.drawing.refinement.next(&request)?;
+        Some((request, detail))
     }
 
     fn begin_picture(&mut self, now: Instant) {
-        if let Some(request) = self.next_request() {
-            self.tracer.ask(request);
+        let rests = |request: &Request| self.drawing.refinement.due(request).is_none_or(|due| due <= now);
+        if let Some((request, detail)) = self.next_picture().filter(|(request, _)| rests(request)) {
+            let order = self.drawing.refinement.begin(&request, detail, now);
+            self.drawing.tracer.ask(order);
             self.next_subject = Some(self.model.subject());
             self.pacing.begin(now);
         } else if self.next_subject.is_none() {
@@ -174,7 +194,8 @@ impl<'a> Viewer<'a> {
         let begun = Instant::now();
         self.subject = self.next_subject.take().unwrap_or_else(|| self.model.subject());
         let before = self.shown.as_ref().map_or((0, Duration::ZERO), |shown| (shown.bytes, shown.display));
-        let mut shown = Shown { frame, bytes: before.0, display: before.1 };
+        let rays = self.drawing.refinement.finished(&frame);
+        let mut shown = Shown { frame, rays, bytes: before.0, display: before.1 };
         shown.bytes = self.terminal.queue(self.screen(Some(&shown)));
         shown.display = begun.elapsed();
         self.terminal.queue(self.screen(Some(&shown)));

@@ -37,6 +37,10 @@ pub struct ViewerArguments {
     pub reading: ReadingArguments,
     #[command(flatten)]
     pub picture: PictureArguments,
+    /// Pictures a second while the eye moves: where one ray a dot takes longer, dots are larger until nothing
+    /// moves; 0 for no limit [default: 20]
+    #[arg(long, value_name = "N", value_parser = values::not_negative, allow_hyphen_values = true)]
+    pub fps: Option<f64>,
 }
 
 #[derive(Debug, Subcommand)]
@@ -180,7 +184,7 @@ pub struct TradeArguments {
     pub scene: SceneArguments,
     #[command(flatten)]
     pub picture: PictureArguments,
-    /// Time for all of it; 0 measures the given options alone
+    /// Time for all of it; 0 measures the given options alone, however long that takes
     #[arg(long, value_name = "SECONDS", value_parser = values::seconds, default_value = "20", allow_hyphen_values = true)]
     pub seconds: Duration,
     /// Print the command line of the most accurate picture that takes no longer, as in 16ms
@@ -193,9 +197,10 @@ pub struct TradeArguments {
     /// many as it takes, and the time allows, to tell one percent of wrong levels apart, or --wrong]
     #[arg(long, value_name = "N", value_parser = values::rays, allow_hyphen_values = true)]
     pub rays: Option<u32>,
-    /// Measure these options too, against the picture of the others: "--samples 3 --depth 2"
+    /// Measure these options too, against the picture of the others: "--samples 3 --depth 2"; may be given
+    /// several times
     #[arg(long, value_name = "OPTIONS", allow_hyphen_values = true)]
-    pub with: Option<String>,
+    pub with: Vec<String>,
     /// One line of JSON in place of the table
     #[arg(long, conflicts_with_all = ["format", "output", "within", "wrong"])]
     pub json: bool,

@@ -24,16 +24,23 @@ pub enum CliError {
     /// Something could not be written: exit code 1.
     #[error("error: {0}")]
     Output(String),
+    /// Ctrl-C came before there was anything to tell: the exit code of a program that it has ended.
+    #[error("{0}")]
+    Interrupted(String),
     /// The viewer ended other than by a key: exit code 1.
     #[error("error: {0}")]
     Viewer(#[from] AppError),
 }
+
+/// What a shell reports of a program that Ctrl-C has ended: 128, and 2 of SIGINT.
+pub const INTERRUPTED: u8 = 130;
 
 impl CliError {
     /// The exit code.
     pub fn exit_code(&self) -> ExitCode {
         match self {
             Self::Input(_) | Self::Arguments(_) | Self::Scene(_) => ExitCode::from(2),
+            Self::Interrupted(_) => ExitCode::from(INTERRUPTED),
             Self::Different(_) | Self::Output(_) | Self::Viewer(_) => ExitCode::from(1),
         }
     }

@@ -30,6 +30,7 @@ mod write;
 use std::io::{self, IsTerminal};
 use std::process::ExitCode;
 use std::sync::Arc;
+use std::time::Duration;
 
 use crate::app::{self, Opening, Settings};
 use crate::frame::Studio;
@@ -77,7 +78,12 @@ fn command(arguments: Arguments) -> Result<(), CliError> {
 fn view(arguments: &ViewerArguments) -> Result<(), CliError> {
     let file = arguments.file.as_deref().unwrap_or(FIRST_SCENE);
     let picture = &arguments.picture;
-    let still = || render::still(file, &arguments.reading, picture);
+    let still = || {
+        if arguments.fps.is_some() {
+            tell("--fps has no effect: a still does not move");
+        }
+        render::still(file, &arguments.reading, picture)
+    };
     let Some(terminal) = terminal::of_output() else { return still() };
     if !terminal.cursor {
         // Behind the still, which fills the screen: what stands before it scrolls away.
@@ -124,6 +130,8 @@ fn load(
         view: view.unwrap_or(0),
         camera: picture.moves_camera().then(|| picture.camera(&studio, 1.6)).transpose()?,
         options: picture.options()?,
+        frame_time: frame_time(arguments.fps.unwrap_or(FPS)),
+        adaptive_at_rest: picture.says_nothing_of_rays(),
         glyphs: picture.look(Some(opening.terminal)).glyphs,
         palette: opening.palette,
         ground: picture.ground(),
@@ -132,6 +140,15 @@ fn load(
         terminal: opening.terminal,
     };
     Ok((studio, settings))
+}
+
+/// Pictures a second while the eye moves, where nothing is asked for: as many as the viewer sends through mosh
+/// and tmux, and enough to look like motion.
+const FPS: f64 = 20.0;
+
+/// The time of a picture where there are so many in a second; none where there are 0.
+fn frame_time(fps: f64) -> Option<Duration> {
+    (fps > 0.0).then(|| Duration::try_from_secs_f64(1.0 / fps).unwrap_or(Duration::MAX))
 }
 
 /// So many parts of a mesh file are described one by one.

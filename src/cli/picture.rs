@@ -80,6 +80,11 @@ impl PictureArguments {
         self.aa.unwrap_or(meant)
     }
 
+    /// Whether no option says how many rays a dot has, as the picture of 1986 does: one.
+    pub const fn says_nothing_of_rays(&self) -> bool {
+        self.preset.is_none() && self.aa.is_none() && self.samples.is_none() && self.error.is_none()
+    }
+
     fn samples_per_axis(&self) -> u32 {
         match self.anti_aliasing() {
             AntiAliasing::Fixed => self.samples.unwrap_or(FIXED_SAMPLES),

@@ -30,6 +30,7 @@ pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
     input::say(&notes);
     let reading = Instant::now();
     let scene = input::read(&arguments.scene.file, &arguments.scene.reading)?;
+    to.check_libraries(&scene)?;
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
     let read = reading.elapsed();

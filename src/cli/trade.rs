@@ -11,10 +11,10 @@ use signal_hook::consts::SIGINT;
 use signal_hook::flag;
 
 use crate::frame::Wants;
-use crate::trade::{EyeDistance, Sweep, SweepLimits, SweepStep, TradePlot, Wish, svg};
+use crate::trade::{EyeDistance, NothingMeasured, Sweep, SweepLimits, SweepStep, TradePlot, Wish, svg};
 
 use super::arguments::{PlotFormat, TradeArguments};
-use super::error::{CliError, tell};
+use super::error::{CliError, INTERRUPTED, tell};
 use super::picture::Unsized;
 use super::trade_line::CommandLine;
 use super::trade_report::{Report, ms, percent};
@@ -24,9 +24,6 @@ use super::{effects, input, trade_png};
 /// What is to be told apart where nothing else is asked for, as a share of dots with a wrong level: what 16
 /// rays a dot leave wrong on the scenes inside.
 const APART: f64 = 0.01;
-
-/// What a shell reports of a program that Ctrl-C has ended.
-const INTERRUPTED: i32 = 128 + SIGINT;
 
 /// Columns of the progress bar.
 const BAR: usize = 24;
@@ -38,6 +35,7 @@ pub fn run(arguments: &TradeArguments) -> Result<(), CliError> {
     let format = plot_format(arguments)?;
     input::say(&effects::check(&arguments.picture, effects::Presentation::Cells)?);
     let scene = input::read(&arguments.scene.file, &arguments.scene.reading)?;
+    to.check_libraries(&scene)?;
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
     // A size in dots is that of a picture without characters.
@@ -46,7 +44,7 @@ pub fn run(arguments: &TradeArguments) -> Result<(), CliError> {
     let line = CommandLine::new(arguments, &request)?;
     let limits = SweepLimits {
         time: arguments.seconds,
-        also: arguments.with.as_deref().map(|words| line.setting(words)).transpose()?.into_iter().collect(),
+        also: arguments.with.iter().map(|words| line.setting(words)).collect::<Result<_, _>>()?,
         apart: arguments.wrong.map_or(APART, |wrong| wrong.min(APART)),
         rays: arguments.rays,
         eye: EyeDistance::default(),
@@ -56,6 +54,12 @@ pub fn run(arguments: &TradeArguments) -> Result<(), CliError> {
     let mut progress = ProgressLine::new(arguments.seconds);
     let sweep = Sweep::new(&studio, &request, &limits, &interrupt, &mut |step| progress.show(step));
     progress.clear();
+    let sweep = sweep.map_err(|nothing| match nothing {
+        NothingMeasured::Interrupted => CliError::Interrupted(nothing.to_string()),
+        NothingMeasured::OutOfTime => CliError::Input(format!(
+            "{nothing}: more --seconds, or --seconds 0, which measures these options alone"
+        )),
+    })?;
     if sweep.interrupted {
         tell("interrupted: this is what there is");
     }
@@ -72,7 +76,10 @@ pub fn run(arguments: &TradeArguments) -> Result<(), CliError> {
         });
     }
     let report = Report { sweep: &sweep, line: &line, limits: &limits };
-    print(if arguments.json { report.json() } else { report.text() }.as_bytes())
+    // In a file nothing is wrapped.
+    let is_terminal = io::stdout().is_terminal();
+    let columns = crossterm::terminal::size().ok().filter(|_| is_terminal).map(|(columns, _)| columns);
+    print(if arguments.json { report.json() } else { report.text(columns) }.as_bytes())
 }
 
 /// Prints one command line, and says what it is worth.
@@ -127,7 +134,7 @@ fn plot_format(arguments: &TradeArguments) -> Result<Option<PlotFormat>, CliErro
 fn interrupt() -> Arc<AtomicBool> {
     let interrupt = Arc::new(AtomicBool::new(false));
     // Where the system allows no handler, Ctrl-C ends the program as ever.
-    let _ = flag::register_conditional_shutdown(SIGINT, INTERRUPTED, Arc::clone(&interrupt))
+    let _ = flag::register_conditional_shutdown(SIGINT, INTERRUPTED.into(), Arc::clone(&interrupt))
         .and_then(|_| flag::register(SIGINT, Arc::clone(&interrupt)));
     interrupt
 }

@@ -54,7 +54,8 @@ impl CommandLine {
         let words = ["ray13"].into_iter().chain(options.split_whitespace());
         let refused = |e: clap::Error| CliError::Arguments(format!("in --with: {e}").trim_end().to_owned());
         let given = Arguments::try_parse_from(words).map_err(refused)?;
-        let is_knobs = given.command.is_none() && given.viewer.file.is_none();
+        let viewer = &given.viewer;
+        let is_knobs = given.command.is_none() && viewer.file.is_none() && viewer.fps.is_none();
         let given = given.viewer.picture;
         if !is_knobs || has_more_than_knobs(&given) {
             let what = "in --with: only options that trade speed for accuracy, as \"--samples 3 --depth 2\"";
@@ -81,12 +82,18 @@ impl CommandLine {
         format!("ray13 render {}{}", self.file, self.rest)
     }
 
-    /// The command that measures any setting again, up to its options in quotes: the same accuracy, against
-    /// the same reference of as many rays.
-    pub fn measure_with(&self, rays: u32) -> String {
+    /// The command that measures a setting again: the same accuracy, against the same reference of as many
+    /// rays.
+    pub fn measure(&self, setting: &Setting, rays: u32) -> String {
+        let own = self.measure_own(rays);
+        if self.is_own(setting) { own } else { format!("{own} --with {}", in_quotes(&self.options(setting))) }
+    }
+
+    /// The same for the one that was asked for: with `--with` and options behind it, for any.
+    pub fn measure_own(&self, rays: u32) -> String {
         let own = self.options(&self.own);
         let blank = if own.is_empty() { "" } else { " " };
-        format!("ray13 trade {}{}{blank}{own} --seconds 0 --rays {rays} --with", self.file, self.rest)
+        format!("ray13 trade {}{}{blank}{own} --seconds 0 --rays {rays}", self.file, self.rest)
     }
 }
 
@@ -166,9 +173,11 @@ fn name<T: ValueEnum>(value: Option<T>) -> Option<String> {
 /// A word as a shell takes it back: in quotes where it has anything that means something there.
 fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_alphanumeric() || "-_./+:,@%".contains(c);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        return word.to_owned();
-    }
+    if !word.is_empty() && word.chars().all(is_plain) { word.to_owned() } else { in_quotes(word) }
+}
+
+/// A word in quotes that a shell takes away.
+fn in_quotes(word: &str) -> String {
     format!("'{}'", word.replace('\'', r"'\''"))
 }
 
@@ -215,7 +224,14 @@ mod tests {
         let rest = r"'it'\''s' --cells 20x10 --view low --eye -1,2.5,3 --zoom 2 --palette gray";
         let own = "--samples 3 --no-shadows --glyphs half";
         assert_eq!(render, format!("ray13 render {rest} {own}"));
-        assert_eq!(line.measure_with(64), format!("ray13 trade {rest} {own} --seconds 0 --rays 64 --with"));
+        let again = format!("ray13 trade {rest} {own} --seconds 0 --rays 64");
+        assert_eq!(line.measure(&line.own, 64), again);
+        assert_eq!(
+            line.measure(&line.setting("--depth 2").unwrap(), 64),
+            format!("{again} --with '--depth 2'")
+        );
+        // Where it is what the program does by itself, there are no options to give.
+        assert_eq!(line.measure(&line.bare, 64), format!("{again} --with ''"));
         assert_eq!(line.setting(own).unwrap(), line.own);
         assert_eq!(line.setting("").unwrap(), line.bare);
         assert!(line.setting("--sample 3").is_err() && line.setting("--depth -1").is_err());

@@ -9,7 +9,7 @@ use crate::output::{self, Pixels};
 use crate::trade::TradePlot;
 
 use super::error::CliError;
-use super::trade_report::plot_screen;
+use super::trade_report::{PLOT, plot_screen};
 
 /// Pixels of a cell: the letters are 8 × 8, and each of their rows is drawn twice, as a CGA card's on a VGA
 /// screen.
@@ -17,7 +17,7 @@ const CELL: Size = Size::new(8, 16);
 
 /// The plot, 8 × 16 pixels to a cell.
 pub fn drawn(plot: &TradePlot) -> Result<Vec<u8>, CliError> {
-    let screen = plot_screen(plot);
+    let screen = plot_screen(plot, PLOT);
     let size = Size::new(u32::from(screen.area.width), u32::from(screen.area.height));
     let pixels = Grid::from_fn(Size::new(size.width * CELL.width, size.height * CELL.height), |x, y| {
         let cell = &screen[((x / CELL.width) as u16, (y / CELL.height) as u16)];

@@ -5,6 +5,8 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use crate::scene::Scene;
+
 use super::error::CliError;
 use super::input;
 
@@ -43,16 +45,18 @@ impl Destination {
             Self::Standard => ("standard output".to_owned(), standard_output()),
             Self::File(path) => (path.display().to_string(), fs::metadata(path).ok()),
         };
-        // What a mesh takes its colours from is part of the scene, and no picture has this name.
-        let is_library =
-            |path: &Path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mtl"));
-        let is_source = self.path().is_some_and(|path| is_library(path) && path.exists())
-            || found.is_some_and(|found| found.is_file() && is_same(&found, &source))
+        let is_source = found.is_some_and(|found| found.is_file() && is_same(&found, &source))
             || self.path().is_some_and(|path| is_same_path(path, Path::new(scene)));
         if !is_source {
             return Ok(());
         }
         Err(lost(&name))
+    }
+
+    /// Refuses the files that were read for the scene beside its own: the colours of a mesh are part of it.
+    pub fn check_libraries(&self, scene: &Scene) -> Result<(), CliError> {
+        let libraries = SceneFiles(scene.libraries.iter().filter_map(|file| FileId::of(file)).collect());
+        self.path().map_or(Ok(()), |path| libraries.check(path))
     }
 
     fn path(&self) -> Option<&Path> {

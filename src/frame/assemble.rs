@@ -180,7 +180,7 @@ mod tests {
     use crate::integrate::TileIntegrator;
     use crate::plan::{EngineChoice, Options};
     use crate::scene::{self, ReadOptions};
-    use crate::stage::{Counts, Stopwatch};
+    use crate::stage::{Counts, GiveUp, Stopwatch};
     use crate::tone::Tone;
     use crate::view::tiles;
 
@@ -241,7 +241,9 @@ mod tests {
             for first in [1, 0] {
                 let studio = studio();
                 let work = EveryOther { first, dots: request.dots, wants: request.wants };
-                for finished in studio.prepare(&request, None).work::<f64, _>(work).iter().rev() {
+                for finished in
+                    studio.prepare(&request, None, &GiveUp::never()).work::<f64, _>(work).iter().rev()
+                {
                     counts += finished.counts;
                     picture.take(finished);
                 }

@@ -9,9 +9,9 @@ use rayon::prelude::*;
 use crate::glyph::{self, Cell, Palette};
 use crate::integrate::TileIntegrator;
 use crate::math::{DVec3, Grid};
-use crate::plan::Channels;
+use crate::plan::{Channels, Options};
 use crate::shade::Channel;
-use crate::stage::{Counts, Progress, Stage, StageTimes, Stopwatch, Task};
+use crate::stage::{Counts, GiveUp, Progress, Stage, StageTimes, Stopwatch, Task};
 use crate::view::{TILE, Tile, tiles};
 
 use super::assemble::PictureDots;
@@ -51,44 +51,90 @@ impl Studio {
     /// place and their materials decide. What is kept takes 21 bytes a dot of the blocks of 8 × 8 that see
     /// anything, and is forgotten with the view. The exact engine traces all rays.
     pub fn draw(&self, request: &Request) -> Frame {
-        let start = Instant::now();
-        self.finished(request, self.reused(request), start)
+        self.finished(request, self.start(request), &GiveUp::never())
     }
 
-    /// The same with all rays traced, whatever was drawn before: to measure it.
+    /// The same, unless it is given up before all of it is drawn, which is asked for each tile, each of a
+    /// dot's rays and each round of refinement. Then nothing comes of it, and the studio keeps no picture.
+    /// What is built once, as the boxes, is built all the same.
+    pub fn draw_unless(&self, request: &Request, give_up: &GiveUp) -> Option<Frame> {
+        whole(self.finished(request, self.start(request), give_up), give_up)
+    }
+
+    /// The picture with all rays traced, whatever was drawn before: to measure it.
     pub fn draw_anew(&self, request: &Request) -> Frame {
-        self.finished(request, Reused::default(), Instant::now())
+        self.finished(request, Start::anew(), &GiveUp::never())
+    }
+
+    /// The same, unless it is given up, as [`Studio::draw_unless`] has it.
+    pub fn draw_anew_unless(&self, request: &Request, give_up: &GiveUp) -> Option<Frame> {
+        whole(self.finished(request, Start::anew(), give_up), give_up)
     }
 
     /// The same with other samples of each dot than the first squares of
     /// [`Options::samples`](crate::plan::Options): those of these numbers
     /// ([`sample_point`](crate::view::sample_point)), of which there is one at least. Two pictures of samples
-    /// that none shares show how far each is off. Nothing of it is kept.
+    /// that none shares show how far each is off. These are all that a dot gets, also where the options ask
+    /// for as many as it needs. Nothing of it is kept.
     pub fn draw_samples(&self, request: &Request, samples: Range<u32>) -> Frame {
+        self.sampled(request, samples, &GiveUp::never())
+    }
+
+    /// The same, unless it is given up, as [`Studio::draw_unless`] has it.
+    pub fn draw_samples_unless(
+        &self,
+        request: &Request,
+        samples: Range<u32>,
+        give_up: &GiveUp,
+    ) -> Option<Frame> {
+        whole(self.sampled(request, samples, give_up), give_up)
+    }
+
+    /// With what serves of the last picture.
+    fn start(&self, request: &Request) -> Start {
+        Start { at: Instant::now(), reused: self.reused(request) }
+    }
+
+    fn sampled(&self, request: &Request, samples: Range<u32>, give_up: &GiveUp) -> Frame {
         let start = Instant::now();
         let workers = self.workers(request.options.threads);
-        let frame = by(workers.as_deref(), || with_cells(self.traced(request, None, Some(samples)), request));
+        // Refinement would go on from the first of the samples, and past the last.
+        let options = Options { adaptive: None, ..request.options };
+        let request = &Request { options, ..request.clone() };
+        let frame = by(workers.as_deref(), || {
+            with_cells(self.traced(request, None, Some(samples), give_up), request)
+        });
         Frame { total: start.elapsed(), ..frame }
     }
 
-    /// A picture of which some of the grids may be there already.
-    fn finished(&self, request: &Request, Reused { frame, hits }: Reused, start: Instant) -> Frame {
+    /// A picture of which some of the grids may be there already. One that was given up is not kept.
+    fn finished(&self, request: &Request, start: Start, give_up: &GiveUp) -> Frame {
+        let Start { reused: Reused { frame, hits }, at: start } = start;
         let workers = match &frame {
             Some(frame) if !frame.lacks_cells(request) => None,
             _ => self.workers(request.options.threads),
         };
         let mut frame = by(workers.as_deref(), || {
-            let frame = frame.unwrap_or_else(|| self.traced(request, hits.as_ref(), None));
-            with_cells(frame, request)
+            let frame = frame.unwrap_or_else(|| self.traced(request, hits.as_ref(), None, give_up));
+            if give_up.was_due() { frame } else { with_cells(frame, request) }
         });
         frame.total = start.elapsed();
-        self.keep(request, &frame, hits);
+        if !give_up.was_due() {
+            self.keep(request, &frame, hits);
+        }
         frame.only(request)
     }
 
-    /// The dots of a picture, without characters: prepared, rendered tile by tile, and assembled.
-    fn traced(&self, request: &Request, hits: Option<&Hits>, samples: Option<Range<u32>>) -> Frame {
-        let mut prepared = self.prepare(request, hits);
+    /// The dots of a picture, without characters: prepared, rendered tile by tile, and assembled. Where it is
+    /// given up, some of them are any.
+    fn traced(
+        &self,
+        request: &Request,
+        hits: Option<&Hits>,
+        samples: Option<Range<u32>>,
+        give_up: &GiveUp,
+    ) -> Frame {
+        let mut prepared = self.prepare(request, hits, give_up);
         if let Some(samples) = samples {
             prepared.samples = samples;
         }
@@ -133,6 +179,24 @@ impl Studio {
     }
 }
 
+/// What a picture begins with.
+struct Start {
+    at: Instant,
+    reused: Reused,
+}
+
+impl Start {
+    /// With nothing.
+    fn anew() -> Self {
+        Self { at: Instant::now(), reused: Reused::default() }
+    }
+}
+
+/// A picture, if all of it is drawn.
+fn whole(frame: Frame, give_up: &GiveUp) -> Option<Frame> {
+    (!give_up.was_due()).then_some(frame)
+}
+
 /// All dots of a picture.
 struct Whole<'a> {
     dots: &'a mut PictureDots,
@@ -158,7 +222,9 @@ impl<C: Channel> Work<C> for Whole<'_> {
         let drawn = tiles.into_par_iter().map(|tile| {
             let watch = if is_timed(&tile) { Stopwatch::start(Stage::Ray) } else { Stopwatch::still() };
             workers.with(renderer, |Worker { memory, finished, .. }| {
-                renderer.render(&tile, watch, memory, finished);
+                if !renderer.render(&tile, watch, memory, finished) {
+                    return Self::Done::default();
+                }
                 picture.take(finished);
                 progress.advance(1);
                 (finished.counts, finished.times)
@@ -169,6 +235,7 @@ impl<C: Channel> Work<C> for Whole<'_> {
             all.1 += one.1;
             all
         });
+        let accuracy = accuracy.filter(|_| !renderer.give_up.is_due());
         if let (Some(accuracy), Some(first)) = (accuracy, FirstRays::of(dots, renderer)) {
             let (refined, counts) = refine(open_dots(&first, accuracy), accuracy, renderer, &workers);
             all.0 += counts;

@@ -2,7 +2,7 @@
 
 use crate::glyph::{GlyphMode, Palette};
 use crate::plan::{Cost, StagePlan, Term};
-use crate::stage::Stage;
+use crate::stage::{GiveUp, Stage};
 use crate::tone::Tone;
 
 use super::prepare::Prepared;
@@ -13,7 +13,8 @@ impl Studio {
     /// which it leaves out, why, and what each is expected to cost on this machine: some tiles are traced to
     /// see that. Builds the structure, where it was not built before; what that took is what LATTICE costs.
     pub fn explain(&self, request: &Request) -> Vec<StagePlan> {
-        let prepared = self.prepare(request, None);
+        let never = GiveUp::never();
+        let prepared = self.prepare(request, None, &never);
         let Prepared { plan, pinhole, structure, over_budget, .. } = &prepared;
         let mut stages = plan.explain(self.scene(), &self.assembly, pinhole, request.dots);
         let sample = prepared.sample(request);

@@ -1,6 +1,7 @@
 //! All stages in order: a request in, a finished frame out, with what each stage counted.
 
 mod assemble;
+mod coarse;
 mod compare;
 mod draw;
 mod explain;

@@ -9,7 +9,7 @@ use crate::lattice::{OverBudget, Structure};
 use crate::math::{Bounds, DVec3};
 use crate::plan::{EngineChoice, Plan, Precision};
 use crate::shade::Channel;
-use crate::stage::{Stage, StageTimes};
+use crate::stage::{GiveUp, Stage, StageTimes};
 use crate::trace::{Exact, Fast};
 use crate::view::{Picture, PinholeCamera, tiles};
 
@@ -31,6 +31,7 @@ pub(super) struct Prepared<'a> {
     hits: Option<&'a [OnceLock<TileHits>]>,
     /// The numbers of the samples of each dot.
     pub samples: Range<u32>,
+    give_up: &'a GiveUp<'a>,
 }
 
 /// What is done with a picture's tiles, by whatever integrator its plan has.
@@ -44,7 +45,12 @@ pub(super) trait Work<C: Channel> {
 
 impl Studio {
     /// Prepares a picture; `hits` are those of a picture of the same view, or room for them.
-    pub(super) fn prepare<'a>(&'a self, request: &Request, hits: Option<&'a Hits>) -> Prepared<'a> {
+    pub(super) fn prepare<'a>(
+        &'a self,
+        request: &Request,
+        hits: Option<&'a Hits>,
+        give_up: &'a GiveUp<'a>,
+    ) -> Prepared<'a> {
         let start = Instant::now();
         let picture = Picture { dots: request.dots, dot_aspect: request.dot_aspect };
         let pinhole = PinholeCamera::new(&request.camera, &picture);
@@ -56,7 +62,7 @@ impl Studio {
         let (structure, over_budget) = self.structure(plan.structure);
         times[Stage::Lattice] = self.built().cutting.saturating_sub(cut_before);
         let samples = 0..plan.samples.pow(2);
-        Prepared { studio: self, plan, pinhole, structure, over_budget, times, hits, samples }
+        Prepared { studio: self, plan, pinhole, structure, over_budget, times, hits, samples, give_up }
     }
 }
 
@@ -88,6 +94,7 @@ impl Prepared<'_> {
             samples: self.samples.clone(),
             hits: self.hits,
             spare: &self.studio.spare,
+            give_up: self.give_up,
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::integrate::{TileHits, TileIntegrator, TilePass};
 use crate::math::DVec3;
 use crate::shade::Channel;
 use crate::solid::Assembly;
-use crate::stage::{Meter, Probe, Stopwatch};
+use crate::stage::{GiveUp, Meter, Probe, Stopwatch};
 use crate::view::{PinholeCamera, PointPacket, Tile, TileCamera, TileRays, sample_point};
 
 use super::finished_tile::FinishedTile;
@@ -30,6 +30,8 @@ pub(super) struct TileRenderer<'a, I> {
     /// By tile: what the rays through the middles of its dots meet, where that is kept.
     pub hits: Option<&'a [OnceLock<TileHits>]>,
     pub spare: &'a ScratchPool,
+    /// When no more is rendered.
+    pub give_up: &'a GiveUp<'a>,
 }
 
 /// Memory of one worker, used again for every tile.
@@ -56,19 +58,25 @@ impl<I> TileRenderer<'_, I> {
         self.spare.give_back(I::into_scratch(memory.integrator));
     }
 
-    /// Renders a tile. What its stages took is known where `watch` is timed, which itself takes time.
+    /// Renders a tile; gives whether it did, and was not to give up. What its stages took is known where
+    /// `watch` is timed, which itself takes time.
     pub fn render<C: Channel>(
         &self,
         tile: &Tile,
         watch: Stopwatch,
         memory: &mut RenderMemory<I::Memory, C>,
         finished: &mut FinishedTile<C>,
-    ) where
+    ) -> bool
+    where
         I: TileIntegrator<C>,
     {
+        if self.give_up.is_due() {
+            return false;
+        }
         let mut meter = Meter::new(watch);
         self.sample_dots(tile, memory, finished, &mut meter);
         (finished.counts, finished.times) = (meter.counts, meter.probe.stop());
+        !self.give_up.was_due()
     }
 
     /// What a dot sees is what its middle sees. Where that is none of several samples, it is traced without
@@ -93,6 +101,9 @@ impl<I> TileRenderer<'_, I> {
         finished.light.fill(C::DARK);
         sample.resize(finished.light.len(), C::DARK);
         for number in self.samples.clone() {
+            if self.give_up.is_due() {
+                return;
+            }
             let pass = self.pass(tile, number, finished.history.is_some() && number == MIDDLE);
             self.integrator.shade(&pass, memory, sample, meter);
             for (sum, light) in finished.light.iter_mut().zip(&*sample) {
@@ -113,7 +124,8 @@ impl<I> TileRenderer<'_, I> {
         }
     }
 
-    /// Sets `light` to that of rays through some points of the picture, at most 16 packets of them.
+    /// Sets `light` to that of rays through some points of the picture, at most 16 packets of them; leaves it
+    /// where it is to give up.
     pub fn shade_points<C: Channel>(
         &self,
         points: &[PointPacket],
@@ -123,6 +135,9 @@ impl<I> TileRenderer<'_, I> {
     ) where
         I: TileIntegrator<C>,
     {
+        if self.give_up.is_due() {
+            return;
+        }
         let camera = self.camera(&Tile::NONE, TileRays::Points(points));
         let pass = TilePass { camera, kept: None, keeps_histories: false };
         self.integrator.shade(&pass, &mut memory.integrator, light, meter);

@@ -222,17 +222,11 @@ impl<C: Channel> Wavefront<C> {
         Departure { surface, ..self.departures[at.packet].get(at.lane) }
     }
 
-    /// The history of one ray that met something, where histories are kept.
-    #[inline]
-    pub fn history(&self, at: RayIndex) -> History {
-        self.histories[at.packet][at.lane]
-    }
-
     /// The history of any ray; that of a miss where histories are not kept.
     #[inline]
     pub fn history_or_miss(&self, at: RayIndex) -> History {
-        let met = !self.histories.is_empty() && self.found(at.packet) >> at.lane & 1 == 1;
-        if met { self.history(at) } else { History::MISS }
+        let met = self.found(at.packet) >> at.lane & 1 == 1;
+        self.histories.get(at.packet).filter(|_| met).map_or(History::MISS, |packet| packet[at.lane])
     }
 
     /// Changes the history of one ray, where histories are kept.

@@ -1,6 +1,8 @@
 //! The scene: what a reader gives and every later stage takes. Lengths are the scene's own unit, angles
 //! degrees, colours and intensities linear light.
 
+use std::path::PathBuf;
+
 use std::sync::Arc;
 use std::vec::Drain;
 
@@ -33,6 +35,8 @@ pub struct Scene {
     pub world: World,
     /// What the parts of a mesh file are; empty of other scenes.
     pub meshes: Vec<MeshFacts>,
+    /// The files that were read for it beside its own: the materials of a mesh.
+    pub libraries: Vec<PathBuf>,
     /// What the reader left out or took differently, one sentence each, for the person who looks.
     pub notes: Vec<String>,
 }

@@ -2,6 +2,7 @@
 //!
 //! The order and the names are those of `docs/flow-chart.md`; a test compares the two.
 
+mod give_up;
 mod probe;
 mod progress;
 mod ray_event;
@@ -11,6 +12,7 @@ mod stopwatch;
 use std::ops::{Add, AddAssign, Index, IndexMut};
 use std::time::Duration;
 
+pub use give_up::GiveUp;
 pub use probe::{Meter, Probe, Silent};
 pub use progress::{Progress, Task, WorkStep};
 pub use ray_event::{RayEvent, RayKind};

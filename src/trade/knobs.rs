@@ -22,6 +22,8 @@ pub struct Knob {
     between: fn(&Setting, &Setting) -> Option<Setting>,
     /// Whether the first shows something else than the second on purpose.
     another_picture: fn(&Setting, &Setting) -> bool,
+    /// Whether another knob's option says where it stands.
+    is_implied: fn(&Setting) -> bool,
 }
 
 /// Rays per dot along each axis that are tried.
@@ -81,7 +83,6 @@ pub const KNOBS: [Knob; 11] = [
     },
     Knob {
         name: "error",
-        // As many rays for each dot are what `--samples` says alone.
         argument: |s| {
             s.options.adaptive.map_or("--aa off".to_owned(), |e| format!("--aa adaptive --error {e}"))
         },
@@ -92,6 +93,8 @@ pub const KNOBS: [Knob; 11] = [
             let is_new = ![a.options.adaptive, b.options.adaptive].contains(&Some(middle));
             is_new.then(|| changed(a, |s| take_error(s, Some(middle))))
         },
+        // Several rays for each dot are what `--samples` says alone; `--aa off` would take them back.
+        is_implied: |s| s.options.adaptive.is_none() && s.options.samples > 1,
         ..WORD
     },
     Knob {
@@ -120,6 +123,7 @@ pub const KNOBS: [Knob; 11] = [
             middle(low, high).map(|depth| changed(a, |s| s.options.depth = depth))
         },
         another_picture: |s, base| (s.options.depth == 0) != (base.options.depth == 0),
+        ..WORD
     },
     Knob {
         name: "cut-off",
@@ -205,6 +209,7 @@ const WORD: Knob = Knob {
     set: |_, _| (),
     between: |_, _| None,
     another_picture: |_, _| false,
+    is_implied: |_| false,
 };
 
 impl Knob {
@@ -223,8 +228,8 @@ impl Setting {
     /// The options of the command line that make this of `other`, which is what they are where none is
     /// given; empty where there is no difference.
     pub fn arguments(&self, other: &Self) -> String {
-        let given = KNOBS.iter().filter(|knob| knob.differs(self, other)).map(|knob| knob.argument(self));
-        given.collect::<Vec<_>>().join(" ")
+        let given = KNOBS.iter().filter(|knob| knob.differs(self, other) && !(knob.is_implied)(self));
+        given.map(|knob| knob.argument(self)).collect::<Vec<_>>().join(" ")
     }
 
     /// Whether it shows something else than `base` on purpose, and not the same worse or better: by another
@@ -323,6 +328,16 @@ mod tests {
         setting.glyphs = GlyphMode::Half;
         assert_eq!(setting.arguments(&DEFAULT()), "--samples 3 --no-shadows --glyphs half");
         assert_eq!(DEFAULT().arguments(&setting), "--samples 1 --shadows --glyphs blocks");
+    }
+
+    /// `--samples 3 --aa off` is one ray a dot.
+    #[test]
+    fn anti_aliasing_is_not_turned_off_where_rays_for_each_dot_are_meant() {
+        let adaptive = changed(&DEFAULT(), |s| take_error(s, Some(ERROR)));
+        let fixed = changed(&adaptive, |s| take_samples(s, 3));
+        assert_eq!(fixed.arguments(&adaptive), "--samples 3");
+        assert_eq!(DEFAULT().arguments(&adaptive), "--aa off");
+        assert_eq!(adaptive.arguments(&fixed), "--samples 1 --aa adaptive --error 0.0625");
     }
 
     #[test]

@@ -7,6 +7,7 @@ use crate::frame::{Frame, Request, Studio};
 use crate::glyph::{self, Cell, Palette};
 use crate::math::{DVec3, Grid};
 use crate::plan::EngineChoice;
+use crate::stage::GiveUp;
 
 /// So many rays a dot are traced by the exact engine in any case, beside the fast one in double precision,
 /// which is to find the same bits. Where it does, it traces the rest; where it does not, the exact one does.
@@ -84,20 +85,20 @@ impl<'a> ManyRays<'a> {
         self.agrees
     }
 
-    /// The mean of some of them, by their numbers from 0.
-    pub fn mean(&mut self, rays: Range<u32>) -> MeanLight {
+    /// The mean of some of them, by their numbers from 0; `None` where that is given up.
+    pub fn mean(&mut self, rays: Range<u32>, give_up: &GiveUp) -> Option<MeanLight> {
         let samples = FIRST_RAY + rays.start..FIRST_RAY + rays.end;
         let mut fast = self.request.clone();
         fast.options.engine = EngineChoice::Fast;
         if self.agrees && (self.is_checked || rays.start >= CHECKED_RAYS) {
-            return MeanLight::of(self.studio.draw_samples(&fast, samples));
+            return self.studio.draw_samples_unless(&fast, samples, give_up).map(MeanLight::of);
         }
-        let exact = self.studio.draw_samples(&self.request, samples.clone());
+        let exact = self.studio.draw_samples_unless(&self.request, samples.clone(), give_up)?;
         if self.agrees && rays.end <= CHECKED_RAYS {
-            let fast = self.studio.draw_samples(&fast, samples);
+            let fast = self.studio.draw_samples_unless(&fast, samples, give_up)?;
             let differ = |(a, b): (&f64, &f64)| a.to_bits() != b.to_bits();
             self.agrees = !exact.light.values().iter().zip(fast.light.values()).any(differ);
         }
-        MeanLight::of(exact)
+        Some(MeanLight::of(exact))
     }
 }

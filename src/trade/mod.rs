@@ -30,5 +30,5 @@ pub use plot::{AxisTick, LogAxis, PlotPoint, TradePlot};
 pub use plot_svg::svg;
 pub use reference::{Reference, ReferenceError, ReferenceGoal};
 pub use setting::Setting;
-pub use sweep::{PassedOver, Sweep, SweepLimits, SweepStep, WhyPassedOver};
+pub use sweep::{NothingMeasured, PassedOver, Sweep, SweepLimits, SweepStep, WhyPassedOver};
 pub use timing::{Effort, Times, Timing, peak_memory};

@@ -1,12 +1,12 @@
 //! What a picture ought to be: many rays a dot by the exact engine, with an error that is known.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use crate::frame::{Frame, Request, Studio, Wants};
 use crate::math::Grid;
 use crate::plan::{CUTOFF, EngineChoice, Options, PrecisionChoice, StructureChoice};
 use crate::scene::Camera;
+use crate::stage::GiveUp;
 use crate::tone::Level;
 use crate::view::{Picture, PinholeCamera};
 
@@ -35,6 +35,9 @@ const CUTOFF_PART: f64 = 0.1;
 /// a dot, and what flickers is that.
 const SHIMMER_RAYS: u32 = 16;
 
+/// So long the rays for the shimmer may take when all else is given up: less than a person waits for.
+const AFTER_ALL: Duration = Duration::from_millis(200);
+
 /// How far the view turns for the shimmer, in dots across and down.
 const TURN: f64 = 0.1;
 
@@ -47,8 +50,8 @@ pub struct ReferenceGoal {
     /// So many rays a dot, rounded up to a power of two of 2 or more, however long that takes; else as many
     /// as `apart` requires.
     pub rays: Option<u32>,
-    /// No rays are added that are expected to take longer than that; the first 2 a dot are drawn all the
-    /// same.
+    /// No rays are added that are expected to take longer than that, and those that do all the same by half
+    /// as long again are given up; the first 2 a dot are drawn all the same.
     pub until: Instant,
 }
 
@@ -57,9 +60,13 @@ pub struct ReferenceGoal {
 /// that each half fills the gaps of the other, and the mean of both is nearer to the truth than that.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReferenceError {
-    /// The share of dots whose level is wrong, above 0 to 1: half of those that differ from half to half, and
-    /// of these, since it is chance which dots lie at a border between levels, two standard deviations more
-    /// than there are, which is twice the root of their number.
+    /// The share of dots whose level is wrong, above 0 to 1.
+    ///
+    /// Where the halves lie d levels apart, their mean is off by d / 2 in the mean, and its level is then
+    /// wrong with a probability of d / 2, up to 1. Where d is below 1, the halves have two levels with a
+    /// probability of d; so that each dot whose halves have two counts as a half of one, and from d = 1 on as
+    /// d / 2, and from d = 2 on as one. Since it is chance which dots lie at a border between levels, two
+    /// standard deviations of the sum are added: twice the root of the sum of squares.
     pub wrong: f64,
     /// The root of the mean square, in twelfths of white's CIE L*.
     pub rms: f64,
@@ -68,16 +75,26 @@ pub struct ReferenceError {
 impl ReferenceError {
     fn of(halves: [&MeanLight; 2], base: &Request) -> Self {
         let [a, b] = halves.map(|half| half.light.map(|light| shown(base.tone, *light)));
-        let differ = |(a, b): &(&f64, &f64)| Level::nearest(**a) != Level::nearest(**b);
+        let [mut sum, mut squares] = [0.0; 2];
+        for (a, b) in a.values().iter().zip(b.values()) {
+            if Level::nearest(*a) != Level::nearest(*b) {
+                let apart = (Level::position(*a) - Level::position(*b)).abs();
+                let probability = (apart / 2.0).clamp(LEAST_WRONG, 1.0);
+                sum += probability;
+                squares += probability * probability;
+            }
+        }
         // Where no dot differs, one of twice as many might have.
-        let different = a.values().iter().zip(b.values()).filter(differ).count() as f64;
-        let at_most = different + 2.0 * different.max(1.0).sqrt();
+        let at_most = sum + 2.0 * squares.max(LEAST_WRONG * LEAST_WRONG).sqrt();
         Self {
-            wrong: (at_most / 2.0 / a.size().area().max(1) as f64).min(1.0),
+            wrong: (at_most / a.size().area().max(1) as f64).min(1.0),
             rms: rms(a.values(), b.values(), steps_apart) / 2.0,
         }
     }
 }
+
+/// How probably the level of a dot is wrong at least whose halves have two levels.
+const LEAST_WRONG: f64 = 0.5;
 
 /// What a picture ought to be.
 #[derive(Debug)]
@@ -97,36 +114,44 @@ pub struct Reference {
 
 impl Reference {
     /// Traces what the picture of `base` ought to be: with its shading model and its shadows, mirror and
-    /// Snell rays followed ten times as far as by default, and rays a dot until `goal` is reached. An
-    /// interrupt leaves it with the rays that it has, 2 a dot at least.
+    /// Snell rays followed ten times as far as by default, and rays a dot until `goal` is reached. Where it
+    /// is given up, it has the rays that it had until then; `None` before there are 2 a dot.
     pub fn new(
         studio: &Studio,
         base: &Request,
         goal: &ReferenceGoal,
         eye: EyeDistance,
-        interrupt: &AtomicBool,
-    ) -> Self {
+        give_up: &GiveUp,
+    ) -> Option<Self> {
         let exact = Request { options: exact(&base.options), wants: Wants::LIGHT, ..base.clone() };
         let geometry = Request { wants: Wants { cells: false, ..Wants::ALL }, ..exact.clone() };
-        let geometry = studio.draw_anew(&geometry);
+        let geometry = studio.draw_anew_unless(&geometry, give_up)?;
         let begin = Instant::now();
         let mut rays = ManyRays::new(studio, exact.clone());
-        let [mut first, mut second] = [rays.mean(0..1), rays.mean(1..2)];
+        let [mut first, mut second] = [rays.mean(0..1, give_up)?, rays.mean(1..2, give_up)?];
         let mut number = 2;
         let mut early = first.with(&second);
+        let late = goal.until + goal.until.saturating_duration_since(begin) / 2;
+        let too_late = || give_up.is_due() || (goal.rays.is_none() && Instant::now() > late);
         let (error, reached) = loop {
             let error = ReferenceError::of([&first, &second], base);
             let reached = error.wrong <= FINER * goal.apart;
-            let enough = match goal.rays {
-                Some(asked) => number >= asked,
-                // As many again take as long as all until now.
-                None => reached || number >= MOST_RAYS || Instant::now() + begin.elapsed() > goal.until,
+            let enough = if let Some(asked) = goal.rays {
+                number >= asked
+            } else {
+                // As many again, and those of the turned view, take as long for each as those until now.
+                let shimmer = (2 * number).min(SHIMMER_RAYS);
+                let expected = begin.elapsed().mul_f64(f64::from(number + shimmer) / f64::from(number));
+                reached || number >= MOST_RAYS || Instant::now() + expected > goal.until
             };
-            if enough || interrupt.load(Ordering::Relaxed) {
+            if enough {
                 break (error, reached);
             }
-            first = first.with(&second);
-            second = rays.mean(number..2 * number);
+            let half = first.with(&second);
+            let Some(more) = rays.mean(number..2 * number, &GiveUp::when(&too_late)) else {
+                break (error, reached);
+            };
+            (first, second) = (half, more);
             number *= 2;
             if number <= SHIMMER_RAYS {
                 early = first.with(&second);
@@ -136,9 +161,14 @@ impl Reference {
         let mean = first.with(&second);
         let light = mean.light.map(|light| shown(base.tone, *light));
         let mut moved = rays.of(Request { camera: turned(base), ..exact });
-        let screen = SeenScreen::new(base, eye, &mean, [&early, &moved.mean(0..number.min(SHIMMER_RAYS))]);
+        let begin = Instant::now();
+        let patience = || give_up.is_due() && begin.elapsed() > AFTER_ALL;
+        let turned = moved.mean(0..number.min(SHIMMER_RAYS), &GiveUp::when(&patience));
+        let turned = turned.as_ref().map(|turned| [&early, turned]);
+        let screen = SeenScreen::new(base, eye, &mean, turned);
         let levels = light.map(|light| Level::nearest(*light));
-        Self { base: base.clone(), geometry, light, levels, screen, rays: number, exact_rays, error, reached }
+        let base = base.clone();
+        Some(Self { base, geometry, light, levels, screen, rays: number, exact_rays, error, reached })
     }
 
     /// The request whose picture it is.
@@ -168,9 +198,9 @@ impl Reference {
     }
 
     /// How much of its own characters flickers, in twelfths of white's CIE L*; absent of a picture without
-    /// characters.
+    /// characters, and where that was given up.
     pub fn shimmer(&self) -> Option<f64> {
-        self.screen.as_ref().map(SeenScreen::shimmer)
+        self.screen.as_ref().and_then(SeenScreen::shimmer)
     }
 
     /// What an eye sees of its own characters that is not the light that they stand for, in the same unit.
@@ -190,7 +220,7 @@ impl Reference {
 
     /// The request of another setting with its view turned by a tenth of a dot across and down.
     pub fn turned(&self, request: &Request) -> Request {
-        Request { camera: turned(&self.base), ..request.clone() }
+        turned_of(&self.base, request)
     }
 
     /// How far the picture of a request is from it. `moved` is the picture of the turned request.
@@ -237,6 +267,11 @@ impl Reference {
             levels: LevelDifference::of(levels.values(), self.levels.values()),
         }
     }
+}
+
+/// A request of the view of `base`, with that turned by a tenth of a dot of `base` across and down.
+pub(super) fn turned_of(base: &Request, request: &Request) -> Request {
+    Request { camera: turned(base), ..request.clone() }
 }
 
 /// The same picture, with nothing spared that does not change on purpose what is shown.

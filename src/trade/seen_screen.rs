@@ -22,14 +22,19 @@ pub(super) struct SeenScreen {
     seen: Grid<f64>,
     /// The light that they stand for through the eye's filter, 0 to 1.
     meant: Grid<f64>,
-    /// How much of its characters flickers.
-    shimmer: f64,
+    /// How much of its characters flickers, where that is known.
+    shimmer: Option<f64>,
 }
 
 impl SeenScreen {
     /// Of a picture by its light, and of the shimmer of two pictures of which the view of one is turned a
-    /// little. `None` where the picture has no characters, in whole cells.
-    pub fn new(base: &Request, eye: EyeDistance, mean: &MeanLight, turned: [&MeanLight; 2]) -> Option<Self> {
+    /// little, where there are two. `None` where the picture has no characters, in whole cells.
+    pub fn new(
+        base: &Request,
+        eye: EyeDistance,
+        mean: &MeanLight,
+        turned: Option<[&MeanLight; 2]>,
+    ) -> Option<Self> {
         let size = cells(base)?;
         let size = Size::new(size.width * CELL_DOTS.width, size.height * CELL_DOTS.height);
         let per_cell = base.glyphs.dots_per_cell();
@@ -38,19 +43,22 @@ impl SeenScreen {
         let down = eye.degrees_per_cell / cell_aspect / f64::from(CELL_DOTS.height);
         let filter = EyeFilter::new([across, down], size);
         let cells = mean.composed(base);
-        let [still, moved] = turned.map(|mean| seen(&filter, &mean.composed(base), base.palette));
+        let shimmer = turned.map(|turned| {
+            let [still, moved] = turned.map(|mean| seen(&filter, &mean.composed(base), base.palette));
+            apart(&still, &moved)
+        });
         let light = resized(&mean.light, size).map(|light| shown(base.tone, *light));
         Some(Self {
             seen: seen(&filter, &cells, base.palette),
             meant: clamped(&filter.seen(&light)),
-            shimmer: apart(&still, &moved),
+            shimmer,
             cells,
             filter,
         })
     }
 
-    /// How much of its own characters flickers.
-    pub const fn shimmer(&self) -> f64 {
+    /// How much of its own characters flickers, where that is known.
+    pub const fn shimmer(&self) -> Option<f64> {
         self.shimmer
     }
 

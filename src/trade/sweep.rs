@@ -14,11 +14,12 @@ use crate::frame::{Frame, Request, Studio, Wants};
 use crate::lattice::OverBudget;
 use crate::math::Size;
 use crate::plan::EngineChoice;
+use crate::stage::GiveUp;
 use crate::view::TILE;
 
 use super::eye_filter::EyeDistance;
 use super::front::front;
-use super::measurement::Measurement;
+use super::measurement::{ComparedPictures, Measurement};
 use super::reference::{Reference, ReferenceGoal};
 use super::setting::Setting;
 
@@ -30,6 +31,10 @@ const FOR_SEARCH: f64 = 0.8;
 
 /// No setting whose picture is expected to take more than this part of the whole time is drawn.
 const FOR_ONE: f64 = 0.05;
+
+/// A setting that is measured is drawn so often at first: to be compared, from a view that is turned a little,
+/// without what is meant, and to be timed.
+const PICTURES_OF_ONE: f64 = 4.0;
 
 /// A setting is first drawn this much narrower and lower, to see what it may take.
 const SMALLER: u32 = 8;
@@ -46,7 +51,8 @@ const MOST_PICTURES: usize = 99;
 /// How far a sweep goes.
 #[derive(Clone, Debug)]
 pub struct SweepLimits {
-    /// The time for all of it. Without any, only the request's own setting is measured, and those of `also`.
+    /// The time for all of it. Without any, only the request's own setting is measured, and those of `also`,
+    /// however long that takes.
     pub time: Duration,
     /// Settings that are measured in any case.
     pub also: Vec<Setting>,
@@ -85,9 +91,23 @@ pub enum WhyPassedOver {
     /// Its picture is expected to take too much of the time.
     #[error("a picture would take about {:.1} s", .0.as_secs_f64())]
     Slow(Duration),
+    /// Its pictures took longer than expected, or the time was over.
+    #[error("its pictures were given up after {:.1} s", .0.as_secs_f64())]
+    GivenUp(Duration),
     /// Its lattice would be too large.
     #[error("{0}")]
     OverBudget(OverBudget),
+}
+
+/// Why a sweep has nothing to tell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum NothingMeasured {
+    /// It was interrupted before anything was measured.
+    #[error("interrupted before anything was measured")]
+    Interrupted,
+    /// The time was over before.
+    #[error("the time was over before there was a reference and a picture to compare with it")]
+    OutOfTime,
 }
 
 /// What was measured.
@@ -104,40 +124,54 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Measures the trade of time for accuracy of a picture. `watch` learns of each step, and an interrupt
-    /// ends it after the picture that is being drawn, with what there is.
+    /// Measures the trade of time for accuracy of a picture. `watch` learns of each step. An interrupt, and
+    /// the end of the time, give up what is being drawn, and it ends with what there is. Where `rays` says
+    /// how many the reference has, and where there is no time at all, the reference and what is measured in
+    /// any case take as long as they take.
+    ///
+    /// # Errors
+    /// Where that ends before there is a reference and the request's own picture.
     pub fn new(
         studio: &Studio,
         base: &Request,
         limits: &SweepLimits,
         interrupt: &AtomicBool,
         watch: &mut dyn FnMut(SweepStep),
-    ) -> Self {
-        let begin = Instant::now();
+    ) -> Result<Self, NothingMeasured> {
+        let run = Run { studio, base, limits, interrupt, begin: Instant::now() };
+        let own = Setting::of(base);
+        let is_over = || run.is_interrupted() || (run.is_limited() && run.is_over(1.0));
+        let over = GiveUp::when(&is_over);
+        let nothing = || {
+            if run.is_interrupted() { NothingMeasured::Interrupted } else { NothingMeasured::OutOfTime }
+        };
+        // First of all, so that there is something to tell while the reference takes its time.
+        let pictures = ComparedPictures::draw(studio, base, own, &over).ok_or_else(nothing)?;
+        let first = studio.draw_anew_unless(base, &over).ok_or_else(nothing)?;
         watch(SweepStep::Reference);
         let goal = ReferenceGoal {
             apart: limits.apart,
             rays: limits.rays,
-            until: begin + limits.time.mul_f64(FOR_REFERENCE),
+            until: run.begin + limits.time.mul_f64(FOR_REFERENCE),
         };
-        let reference = Reference::new(studio, base, &goal, limits.eye, interrupt);
-        let own = Setting::of(base);
-        let mut sweep = Self { reference, all: Vec::new(), passed_over: Vec::new(), interrupted: false };
-        let run = Run { studio, base, limits, interrupt, begin };
-        watch(SweepStep::Settings(0));
-        // The request's own is measured whatever it takes.
-        sweep.measure(&run, own);
+        let reference = Reference::new(studio, base, &goal, limits.eye, &over).ok_or_else(nothing)?;
+        let measured = Measurement::new(studio, &reference, &pictures, None, &GiveUp::never());
+        let mut measured = measured.ok_or_else(nothing)?;
+        drop(pictures);
+        measured.times.push(first.total);
+        let mut sweep = Self { reference, all: vec![measured], passed_over: Vec::new(), interrupted: false };
+        watch(SweepStep::Settings(1));
         for setting in limits.also.iter().filter(|setting| **setting != own) {
             run.warm(setting);
-            sweep.measure(&run, *setting);
+            sweep.measure(&run, *setting, &over);
         }
         if limits.time > Duration::ZERO {
             sweep.take(&run, own.alone(base), watch);
             sweep.refine(&run, watch);
         }
         sweep.repeat(&run, watch);
-        sweep.interrupted = interrupt.load(Ordering::Relaxed);
-        sweep
+        sweep.interrupted = run.is_interrupted();
+        Ok(sweep)
     }
 
     /// The settings that no other beats, by their places and from the fastest.
@@ -158,10 +192,12 @@ impl Sweep {
                 continue;
             }
             if let Err(why) = run.check(&setting) {
-                self.passed_over.push(PassedOver { setting, why });
+                self.passed_over.extend(why.map(|why| PassedOver { setting, why }));
                 continue;
             }
-            self.measure(run, setting);
+            let (begin, most) = (Instant::now(), run.limits.time.mul_f64(FOR_ONE * PICTURES_OF_ONE));
+            let is_slow = || run.is_over(1.0) || begin.elapsed() > most;
+            self.measure(run, setting, &GiveUp::when(&is_slow));
             watch(SweepStep::Settings(self.all.len()));
         }
         self.all.len() - before
@@ -183,10 +219,23 @@ impl Sweep {
         }
     }
 
-    fn measure(&mut self, run: &Run, setting: Setting) {
-        let mut one = Measurement::new(run.studio, &self.reference, setting, self.all.first());
-        one.time(run.studio, run.base);
-        self.all.push(one);
+    /// Measures a setting; where that is given up, says so, but for an interrupt.
+    fn measure(&mut self, run: &Run, setting: Setting, give_up: &GiveUp) {
+        let begin = Instant::now();
+        let pictures = ComparedPictures::draw(run.studio, run.base, setting, give_up);
+        let measured = pictures.and_then(|pictures| {
+            let own = self.all.first();
+            let mut one = Measurement::new(run.studio, &self.reference, &pictures, own, give_up)?;
+            one.time(run.studio, run.base, give_up).then_some(one)
+        });
+        match measured {
+            Some(one) => self.all.push(one),
+            None if run.is_interrupted() => {}
+            None => {
+                let why = WhyPassedOver::GivenUp(begin.elapsed());
+                self.passed_over.push(PassedOver { setting, why });
+            }
+        }
     }
 
     /// Times all settings in turn until the time is over: each thrice at least, if it allows, then those that
@@ -220,7 +269,9 @@ impl Sweep {
             if threads.replace(one.setting.options.threads) != Some(one.setting.options.threads) {
                 run.warm(&one.setting);
             }
-            one.time(run.studio, run.base);
+            // One more time of many is not missed.
+            let is_over = || run.is_interrupted() || (part.is_finite() && run.is_over(1.0));
+            one.time(run.studio, run.base, &GiveUp::when(&is_over));
         }
     }
 }
@@ -244,11 +295,16 @@ impl Run<'_> {
         self.is_interrupted() || self.begin.elapsed().as_secs_f64() >= self.limits.time.as_secs_f64() * part
     }
 
+    /// Whether the time is a limit for what is measured in any case.
+    fn is_limited(&self) -> bool {
+        self.limits.time > Duration::ZERO && self.limits.rays.is_none()
+    }
+
     /// Whether a setting can be measured: what it needs is built, and a smaller picture drawn to see what the
-    /// whole will take.
-    fn check(&self, setting: &Setting) -> Result<(), WhyPassedOver> {
+    /// whole will take. No reason is given where it is too late to find out.
+    fn check(&self, setting: &Setting) -> Result<(), Option<WhyPassedOver>> {
         if let Some(over) = self.warm(setting).over_budget {
-            return Err(WhyPassedOver::OverBudget(over));
+            return Err(Some(WhyPassedOver::OverBudget(over)));
         }
         let mut request = setting.request(self.base);
         let all = request.dots.area();
@@ -260,9 +316,16 @@ impl Run<'_> {
         };
         request.dots = Size::new(smaller(request.dots.width), smaller(request.dots.height));
         request.wants = Wants::LIGHT;
-        let small = self.studio.draw_anew(&request);
-        let expected = small.total.mul_f64(all as f64 / request.dots.area() as f64);
-        if expected > self.limits.time.mul_f64(FOR_ONE) { Err(WhyPassedOver::Slow(expected)) } else { Ok(()) }
+        let (begin, most) = (Instant::now(), self.limits.time.mul_f64(FOR_ONE));
+        let is_slow = || self.is_over(1.0) || begin.elapsed() > most;
+        let parts = all as f64 / request.dots.area() as f64;
+        match self.studio.draw_anew_unless(&request, &GiveUp::when(&is_slow)) {
+            Some(small) if small.total.mul_f64(parts) <= most => Ok(()),
+            Some(small) => Err(Some(WhyPassedOver::Slow(small.total.mul_f64(parts)))),
+            None if self.is_over(1.0) => Err(None),
+            // It would have taken longer.
+            None => Err(Some(WhyPassedOver::Slow(begin.elapsed().mul_f64(parts)))),
+        }
     }
 
     /// Draws a dot, so that threads and structure are there.

@@ -34,6 +34,11 @@ impl Times {
         self.times.insert(place, time);
     }
 
+    /// Takes in the times of more pictures.
+    pub fn extend(&mut self, times: impl IntoIterator<Item = Duration>) {
+        times.into_iter().for_each(|time| self.push(time));
+    }
+
     /// The time of each picture, ascending.
     pub fn all(&self) -> &[Duration] {
         &self.times
@@ -59,6 +64,12 @@ impl Times {
         let quarter = self.times.len() / 4;
         let last = self.times.len().saturating_sub(1 + quarter);
         [quarter, last].map(|place| self.times.get(place).copied().unwrap_or_default())
+    }
+
+    /// Half the width of the middle half: what is told behind ±.
+    pub fn spread(&self) -> Duration {
+        let [low, high] = self.middle_half();
+        high.saturating_sub(low) / 2
     }
 }
 
@@ -136,6 +147,7 @@ mod tests {
         }
         assert_eq!([times.least(), times.median(), times.sum()], [1, 7, 140].map(Duration::from_millis));
         assert_eq!(times.middle_half(), [5, 8].map(Duration::from_millis));
+        assert_eq!(times.spread(), Duration::from_micros(1_500));
     }
 
     #[test]

@@ -96,8 +96,16 @@ fn is_never_the_library_of_a_mesh() {
     fs::write(&mesh, "mtllib part.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
     fs::write(&library, "newmtl red\nKd 1 0 0\n").unwrap();
     let [mesh, written] = [&mesh, &library].map(|path| path.to_str().unwrap());
-    let message = fails(&run(&["render", mesh, "-o", written, "--format", "txt"]), 2);
-    assert!(message.contains("a file that the scene is read from"), "{message}");
+    let linked = folder.join("linked.txt");
+    fs::hard_link(&library, &linked).unwrap();
+    for written in [written, linked.to_str().unwrap()] {
+        let message = fails(&run(&["render", mesh, "-o", written, "--format", "txt"]), 2);
+        assert!(message.contains("a file that the scene is read from"), "{message}");
+    }
+    // A file of that ending that nobody reads is one as any.
+    let other = folder.join("other.mtl");
+    fs::write(&other, "").unwrap();
+    done(&run(&["render", mesh, "-o", other.to_str().unwrap(), "--format", "txt"]));
     assert_eq!(fs::read_to_string(&library).unwrap(), "newmtl red\nKd 1 0 0\n");
 }
 

@@ -70,19 +70,7 @@ fn engine_and_structure_lose_nothing() {
 /// Nine glass balls, each in the one before: a ray that all are asked about splits in two at each surface.
 #[test]
 fn the_cut_off_spares_seven_of_eight_rays_in_nested_glass_and_half_a_level_at_most() {
-    let mut text = "camera(eye = [0, -9, 3], target = [0, 0, 0], field = [16, 10]);\n\
-        light(at = [6, -8, 10], intensity = 0.9);\n\
-        world(ambient = 0.1, background = 0.4);\n\
-        material(kd = 0.7) translate([-20, -20, -3]) cube([40, 40, 1]);\n"
-        .to_owned();
-    for ball in 0..9 {
-        text.push_str(&format!(
-            "material(kd = 0, ks = 0, kr = 0.1, kt = 0.85, index = {}) object(\"{ball}\") sphere({});\n",
-            1.0 + 0.05 * f64::from(ball % 3 + 1),
-            0.1 * f64::from(10 - ball),
-        ));
-    }
-    let studio = given(&text);
+    let studio = given(include_str!("../files/nested-glass.scene"));
     let deep = Options { depth: 9, ..Options::default() };
     let [own, all] = [CUTOFF, 0.0].map(|cutoff| drawn(&studio, Options { cutoff, ..deep }));
     let loss = own.compare(&all).unwrap();

@@ -1,9 +1,13 @@
 //! A reference knows how well it knows.
 
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::Instant;
+
 use ray13::math::Size;
 use ray13::scene::embedded;
+use ray13::stage::GiveUp;
 use ray13::tone::lightness;
-use ray13::trade::LevelDifference;
+use ray13::trade::{EyeDistance, LevelDifference, Reference, ReferenceGoal};
 
 use super::{inside, picture, reference};
 
@@ -39,6 +43,25 @@ fn no_setting_is_held_against_its_own_rays() {
         let found = reference(&studio, &base, rays);
         assert_ne!(frame.light.values(), found.light().values(), "{rays} rays");
     }
+}
+
+/// What a reference has when it is given up is a reference of fewer rays.
+#[test]
+fn a_reference_that_is_given_up_has_the_rays_until_then() {
+    let studio = inside("hanyang");
+    let base = picture(&studio, Size::new(16, 16));
+    let goal = ReferenceGoal { apart: 0.01, rays: Some(1024), until: Instant::now() };
+    let given_up_after = |times: u32| {
+        let asked = AtomicU32::new(0);
+        let when = || asked.fetch_add(1, Ordering::Relaxed) >= times;
+        Reference::new(&studio, &base, &goal, EyeDistance::default(), &GiveUp::when(&when))
+    };
+    assert!(given_up_after(0).is_none() && given_up_after(4).is_none());
+    let found = given_up_after(60).unwrap();
+    assert!((8..=32).contains(&found.rays()), "{}", found.rays());
+    let same = reference(&studio, &base, found.rays());
+    assert_eq!(found.light().values(), same.light().values());
+    assert_eq!(found.error(), same.error());
 }
 
 /// The exact engine answers for all rays, though it traces few: the fast one is held to its bits.

@@ -6,7 +6,7 @@ use std::time::Duration;
 use ray13::frame::Request;
 use ray13::math::Size;
 use ray13::plan::Options;
-use ray13::trade::{EyeDistance, KNOBS, Setting, Sweep, SweepLimits, SweepStep};
+use ray13::trade::{EyeDistance, KNOBS, NothingMeasured, Setting, Sweep, SweepLimits, SweepStep};
 
 use super::{given, inside, picture};
 
@@ -25,7 +25,8 @@ fn limits(time: Duration) -> SweepLimits {
 fn every_knob_is_turned_and_its_settings_are_told_from_others() {
     let (studio, base) = base();
     let sweep =
-        Sweep::new(&studio, &base, &limits(Duration::from_secs(600)), &AtomicBool::new(false), &mut |_| ());
+        Sweep::new(&studio, &base, &limits(Duration::from_secs(600)), &AtomicBool::new(false), &mut |_| ())
+            .unwrap();
     assert!(!sweep.interrupted);
     let own = Setting::of(&base);
     assert_eq!(sweep.all[0].setting, own);
@@ -59,7 +60,8 @@ fn what_a_scene_does_not_have_is_no_other_picture() {
     let studio = given("material(ks = 0) sphere(1);");
     let base = picture(&studio, Size::new(16, 16));
     let sweep =
-        Sweep::new(&studio, &base, &limits(Duration::from_secs(600)), &AtomicBool::new(false), &mut |_| ());
+        Sweep::new(&studio, &base, &limits(Duration::from_secs(600)), &AtomicBool::new(false), &mut |_| ())
+            .unwrap();
     assert!(sweep.all.len() > 10 && sweep.all.iter().all(|one| !one.is_another_picture));
 }
 
@@ -67,7 +69,8 @@ fn what_a_scene_does_not_have_is_no_other_picture() {
 #[test]
 fn accuracy_is_no_matter_of_chance() {
     let (studio, base) = base();
-    let quick = || Sweep::new(&studio, &base, &limits(Duration::ZERO), &AtomicBool::new(false), &mut |_| ());
+    let quick =
+        || Sweep::new(&studio, &base, &limits(Duration::ZERO), &AtomicBool::new(false), &mut |_| ()).unwrap();
     let [one, other] = [quick(), quick()];
     assert_eq!(one.all.len(), 1);
     assert_eq!(one.all[0].accuracy, other.all[0].accuracy);
@@ -84,9 +87,31 @@ fn an_interrupt_gives_what_there_is() {
         }
     };
     let sweep = Sweep::new(&studio, &base, &limits(Duration::from_secs(600)), &interrupt, &mut watch);
+    let sweep = sweep.unwrap();
     assert!(sweep.interrupted);
     assert_eq!(sweep.all.len(), 3);
     let interrupt = AtomicBool::new(true);
-    let sweep = Sweep::new(&studio, &base, &limits(Duration::from_secs(600)), &interrupt, &mut |_| ());
-    assert_eq!((sweep.all.len(), sweep.reference.rays()), (1, 2));
+    let none = Sweep::new(&studio, &base, &limits(Duration::from_secs(600)), &interrupt, &mut |_| ());
+    assert_eq!(none.unwrap_err(), NothingMeasured::Interrupted);
+}
+
+/// `--seconds 3` took 47: the time was asked for between pictures alone.
+#[test]
+fn the_end_of_the_time_and_an_interrupt_end_a_picture_in_hand() {
+    let studio = inside("glass");
+    // Minutes of rays for the reference.
+    let base = picture(&studio, Size::new(1024, 1024));
+    let none = |limits, interrupt: &AtomicBool| {
+        Sweep::new(&studio, &base, &limits, interrupt, &mut |_| ()).unwrap_err()
+    };
+    let short = SweepLimits { rays: None, ..limits(Duration::from_millis(20)) };
+    assert_eq!(none(short, &AtomicBool::new(false)), NothingMeasured::OutOfTime);
+    let interrupt = AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        scope.spawn(|| {
+            std::thread::sleep(Duration::from_millis(20));
+            interrupt.store(true, Ordering::Relaxed);
+        });
+        assert_eq!(none(limits(Duration::from_secs(600)), &interrupt), NothingMeasured::Interrupted);
+    });
 }

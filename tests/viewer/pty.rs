@@ -167,6 +167,39 @@ impl Pty {
         &self.log
     }
 
+    /// The screen of the present size after each update since a place in the log, and before the first of
+    /// them, as rows.
+    pub fn screens(&self, since: usize) -> Vec<Vec<String>> {
+        const END_UPDATE: &[u8] = b"\x1b[?2026l";
+        let [rows, columns] = sides(self.size());
+        let mut parser = vt100::Parser::new(rows, columns, 0);
+        parser.process(&self.log[..since]);
+        let text = |parser: &vt100::Parser| parser.screen().rows(0, columns.get()).collect::<Vec<_>>();
+        let mut screens = vec![text(&parser)];
+        let mut from = since;
+        for to in since..=self.log.len() {
+            if self.log[from..to].ends_with(END_UPDATE) {
+                parser.process(&self.log[from..to]);
+                screens.push(text(&parser));
+                from = to;
+            }
+        }
+        screens
+    }
+
+    /// How long the program has computed, in hundredths of a second; 0 where the system does not say.
+    pub fn ticks(&self) -> u64 {
+        let stat = fs::read_to_string(format!("/proc/{}/stat", self.pid())).unwrap_or_default();
+        // Behind the name, which stands in brackets, the 12th and the 13th: proc(5).
+        let fields: Vec<&str> = stat.rsplit(')').next().unwrap_or_default().split_whitespace().collect();
+        [11, 12].iter().filter_map(|&place| fields.get(place)?.parse::<u64>().ok()).sum()
+    }
+
+    fn pid(&self) -> String {
+        let log = String::from_utf8_lossy(&self.log);
+        log.split("pid=").nth(1).and_then(|rest| rest.split('.').next()).unwrap().to_owned()
+    }
+
     /// Whether the first screen shows again, with a cursor and plain attributes.
     pub fn given_back(&self) -> bool {
         let screen = self.parser.screen();
@@ -188,9 +221,7 @@ impl Pty {
 
     /// Sends a signal to the program.
     pub fn signal(&mut self, name: &str) {
-        let log = String::from_utf8_lossy(&self.log);
-        let pid = log.split("pid=").nth(1).and_then(|rest| rest.split('.').next()).unwrap();
-        assert!(Command::new("kill").args(["-s", name, pid]).status().unwrap().success());
+        assert!(Command::new("kill").args(["-s", name, &self.pid()]).status().unwrap().success());
     }
 
     /// Takes output until the condition holds; fails with the screen at the deadline.

@@ -82,7 +82,8 @@ pub fn assemble(mut mesh: PolygonMesh, up: UpAxis) -> Result<Scene, MeshError> {
             parts = vec![whole];
         }
     }
-    let mut scene = Scene { notes: mesh.notes.clone(), ..Scene::default() };
+    let mut scene =
+        Scene { notes: mesh.notes.clone(), libraries: mesh.libraries.clone(), ..Scene::default() };
     let mut flat = 0;
     for part in &parts {
         let facts = MeshFacts::of(&part.triangles, &mesh.points, &part.topology);

@@ -1,5 +1,7 @@
 //! What every mesh format gives: corners, and polygons that name them, in groups.
 
+use std::path::PathBuf;
+
 use crate::math::DVec3;
 use crate::scene::Material;
 
@@ -22,6 +24,8 @@ pub struct PolygonMesh {
     pub groups: Vec<Option<String>>,
     /// The materials; at least one.
     pub materials: Vec<Material>,
+    /// The files that were read beside the mesh.
+    pub libraries: Vec<PathBuf>,
     /// What was read otherwise than it is written.
     pub notes: Vec<String>,
 }
@@ -48,6 +52,7 @@ impl Default for PolygonMesh {
             runs: vec![FaceRun { first: 0, group: 0, material: 0 }],
             groups: vec![None],
             materials: vec![Material::default()],
+            libraries: Vec::new(),
             notes: Vec::new(),
         }
     }

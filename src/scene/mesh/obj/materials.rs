@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 use std::fs::{self, File};
 use std::io::{self, Read};
-use std::path::{Component, Path};
+use std::path::{Component, Path, PathBuf};
 
 use crate::math::DVec3;
 use crate::scene::Material;
@@ -20,6 +20,8 @@ pub struct MaterialLibrary {
     pub materials: Vec<Material>,
     /// The index of the one that faces get.
     pub current: u32,
+    /// The files that were read.
+    pub files: Vec<PathBuf>,
     /// What is not as the file says.
     pub notes: Vec<String>,
     known: HashMap<Vec<u8>, u32>,
@@ -32,6 +34,7 @@ impl Default for MaterialLibrary {
         Self {
             materials: vec![Material::default()],
             current: 0,
+            files: Vec::new(),
             notes: Vec::new(),
             known: HashMap::new(),
             missed: HashSet::new(),
@@ -61,7 +64,14 @@ impl MaterialLibrary {
         let bytes = match folder {
             _ if !inside => Err("only a file beside the mesh is read".to_owned()),
             None => Err("it is not known where the mesh lies".to_owned()),
-            Some(folder) => read(&folder.join(path)).map_err(|error| error.to_string()),
+            Some(folder) => {
+                let file = folder.join(path);
+                let bytes = read(&file).map_err(|error| error.to_string());
+                if bytes.is_ok() && !self.files.contains(&file) {
+                    self.files.push(file);
+                }
+                bytes
+            }
         };
         match bytes {
             Ok(bytes) => self.add(&bytes, &shown),
@@ -147,7 +157,11 @@ mod tests {
         }
         assert_eq!(library.materials.len(), 1);
         library.notes.clear();
-        library.load(b"./lib.rs", Some(&folder));
+        assert!(library.files.is_empty());
+        for _ in 0..2 {
+            library.load(b"./lib.rs", Some(&folder));
+        }
+        assert_eq!(library.files, [folder.join("lib.rs")]);
         assert_eq!(library.notes, Vec::<String>::new());
     }
 }

@@ -85,6 +85,7 @@ pub fn read(bytes: &[u8], folder: Option<&Path>) -> Result<PolygonMesh, MeshErro
         }
     }
     reader.mesh.materials = reader.library.materials;
+    reader.mesh.libraries = reader.library.files;
     reader.mesh.notes = reader.library.notes;
     Ok(reader.mesh)
 }

@@ -54,6 +54,8 @@ pub mod stage;
 
 pub mod scene;
 
+pub mod bvh;
+
 pub mod solid;
 
 pub mod view;

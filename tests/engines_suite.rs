@@ -7,6 +7,7 @@ mod support {
     pub mod anything;
     pub mod beside;
     pub mod cases;
+    pub mod nasty_meshes;
     pub mod request;
     pub mod same;
     pub mod scenery;
@@ -17,6 +18,7 @@ mod engines {
     mod glass;
     mod lamps;
     mod large_csg;
+    mod meshes;
     mod random;
     mod range;
     mod scenes;

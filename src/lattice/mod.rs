@@ -6,6 +6,7 @@
 //! [`crate::solid::Assembly::objects`], each composite one with its [`SubLattice`]; the sub-object list is
 //! [`crate::solid::Assembly::primitives`].
 
+mod bounding_sphere;
 mod bvh;
 mod cells;
 mod clip;
@@ -18,7 +19,8 @@ mod structure;
 mod sub;
 mod tree;
 
-pub use bvh::{BoundingSphere, BoxVisitor, Bvh8, BvhChild, Candidate, Node, ROOM, Stream, StreamRays, WIDE};
+pub use crate::bvh::{BoxVisitor, Bvh8, BvhChild, Candidate, Node, Stream, StreamRays, WIDE};
+pub use bounding_sphere::{BoundingSphere, ROOM};
 pub use cells::{CellLine, CellsVisitor, CsgCells};
 pub use clip::{Outcode, entry};
 pub use frusta::{FRUSTA, FrustaHits, FrustumSoa};

@@ -86,6 +86,17 @@ impl<N: Number> Vector<N> {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
+    /// The cross product.
+    #[inline(always)]
+    #[must_use]
+    pub fn cross(self, other: Self) -> Self {
+        Self {
+            x: self.y * other.z - other.y * self.z,
+            y: self.z * other.x - other.z * self.x,
+            z: self.x * other.y - other.x * self.y,
+        }
+    }
+
     /// The dot product with itself.
     #[inline(always)]
     pub fn length_squared(self) -> N {

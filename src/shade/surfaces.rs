@@ -99,15 +99,19 @@ impl Surfaces {
         assembly: &Assembly,
         departures: &mut Departures,
     ) {
-        departures.primitive = nearest.primitive;
+        (departures.primitive, departures.surface) = (nearest.primitive, nearest.surface);
         let mut rest = self.hits;
         while rest != 0 {
             // Neighbours mostly meet the same face: all that do are looked at together.
             let lane = rest.trailing_zeros() as usize;
             let (primitive, surface) = (nearest.primitive.0[lane], nearest.surface.0[lane]);
-            let group = rest & same_face(simd, nearest, lane);
-            rest &= !group;
             let own = &assembly.primitives[primitive as usize];
+            let mut group = rest & nearest.primitive.rays_of(simd, primitive);
+            // A mesh may have so many that each ray meets its own.
+            if !matches!(own.form, WorldShape::Mesh(_)) {
+                group &= nearest.surface.rays_of(simd, surface);
+            }
+            rest &= !group;
             self.made_of(own.material.0, group);
             let place_error = f64x8::splat(simd, own.form.place_error());
             for register in lane / LANES..REGISTERS {
@@ -133,6 +137,17 @@ impl Surfaces {
                     |p| tube.normals(p),
                 ),
                 WorldShape::Patch(_) => self.patches |= group,
+                WorldShape::Mesh(mesh) => {
+                    for register in lane / LANES..REGISTERS {
+                        let some = group >> (register * LANES) & 0xFF;
+                        if some != 0 {
+                            let normal = mesh.normals_of(simd, some, register, &nearest.surface);
+                            let others = self.normal.load(simd, register);
+                            let own = mask_of(simd, group, register);
+                            self.normal.store(register, Vector::choose(own, normal, others));
+                        }
+                    }
+                }
                 flat => {
                     let normal = flat.normal(DVec3::ZERO, surface);
                     self.face(
@@ -183,11 +198,4 @@ impl Surfaces {
         }
         inward
     }
-}
-
-/// The rays that met the same face as the one of `lane`.
-#[inline(always)]
-fn same_face<S: Simd>(simd: S, nearest: &PacketHits, lane: usize) -> u64 {
-    let primitives = nearest.primitive.rays_of(simd, nearest.primitive.0[lane]);
-    primitives & nearest.surface.rays_of(simd, nearest.surface.0[lane])
 }

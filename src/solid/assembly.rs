@@ -12,6 +12,7 @@ use crate::stage::{Progress, Task};
 
 use super::ball::Ball;
 use super::expression::{CsgTree, Expression};
+use super::mesh::TriangleMesh;
 use super::primitive::{WorldPrimitive, WorldShape};
 use super::span::ROUNDING;
 
@@ -113,6 +114,8 @@ pub enum BatchKind {
     Ball,
     /// One tube.
     Tube,
+    /// One mesh that is no operand.
+    Mesh,
     /// Anything else: one ray at a time.
     Other,
 }
@@ -328,13 +331,16 @@ impl Assembly {
         } else {
             primitives.par_iter().map(numbers).reduce(|| (0.0, f64::INFINITY), join)
         };
-        let alone = |object: &WorldObject| match object.body {
-            Body::Single(index) | Body::Surface(index) => match primitives[index as usize].form {
+        let alone = |object: &WorldObject| match &object.body {
+            &Body::Single(index) | &Body::Surface(index) => match primitives[index as usize].form {
                 WorldShape::Ball(_) => (index, BatchKind::Ball),
                 WorldShape::Tube(_) => (index, BatchKind::Tube),
                 _ => (index, BatchKind::Other),
             },
-            Body::Composite { .. } => (MANY, BatchKind::Other),
+            Body::Composite { tree, .. } => match **tree {
+                CsgTree::Leaf(index) => (index, BatchKind::Mesh),
+                _ => (MANY, BatchKind::Other),
+            },
         };
         let alone: Vec<_> = objects.iter().map(alone).collect();
         let balls = alone.iter().filter(|(_, kind)| *kind == BatchKind::Ball).count();
@@ -347,7 +353,19 @@ impl Assembly {
     /// millions of objects are in no cache, their numbers may be.
     #[inline]
     pub fn alone(&self, object: u32) -> Option<u32> {
-        Some(self.alone[object as usize].0).filter(|&index| index != MANY)
+        let (index, kind) = self.alone[object as usize];
+        (index != MANY && kind != BatchKind::Mesh).then_some(index)
+    }
+
+    /// The mesh that an object is, and its index among the primitives, where it is nothing else.
+    #[inline]
+    pub fn mesh(&self, object: u32) -> Option<(u32, &TriangleMesh)> {
+        let (index, kind) = self.alone[object as usize];
+        if kind != BatchKind::Mesh {
+            return None;
+        }
+        let WorldShape::Mesh(mesh) = &self.primitives[index as usize].form else { return None };
+        Some((index, mesh))
     }
 
     /// What kind of object it is; and the primitive that it is, where it is one alone.

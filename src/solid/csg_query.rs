@@ -48,6 +48,8 @@ impl<T: Real> PacketRange<T> {
 pub struct Departures<T = f64> {
     /// The index of the primitive; [`Departures::NOWHERE`] where the ray leaves none.
     pub primitive: Lanes<u32>,
+    /// The face of the primitive.
+    pub surface: Lanes<u32>,
     /// Which rays go to the inside of it, a bit for each.
     pub inward: u64,
     /// How far it may be off its place.
@@ -59,21 +61,26 @@ impl Departures {
     pub const NOWHERE: u32 = u32::MAX;
 
     /// No ray leaves a surface.
-    pub const NONE: Self =
-        Self { primitive: Lanes::filled(Self::NOWHERE), inward: 0, place_error: Lanes::filled(0.0) };
+    pub const NONE: Self = Self {
+        primitive: Lanes::filled(Self::NOWHERE),
+        surface: Lanes::filled(0),
+        inward: 0,
+        place_error: Lanes::filled(0.0),
+    };
 
     /// Sets the surface that one ray starts on, and whether it goes inward.
     pub fn set(&mut self, lane: usize, departure: &Departure) {
         self.primitive.0[lane] = departure.primitive;
+        self.surface.0[lane] = departure.surface;
         self.place_error.0[lane] = departure.place_error;
         self.inward = self.inward & !(1 << lane) | u64::from(departure.inward) << lane;
     }
 
-    /// The surface that one ray starts on; of a primitive whose surfaces need no telling apart.
+    /// The surface that one ray starts on.
     pub fn get(&self, lane: usize) -> Departure {
         Departure {
             primitive: self.primitive.0[lane],
-            surface: 0,
+            surface: self.surface.0[lane],
             inward: self.inward >> lane & 1 == 1,
             place_error: self.place_error.0[lane],
         }
@@ -130,6 +137,12 @@ impl<T: Real> PacketCrossings<T> {
         primitive: Lanes::filled(0),
         surface: Lanes::filled(0),
     };
+}
+
+impl<T: Real> Default for PacketCrossings<T> {
+    fn default() -> Self {
+        Self::NONE
+    }
 }
 
 impl PacketCrossings {

@@ -1,91 +1,158 @@
 //! Closed surfaces of triangles.
 //!
 //! Whether a ray crosses a triangle is decided exactly, in the plane across the ray ([`super::ray_shear`]),
-//! so that a closed surface is always crossed an even number of times.
+//! so that a closed surface is always crossed an even number of times. Single precision decides for most
+//! rays of a packet beforehand ([`super::mesh_packet`]).
 
-use crate::math::{Bounds, DVec3, Placement, Ray};
+use std::ops::ControlFlow;
+
+use fearless_simd::Simd;
+use rayon::prelude::*;
+
+use crate::bvh::{BuildPrimitive, Bvh8, MARGIN};
+use crate::math::{Bounds, DVec3, LANES, Lanes, Mask, Number, Placement, Ray, RayPacket, Vector};
+use crate::math::{REGISTERS, Rays, lanes};
 use crate::scene;
 
-use super::ray_shear::{RayShear, plane_crossing};
-use super::span::{End, rounding_at};
+use super::ray_shear::{OnPlane, RayShear, plane_crossing, planes_met};
+use super::span::{End, WORLD, rounding_at};
 
-/// At most this many triangles are tested without looking at a box first.
-const LEAF: usize = 4;
+/// Triangles that one thread takes at a time.
+const STRETCH: usize = 8192;
 
 /// A closed surface of triangles, in the world.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TriangleMesh {
-    triangles: Vec<Triangle>,
-    nodes: Vec<Node>,
+    points: Vec<DVec3>,
+    /// The corners of each by their places in `points`, in the order in which they stand in `boxes`; without
+    /// those that have no area whatever way they are looked at, which no line crosses.
+    triangles: Vec<[u32; 3]>,
+    boxes: Bvh8,
+    bounds: Bounds,
     /// How far a corner may seem off its place.
     place_error: f64,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Triangle {
-    corners: [DVec3; 3],
-    normal: DVec3,
-}
-
-/// A box of triangles, or of two boxes. Children are stored behind their parent, the left one right behind
-/// it.
-#[derive(Clone, Debug, PartialEq)]
-struct Node {
-    bounds: Bounds,
-    /// For a leaf the first triangle; else the right child.
-    first: u32,
-    /// Triangles of a leaf; 0 for a box of boxes.
-    count: u32,
 }
 
 impl TriangleMesh {
     /// The triangles of `unit`, put at `place`, which may be off by `map_error`.
     pub fn new(unit: &scene::Mesh, place: &Placement, map_error: DVec3) -> Self {
-        let points: Vec<DVec3> = unit.points.iter().map(|&p| place.linear * p + place.center).collect();
-        let mut triangles: Vec<Triangle> = unit
-            .triangles
-            .iter()
-            .map(|t| {
-                let corners = t.map(|i| points[i as usize]);
-                let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-                let size = normal.abs().max_element();
-                Triangle { corners, normal: (normal / size).normalize_or(DVec3::Z) }
-            })
-            .collect();
+        let put = |&p: &DVec3| place.linear * p + place.center;
+        let points: Vec<DVec3> = unit.points.par_iter().with_min_len(STRETCH).map(put).collect();
         // Corners are moved into the world: they are what crossings are computed from.
-        let reach = points.iter().map(|p| p.length()).fold(0.0, f64::max);
-        let mut nodes = Vec::new();
-        let count = triangles.len();
-        build(&mut nodes, &mut triangles, 0, count);
-        Self { triangles, nodes, place_error: rounding_at(reach) + map_error.length() }
+        let lengths = points.par_iter().with_min_len(STRETCH).map(|p| p.length());
+        let reach = lengths.reduce(|| 0.0, f64::max);
+        let place_error = rounding_at(reach) + map_error.length();
+        let corners = |t: &[u32; 3]| t.map(|i| points[i as usize]);
+        let all = unit.triangles.par_iter().with_min_len(STRETCH);
+        let bounds = all.map(|t| Bounds::around(corners(t))).reduce(|| Bounds::EMPTY, |a, b| a.join(&b));
+        let is_solid = |t: &&[u32; 3]| {
+            let [a, b, c] = corners(t);
+            a != b && b != c && c != a
+        };
+        let mut triangles: Vec<[u32; 3]> = unit.triangles.iter().filter(is_solid).copied().collect();
+        // What rounding makes of boxes is for a world of this size; a cutter may reach out of it.
+        let margin = DVec3::splat(2.0 * place_error + MARGIN * (reach / WORLD));
+        let mut boxes = Bvh8::over(triangles.len(), |number| {
+            let around = Bounds::around(corners(&triangles[number])).padded(margin);
+            BuildPrimitive::new(&around, number as u32)
+        });
+        let order = boxes.renumber();
+        triangles = order.into_par_iter().with_min_len(STRETCH).map(|old| triangles[old as usize]).collect();
+        Self { points, triangles, boxes, bounds, place_error }
     }
 
     /// Every crossing of the line with the surface, in no order.
     pub fn crossings(&self, ray: &Ray, mut found: impl FnMut(End)) {
         let across = RayShear::new(ray);
-        let mut stack = vec![0_u32];
-        while let Some(index) = stack.pop() {
-            let node = &self.nodes[index as usize];
-            if !line_meets(ray, &node.bounds, self.place_error) {
+        self.boxes.walk_line::<()>(ray, &mut |surface: u32, _: f64| {
+            let corners = self.corners(surface);
+            if across.meets_triangle(&corners) {
+                let anchor = nearest(ray, &corners);
+                let (t, error) = plane_crossing(ray, &corners, normal(&corners), anchor, self.place_error);
+                found(End { t, error, surface });
+            }
+            ControlFlow::Continue(0.0)
+        });
+    }
+
+    /// Where some rays of a packet meet the planes of the triangles that they cross, and how far that may be
+    /// off: as [`TriangleMesh::crossings`] finds it, for triangles that are not seen edge on.
+    #[inline(always)]
+    pub fn planes_of<S: Simd>(
+        &self,
+        simd: S,
+        packet: &RayPacket,
+        some: u64,
+        surfaces: &Lanes<u32>,
+        [t, error]: [&mut Lanes; 2],
+    ) {
+        for register in 0..REGISTERS {
+            let own = some >> (register * LANES) & 0xFF;
+            if own == 0 {
                 continue;
             }
-            if node.count == 0 {
-                stack.push(node.first);
-                stack.push(index + 1);
-                continue;
-            }
-            for surface in node.first..node.first + node.count {
-                let triangle = &self.triangles[surface as usize];
-                if let Some(end) = triangle.crossing(ray, &across, self.place_error, surface) {
-                    found(end);
-                }
+            let rays = packet.load(simd, register);
+            let corners = self.gathered(simd, own, register, surfaces);
+            let OnPlane { t: own_t, error: own_error, .. } =
+                planes_met(&rays, normals(&corners), nearest_of(&rays, &corners), self.place_error);
+            t.store(register, own_t);
+            error.store(register, own_error);
+        }
+    }
+
+    /// The normals of the triangles that some rays of a register cross, as [`TriangleMesh::normal`] has them.
+    #[inline(always)]
+    pub fn normals_of<S: Simd>(
+        &self,
+        simd: S,
+        some: u64,
+        register: usize,
+        surfaces: &Lanes<u32>,
+    ) -> Vector<fearless_simd::f64x8<S>> {
+        normals(&self.gathered(simd, some, register, surfaces))
+    }
+
+    /// The corners of the triangles of a register's rays; of those that are not among `some`, any.
+    #[inline(always)]
+    fn gathered<S: Simd>(
+        &self,
+        simd: S,
+        some: u64,
+        register: usize,
+        surfaces: &Lanes<u32>,
+    ) -> [Vector<fearless_simd::f64x8<S>>; 3] {
+        let mut numbers = [[[0.0; LANES]; 3]; 3];
+        for lane in lanes(some) {
+            let corners = self.corners(surfaces.0[register * LANES + lane]);
+            for (to, corner) in numbers.iter_mut().zip(corners) {
+                (to[0][lane], to[1][lane], to[2][lane]) = (corner.x, corner.y, corner.z);
             }
         }
+        numbers.map(
+            #[inline(always)]
+            |[x, y, z]| Vector {
+                x: fearless_simd::SimdBase::from_slice(simd, &x),
+                y: fearless_simd::SimdBase::from_slice(simd, &y),
+                z: fearless_simd::SimdBase::from_slice(simd, &z),
+            },
+        )
+    }
+
+    /// The corners of a triangle.
+    #[inline(always)]
+    pub fn corners(&self, surface: u32) -> [DVec3; 3] {
+        self.triangles[surface as usize].map(|corner| self.points[corner as usize])
     }
 
     /// The normal of a triangle, of length 1, turned either way.
     pub fn normal(&self, surface: u32) -> DVec3 {
-        self.triangles[surface as usize].normal
+        normal(&self.corners(surface))
+    }
+
+    /// The boxes around its triangles, which are objects there.
+    #[inline]
+    pub fn boxes(&self) -> &Bvh8 {
+        &self.boxes
     }
 
     /// How far a corner may be off its place, by its map and by our own rounding.
@@ -95,12 +162,13 @@ impl TriangleMesh {
 
     /// How far it reaches along `v`: the greatest `p · v` of its points.
     pub fn support(&self, v: DVec3) -> f64 {
-        self.triangles.iter().flat_map(|t| t.corners).map(|p| p.dot(v)).fold(f64::NEG_INFINITY, f64::max)
+        let corners = self.triangles.iter().flatten();
+        corners.map(|&p| self.points[p as usize].dot(v)).fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// The box around it.
     pub fn bounds(&self) -> Bounds {
-        self.nodes[0].bounds
+        self.bounds
     }
 
     /// Whether the box is certainly outside.
@@ -109,63 +177,31 @@ impl TriangleMesh {
     }
 }
 
-/// Puts `triangles[from..to]` into the node that it appends, and their halves into nodes behind it.
-fn build(nodes: &mut Vec<Node>, triangles: &mut [Triangle], from: usize, to: usize) {
-    let part = &mut triangles[from..to];
-    let bounds = Bounds::around(part.iter().flat_map(|t| t.corners));
-    let index = nodes.len();
-    nodes.push(Node { bounds, first: from as u32, count: part.len() as u32 });
-    if part.len() <= LEAF {
-        return;
-    }
-    let middle = |t: &Triangle| t.corners[0] / 3.0 + t.corners[1] / 3.0 + t.corners[2] / 3.0;
-    let half = Bounds::around(part.iter().map(middle)).half();
-    let axis =
-        half.to_array().iter().enumerate().fold(0, |best, (i, &h)| if h > half[best] { i } else { best });
-    let split = part.len() / 2;
-    part.select_nth_unstable_by(split, |a, b| middle(a)[axis].total_cmp(&middle(b)[axis]));
-    build(nodes, triangles, from, from + split);
-    let right = nodes.len() as u32;
-    build(nodes, triangles, from + split, to);
-    nodes[index].first = right;
-    nodes[index].count = 0;
+/// The normal of a triangle, of length 1; any for one without area.
+fn normal(corners: &[DVec3; 3]) -> DVec3 {
+    normals(&corners.map(Vector::from)).into()
 }
 
-/// Whether the line passes the box, its faces moved outward by `margin`.
-fn line_meets(ray: &Ray, b: &Bounds, margin: f64) -> bool {
-    let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
-    for axis in 0..3 {
-        let (lo, hi) = (b.lo[axis] - margin - ray.o[axis], b.hi[axis] + margin - ray.o[axis]);
-        let d = ray.d[axis];
-        if d == 0.0 {
-            if lo > 0.0 || hi < 0.0 {
-                return false;
-            }
-        } else {
-            let (t1, t2) = (lo / d, hi / d);
-            low = low.max(t1.min(t2));
-            high = high.min(t1.max(t2));
-        }
-    }
-    // Each quotient is off by one rounding; a wider bound only costs a test.
-    low <= high + 4.0 * f64::EPSILON * high.abs()
-}
-
-impl Triangle {
-    fn crossing(&self, ray: &Ray, across: &RayShear, place_error: f64, surface: u32) -> Option<End> {
-        if !across.meets_triangle(&self.corners) {
-            return None;
-        }
-        let (t, error) =
-            plane_crossing(ray, &self.corners, self.normal, nearest(ray, &self.corners), place_error);
-        Some(End { t, error, surface })
-    }
+/// The same, of one triangle or of several.
+#[inline(always)]
+fn normals<N: Number>([a, b, c]: &[Vector<N>; 3]) -> Vector<N> {
+    let (u, v) = (*b - *a, *c - *a);
+    let normal = u.cross(v);
+    let Vector { x, y, z } = normal.magnitude();
+    (normal / x.larger(y.larger(z))).normalized_or(normal.same(DVec3::Z))
 }
 
 /// The corner whose plane equation has the smallest rounding.
 fn nearest(ray: &Ray, corners: &[DVec3; 3]) -> DVec3 {
-    let closer = |a: DVec3, b: DVec3| {
-        if b.distance_squared(ray.o) < a.distance_squared(ray.o) { b } else { a }
-    };
-    corners[1..].iter().fold(corners[0], |best, &p| closer(best, p))
+    nearest_of(&Rays::from(ray), &corners.map(Vector::from)).into()
+}
+
+/// The same, for one ray or for several, each with a triangle of its own.
+#[inline(always)]
+fn nearest_of<N: Number>(rays: &Rays<N>, [a, b, c]: &[Vector<N>; 3]) -> Vector<N> {
+    let far =
+        [(*a - rays.o).length_squared(), (*b - rays.o).length_squared(), (*c - rays.o).length_squared()];
+    let second = far[1].is_below(far[0]);
+    let (best, least) = (Vector::choose(second, *b, *a), second.choose(far[1], far[0]));
+    Vector::choose(far[2].is_below(least), *c, best)
 }

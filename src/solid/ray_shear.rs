@@ -9,7 +9,7 @@
 
 use robust::{Coord, orient2d};
 
-use crate::math::{Bounds, DVec3, Number, Ray, Rays};
+use crate::math::{Bounds, DVec3, Number, Ray, Rays, Vector};
 
 /// The plane across a ray: two axes of the world sheared along it.
 pub(super) struct RayShear<'a> {
@@ -128,6 +128,19 @@ pub(super) fn on_plane<N: Number>(
 ) -> OnPlane<N> {
     let towards = rays.d.dot_one(normal);
     let t = (rays.o.same(anchor) - rays.o).dot_one(normal) / towards;
+    OnPlane { towards, t, error: t.same(place_error) / towards.magnitude() }
+}
+
+/// Where lines meet planes, each its own: as [`on_plane`] says.
+#[inline(always)]
+pub(super) fn planes_met<N: Number>(
+    rays: &Rays<N>,
+    normals: Vector<N>,
+    anchors: Vector<N>,
+    place_error: f64,
+) -> OnPlane<N> {
+    let towards = rays.d.dot(normals);
+    let t = (anchors - rays.o).dot(normals) / towards;
     OnPlane { towards, t, error: t.same(place_error) / towards.magnitude() }
 }
 

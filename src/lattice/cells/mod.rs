@@ -9,10 +9,10 @@ mod split;
 
 use std::ops::ControlFlow;
 
+use crate::bvh::{BoxVisitor, Bvh8};
 use crate::math::{Bounds, Mask, Number, Ray, Rays, Real, Vector};
 use crate::solid::{Assembly, ExprView, Expression, Expressions, Leaf, TRange};
 
-use super::bvh::{BoxVisitor, Bvh8};
 use super::loose_octree::LooseOctree;
 use super::planes::{SLACK, slack};
 

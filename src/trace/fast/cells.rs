@@ -235,10 +235,6 @@ impl<S: Simd, T: Precision> CellsTest<'_, S, T> {
         found.any = 0;
         found.entering = 0;
         for lane in lanes(self.open) {
-            if full_departures.is_some_and(|all| self.fast.leaves_mesh(all, lane)) {
-                self.uncertain |= 1 << lane;
-                continue;
-            }
             let departure = full_departures.filter(|all| all.primitive.0[lane] != Departures::NOWHERE);
             let departure = departure.map(|all| all.get(lane));
             let to = hits.reach_of(lane).min(self.farthest);

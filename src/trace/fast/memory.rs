@@ -2,11 +2,14 @@
 
 use crate::lattice::{FRUSTA, Frustum, FrustumSoa};
 use crate::math::{RayPacket, Real};
-use crate::solid::{PacketCrossings, PacketRange, PacketScratch, PacketShear, PrunedExpr, Pruning};
+use crate::solid::{
+    MeshPacket, PacketCrossings, PacketRange, PacketScratch, PacketShear, PrunedExpr, Pruning,
+};
 use crate::stage::Counts;
 
 use super::cell_rays::{CellItem, CellRays};
 use super::incoherent::IncoherentRays;
+use super::mesh::{KnownStart, MeshItem};
 use super::packet_culler::PacketCuller;
 use super::packet_hits::PacketHits;
 use super::reordering::RayReordering;
@@ -35,6 +38,11 @@ pub struct TileMemory {
     pub(super) near: Vec<u64>,
     /// The objects of the tile whose cells are walked at once, since slices took too much work.
     pub(super) in_cells: Vec<u32>,
+    /// The rays that are intersected with a mesh, and its nodes to be walked.
+    pub(super) mesh: Box<MeshPacket>,
+    pub(super) mesh_stack: Vec<MeshItem>,
+    /// Where rays to a mesh started last, if that is known.
+    pub(super) mesh_start: Option<KnownStart>,
     /// What rays meet of one object.
     pub(super) met: Box<PacketHits>,
     pub(super) pruning: Pruning,
@@ -99,6 +107,7 @@ impl TileMemory {
     /// Forgets the planes across the rays of the last tile, and which objects were walked by cells.
     pub(super) fn forget_tile(&mut self) {
         self.in_cells.clear();
+        self.mesh_start = None;
         self.sheared.iter_mut().for_each(PacketShear::forget);
     }
 }
@@ -119,6 +128,9 @@ impl Default for TileMemory {
             cell_stack: Vec::new(),
             near: Vec::new(),
             in_cells: Vec::new(),
+            mesh: Box::new(MeshPacket::EMPTY),
+            mesh_stack: Vec::new(),
+            mesh_start: None,
             met: Box::default(),
             pruning: Pruning::default(),
             pruned: Vec::new(),

@@ -14,6 +14,7 @@ mod first;
 mod glass;
 mod incoherent;
 mod memory;
+mod mesh;
 mod object;
 mod packet_culler;
 mod packet_hits;

@@ -12,6 +12,7 @@ use super::Fast;
 use super::cells::CellsTest;
 use super::composite::CompositeTest;
 use super::memory::TileMemory;
+use super::mesh::MeshObject;
 use super::packet_culler::{PacketCuller, Slabs};
 use super::packet_hits::{Faces, HitCandidate};
 use super::precision::Precision;
@@ -53,6 +54,9 @@ impl Fast<'_> {
     ) -> bool {
         let PacketTest { source, k, passing, .. } = *test;
         let primitives = &self.assembly.primitives;
+        if let Some((primitive, mesh)) = self.assembly.mesh(object) {
+            return self.mesh_of_packet(simd, &MeshObject { object, primitive, mesh }, test, sink, memory);
+        }
         let own = &self.assembly.objects[object as usize];
         match &own.body {
             Body::Single(index) => {

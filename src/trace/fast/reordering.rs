@@ -132,6 +132,7 @@ impl RayReordering {
                 }
                 to.distance.0[lane] = from.distance.0[own];
                 left.primitive.0[lane] = leaves.primitive.0[own];
+                left.surface.0[lane] = leaves.surface.0[own];
                 left.place_error.0[lane] = leaves.place_error.0[own];
                 left.inward |= (leaves.inward >> own & 1) << lane;
                 to.rays.live |= 1 << lane;

@@ -5,7 +5,7 @@
 
 use crate::lattice::{Candidate, StreamRays, entry};
 use crate::math::{LANES, RayIndex, RayPacket, lanes, places};
-use crate::solid::{BatchKind, Crossing, Departures, RayBatch, WorldShape};
+use crate::solid::{BatchKind, Crossing, Departures, RayBatch};
 use crate::stage::{Counts, Meter, Silent};
 
 use super::Fast;
@@ -102,12 +102,8 @@ impl Fast<'_> {
         for (k, (packet, found)) in packets.iter().zip(&mut *nearest).enumerate() {
             for at in places(k, found.incoherent) {
                 found.forget(at.lane);
-                if departures.is_some_and(|all| self.leaves_mesh(&all[k], at.lane)) {
-                    found.uncertain |= 1 << at.lane;
-                } else {
-                    let departure = departures.map(|all| all[k].get(at.lane));
-                    incoherent.push(at, packet.ray(at.lane), departure, f64::INFINITY);
-                }
+                let departure = departures.map(|all| all[k].get(at.lane));
+                incoherent.push(at, packet.ray(at.lane), departure, f64::INFINITY);
             }
         }
         let mut visitor = FirstHits { nearest, slack: self.slack };
@@ -148,25 +144,13 @@ impl Fast<'_> {
         for (k, shadow_packet) in shadow_packets.iter_mut().enumerate() {
             shadow_packet.tint.forget(shadow_packet.incoherent);
             for at in places(k, std::mem::take(&mut shadow_packet.incoherent)) {
-                if self.leaves_mesh(&departures[k], at.lane) {
-                    shadow_packet.uncertain |= 1 << at.lane;
-                } else {
-                    let (departure, to) =
-                        (departures[k].get(at.lane), shadow_packet.distance.0[at.lane] + self.slack);
-                    incoherent.push(at, shadow_packet.rays.ray(at.lane), Some(departure), to);
-                }
+                let (departure, to) =
+                    (departures[k].get(at.lane), shadow_packet.distance.0[at.lane] + self.slack);
+                incoherent.push(at, shadow_packet.rays.ray(at.lane), Some(departure), to);
             }
         }
         let mut visitor = BlockedRays { shadow_packets, lamp, slack: self.slack };
         self.trace_stream(incoherent, &mut visitor, counts);
-    }
-
-    /// Whether a ray leaves a mesh, which has many faces: a packet does not say which.
-    #[inline]
-    pub(super) fn leaves_mesh(&self, departures: &Departures, lane: usize) -> bool {
-        let primitive = departures.primitive.0[lane];
-        primitive != Departures::NOWHERE
-            && matches!(self.assembly.primitives[primitive as usize].form, WorldShape::Mesh(_))
     }
 
     /// Traces all rays of a stream.
@@ -186,7 +170,7 @@ impl Fast<'_> {
                 }
                 let Candidate { ray: number, object, .. } = *candidate;
                 let (kind, index) = self.assembly.kind(object);
-                if kind != BatchKind::Other {
+                if matches!(kind, BatchKind::Ball | BatchKind::Tube) {
                     // What is convex is not met again by a ray that leaves it.
                     if leaves[number as usize] != index {
                         let queue = if kind == BatchKind::Ball { &mut *balls } else { &mut *tubes };

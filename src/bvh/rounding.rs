@@ -3,8 +3,8 @@
 /// How far the sides of boxes are moved outward, so that single precision is enough to test whether a ray
 /// meets them.
 ///
-/// A ray starts within [`WORLD`](crate::solid::WORLD), 6, of the origin and a box ends within 2.01 of it on
-/// each axis, what may be [`slack`] with it. Rounding to 24 bits moves the start by at most 2⁻²², and the
+/// A ray starts within `solid::WORLD`, 6, of the origin and a box ends within 2.01 of it on
+/// each axis, what may be `slack` with it. Rounding to 24 bits moves the start by at most 2⁻²², and the
 /// difference, which is below 16, by 2⁻²¹. The inverse of the direction and the product are off by a share of
 /// 2⁻²⁴ each, which is as if the side stood elsewhere by 2 · 2⁻²⁴ of at most 8.01. In all that is less than 8
 /// · 2⁻²².

@@ -28,6 +28,7 @@ const ROUND: u32 = 1 << 31;
 pub struct BuildPrimitive([f32; 8]);
 
 impl BuildPrimitive {
+    /// No box at all.
     pub const NOTHING: Self = Self([f32::NEG_INFINITY; 8]);
 
     /// The box of an object, moved outward by [`MARGIN`].
@@ -45,7 +46,7 @@ impl BuildPrimitive {
         self.0[OBJECT].to_bits() & !ROUND
     }
 
-    /// The box of a ball that it tells ([`BoundingSphere`](super::BoundingSphere)).
+    /// The box of a ball that it tells.
     pub fn round(mut self) -> Self {
         self.0[OBJECT] = f32::from_bits(self.object() | ROUND);
         self
@@ -75,11 +76,13 @@ impl BuildPrimitive {
         self.0[LONGEST]
     }
 
+    /// Its numbers.
     #[inline(always)]
     pub fn load<S: Simd>(&self, simd: S) -> f32x8<S> {
         f32x8::from_slice(simd, &self.0)
     }
 
+    /// A box of such numbers.
     #[inline(always)]
     pub fn store<S: Simd>(sides: f32x8<S>) -> Self {
         let mut own = Self::NOTHING;
@@ -87,11 +90,13 @@ impl BuildPrimitive {
         own
     }
 
+    /// Grows it to hold another.
     #[inline(always)]
     pub fn join<S: Simd>(&mut self, simd: S, other: &Self) {
         larger(self.load(simd), other.load(simd)).store_slice(&mut self.0);
     }
 
+    /// How long it is along an axis.
     #[inline(always)]
     pub fn edge(&self, axis: usize) -> f64 {
         f64::from(self.0[axis]) + f64::from(self.0[axis + UPPER])

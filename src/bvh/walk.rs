@@ -182,7 +182,15 @@ impl Bvh8 {
     /// Visits each object whose box the ray meets before `to`, in no order, until that breaks. How far the
     /// ray still matters is not asked.
     pub fn walk_any<B>(&self, ray: &Ray, to: f64, visitor: &mut impl BoxVisitor<B>) -> Option<B> {
-        dispatch!(self.level, simd => walk_unordered(simd, &self.nodes, ray, to, visitor))
+        let range = &Range { from: 0.0, to };
+        dispatch!(self.level, simd => walk_unordered(simd, &self.nodes, ray, range, visitor))
+    }
+
+    /// Visits each object whose box the whole line of the ray meets, before its start too, in no order, until
+    /// that breaks. How far the line still matters is not asked.
+    pub fn walk_line<B>(&self, ray: &Ray, visitor: &mut impl BoxVisitor<B>) -> Option<B> {
+        let range = &Range { from: f64::NEG_INFINITY, to: f64::INFINITY };
+        dispatch!(self.level, simd => walk_unordered(simd, &self.nodes, ray, range, visitor))
     }
 }
 
@@ -257,10 +265,10 @@ fn walk_unordered<S: Simd, B>(
     simd: S,
     nodes: &[Node],
     ray: &Ray,
-    to: f64,
+    &Range { from, to }: &Range,
     visitor: &mut impl BoxVisitor<B>,
 ) -> Option<B> {
-    let ray = RaySimd::new(simd, &RayF32::new(ray, 0.0));
+    let ray = RaySimd::new(simd, &RayF32::new(ray, from));
     let end = f32x8::splat(simd, upper(to));
     let mut stack = NodeStack::new(0);
     let mut next = Some(0);

@@ -1,11 +1,8 @@
 //! Bounding boxes of balls: from one the ball follows, without reading the object.
 
+use crate::bvh::{BuildPrimitive, MARGIN, Node};
 use crate::math::DVec3;
 use crate::solid::{Assembly, Body, WorldShape};
-
-use super::build_primitive::BuildPrimitive;
-use super::node::Node;
-use super::rounding::MARGIN;
 
 /// Two balls about one point: a solid ball lies between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,7 +58,7 @@ impl Node {
     /// [`BoundingSphere`].
     #[inline(always)]
     pub fn ball(&self, slot: usize) -> Option<BoundingSphere> {
-        (self.round >> slot & 1 == 1).then(
+        self.is_round(slot).then(
             #[inline(always)]
             || {
                 let (lo, hi) = self.corners(slot);

@@ -25,7 +25,7 @@ pub struct Node {
     pub(super) children: [u32; WIDE],
     /// Bit `slot` is set where the child is a node.
     pub(super) inner: u8,
-    /// Bit `slot` is set where the child is a ball ([`BoundingSphere`](super::BoundingSphere)).
+    /// Bit `slot` is set where the child is a ball that its box tells.
     pub(super) round: u8,
     pub(super) len: u8,
 }
@@ -100,6 +100,22 @@ impl Node {
     pub fn bounds(&self, slot: usize) -> Bounds {
         let (lo, hi) = self.corners(slot);
         Bounds::new(DVec3::from_array(lo.map(f64::from)), DVec3::from_array(hi.map(f64::from)))
+    }
+
+    /// Whether the box of an object says all about its shape, as [`BuildPrimitive::round`] noted.
+    #[inline(always)]
+    pub fn is_round(&self, slot: usize) -> bool {
+        self.round >> slot & 1 == 1
+    }
+
+    /// Numbers the objects in it from the length of `old` on, and appends the numbers that they had.
+    pub(super) fn renumber(&mut self, old: &mut Vec<u32>) {
+        for slot in 0..self.len() {
+            if self.inner >> slot & 1 == 0 {
+                let new = old.len() as u32;
+                old.push(std::mem::replace(&mut self.children[slot], new));
+            }
+        }
     }
 
     /// Fills the next slot.

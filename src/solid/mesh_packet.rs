@@ -1,0 +1,331 @@
+//! The rays of a packet against the triangles of a mesh, sixteen at a time in single precision.
+//!
+//! A ray passes a triangle's three edges on one side, or not: the sign of a product of six numbers each
+//! (Plücker coordinates, seen from the first ray's start, where most of them are small). Beside each product
+//! stands a bound of what rounding takes from it, and from what the exact decision ([`super::ray_shear`])
+//! itself rounds. So a triangle is certainly crossed, certainly missed, or in doubt: close to an edge, edge
+//! on, or at the ray's start. A ray's answer counts where one crossing is certain, and no other one, nor any
+//! doubt, lies so near before or behind it that both could be one place. All other rays are asked one by one.
+
+use fearless_simd::{Select, Simd, SimdBase, SimdMask, f32x16, u32x16};
+
+use crate::math::{DVec3, Lanes, PACKET, RayPacket};
+
+use super::csg_query::Departures;
+use super::mesh::TriangleMesh;
+use super::ray_shear::STEEP;
+
+/// Rays in a register.
+const WIDTH: usize = 16;
+
+/// Registers of rays in a packet.
+const MESH_ROWS: usize = PACKET / WIDTH;
+
+/// Half an ulp of a number near 1, in single precision.
+const HALF_ULP: f64 = 1.0 / 16_777_216.0;
+
+/// What is lost of the product of a direction and an edge's moment, as a share of that moment's components
+/// added up: both are rounded (2), each product (1) and five sums (5): 8, rounded up to 10.
+const LOST_OF_MOMENT: f64 = 10.0 * HALF_ULP;
+
+/// What is lost of the product of a ray's moment and an edge, as a share of the edge's components added up
+/// and of how far starts lie from the first: a moment is a difference of two such lengths, of rounded starts
+/// and directions (2), the products (1) and the difference (1), twice; the edge is rounded (1), the product
+/// (1), and five sums (5). 2 · 4 + 2 · 7 is 22, rounded up to 24.
+const LOST_OF_EDGE: f64 = 24.0 * HALF_ULP;
+
+/// What double precision loses of the same products, here and in the exact decision, as a share of the square
+/// of how far corners may lie from a start: each corner's place across the ray takes five roundings, the area
+/// of two of them three more, here a moment takes six; of two corners, 28 half-ulps, rounded up to 32.
+const LOST_OF_SQUARE: f64 = 16.0 * f64::EPSILON;
+
+/// What is lost of a distance, as a share of it and of the inverse of the sine: the product of direction and
+/// normal (both rounded, three products, two sums: 5), the height over the plane (2), the inverse and its
+/// product (2): 9, rounded up to 10.
+const LOST_OF_DISTANCE: f64 = 10.0 * HALF_ULP;
+
+/// The same as a share of how far starts lie from the first: 2 roundings, the product and three sums are 6,
+/// and one of the height; rounded up to 8.
+const LOST_OF_START: f64 = 8.0 * HALF_ULP;
+
+/// So many times its error may a crossing lie from another of the same place
+/// ([`super::crossing`]: slopes of one place differ by a factor of 256), and a little more.
+const ONE_PLACE: f64 = 300.0;
+
+/// A triangle lower than this share of its longest edge is never certain: its normal is mostly rounding.
+const FLAT: f64 = 1.0 / 65_536.0;
+
+/// What that leaves of a distance, as a share of the longest edge: 2⁻⁵⁰ over [`FLAT`] and the least sine.
+const LOST_OF_PLANE: f64 = 1.0 / 4_194_304.0;
+
+/// Edges shorter than this, or longer, are never certain: squares of squares of them are not far from the
+/// limits of single precision.
+const PLAIN_EDGES: std::ops::Range<f64> = 1e-15..64.0;
+
+/// Starts farther from the origin than this are not those of rays within the world.
+const WITHIN: f64 = 16.0;
+
+/// Stands for no triangle.
+const NONE: u32 = u32::MAX;
+
+/// Rays of a packet, seen from the start of its first, and what each crosses first.
+#[derive(Clone, Debug)]
+#[repr(C, align(64))]
+pub struct MeshPacket {
+    o: [[f32; PACKET]; 3],
+    d: [[f32; PACKET]; 3],
+    moment: [[f32; PACKET]; 3],
+    /// The distance of the first certain crossing, or how far the ray matters; below all numbers for a ray
+    /// that is not asked about. And how far it may be off.
+    t: [f32; PACKET],
+    error: [f32; PACKET],
+    /// What else the ray crosses, or may cross, is no nearer than this.
+    second: [f32; PACKET],
+    surface: Lanes<u32>,
+    /// The triangle that each ray leaves.
+    leaves: Lanes<u32>,
+    /// Whether any ray leaves one.
+    any_leaves: bool,
+    base: DVec3,
+    /// How far starts lie from `base` at most, along any axis.
+    spread: f64,
+    /// What is lost of a distance besides a share of itself, over the sine of the angle.
+    lost: f64,
+}
+
+/// What is certain of the rays of a packet, a bit for each.
+#[derive(Clone, Copy, Debug)]
+pub struct MeshAnswer {
+    /// Which certainly cross the mesh.
+    pub hits: u64,
+    /// Which are to be asked one by one.
+    pub uncertain: u64,
+}
+
+/// Which rays of a packet ask, and what is known of them.
+#[derive(Clone, Copy, Debug)]
+pub struct MeshQuery<'a> {
+    /// The rays, closed.
+    pub packet: &'a RayPacket,
+    /// Those that ask, a bit for each.
+    pub wanted: u64,
+    /// The surfaces that they leave; none for rays from the eye.
+    pub departures: Option<&'a Departures>,
+    /// The mesh, by its index among the primitives.
+    pub primitive: u32,
+    /// How far away what they meet may be to matter.
+    pub limits: &'a [f32; PACKET],
+    /// How far any primitive may be off its place.
+    pub place_error: f64,
+}
+
+impl MeshPacket {
+    /// No rays.
+    pub const EMPTY: Self = Self {
+        o: [[0.0; PACKET]; 3],
+        d: [[0.0; PACKET]; 3],
+        moment: [[0.0; PACKET]; 3],
+        t: [f32::NEG_INFINITY; PACKET],
+        error: [0.0; PACKET],
+        second: [f32::INFINITY; PACKET],
+        surface: Lanes::filled(NONE),
+        leaves: Lanes::filled(NONE),
+        any_leaves: false,
+        base: DVec3::ZERO,
+        spread: 0.0,
+        lost: 0.0,
+    };
+
+    /// Takes the rays of a packet. False where they are not all within the world: nothing can be said then.
+    #[inline(always)]
+    pub fn set<S: Simd>(&mut self, simd: S, mesh: &TriangleMesh, query: &MeshQuery) -> bool {
+        let MeshQuery { packet, wanted, departures, primitive, limits, place_error } = *query;
+        let mut spread = 0.0_f64;
+        for axis in 0..3 {
+            let base = packet.o[axis].0[0];
+            self.base[axis] = base;
+            let mut farthest = base.abs();
+            for lane in 0..PACKET {
+                let o = packet.o[axis].0[lane] - base;
+                self.o[axis][lane] = o as f32;
+                self.d[axis][lane] = packet.d[axis].0[lane] as f32;
+                let o = o.abs();
+                farthest = if o > farthest { o } else { farthest };
+                spread = if o > spread { o } else { spread };
+            }
+            // What is not a number is not within.
+            if !(farthest < WITHIN) {
+                return false;
+            }
+        }
+        self.spread = spread;
+        self.lost = LOST_OF_START * spread + ONE_PLACE * mesh.place_error() + 4.0 * place_error;
+        if spread > 0.0 {
+            for row in 0..MESH_ROWS {
+                let (o, d) = (rows(simd, &self.o, row), rows(simd, &self.d, row));
+                for axis in 0..3 {
+                    let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
+                    let moment = o[next] * d[last] - o[last] * d[next];
+                    moment.store_slice(&mut self.moment[axis][row * WIDTH..][..WIDTH]);
+                }
+            }
+        }
+        let apart = (2.0 * place_error + f64::from(f32::MIN_POSITIVE)) as f32;
+        for lane in 0..PACKET {
+            let asks = wanted >> lane & 1 == 1;
+            self.t[lane] = if asks { limits[lane] } else { f32::NEG_INFINITY };
+            let lost = self.t[lane] * (4.0 * HALF_ULP as f32) + apart;
+            self.error[lane] = if lost.is_finite() { lost } else { 0.0 };
+            self.second[lane] = f32::INFINITY;
+        }
+        self.surface = Lanes::filled(NONE);
+        self.any_leaves = false;
+        if let Some(departures) = departures {
+            let (here, _) = departures.here(simd, primitive);
+            if here != 0 {
+                self.any_leaves = true;
+                for lane in 0..PACKET {
+                    let is_here = here >> lane & 1 == 1;
+                    self.leaves.0[lane] = if is_here { departures.surface.0[lane] } else { NONE };
+                }
+            }
+        }
+        true
+    }
+
+    /// How far any of the rays still matters.
+    #[inline(always)]
+    pub fn farthest<S: Simd>(&self, simd: S) -> f32 {
+        let mut most = f32x16::splat(simd, f32::NEG_INFINITY);
+        for row in 0..MESH_ROWS {
+            most = most.max(row_of(simd, &self.t, row) + row_of(simd, &self.error, row));
+        }
+        most.reduce_max()
+    }
+
+    /// Intersects the rays with a triangle, whose box lies no nearer to any start than `near`.
+    #[inline(always)]
+    pub fn intersect<S: Simd>(&mut self, simd: S, [a, b, c]: [DVec3; 3], surface: u32, near: f32) {
+        let size = |v: DVec3| v.abs().element_sum();
+        let (ab, bc, ca) = (b - a, c - b, a - c);
+        let normal = ab.cross(c - a);
+        let (a, b, c) = (a - self.base, b - self.base, c - self.base);
+        let (m_ab, m_bc, m_ca) = (a.cross(ab), b.cross(bc), c.cross(ca));
+        let longest = size(ab).max(size(bc)).max(size(ca));
+        let far = size(a).max(size(b)).max(size(c)) + self.spread;
+        let bound = LOST_OF_MOMENT * size(m_ab).max(size(m_bc)).max(size(m_ca))
+            + LOST_OF_EDGE * self.spread * longest
+            + LOST_OF_SQUARE * far * far;
+        let bound = f32x16::splat(simd, bound as f32);
+        let area = size(normal);
+        // Else never steep.
+        let is_plain = area > FLAT * longest * longest && PLAIN_EDGES.contains(&longest);
+        let steep = if is_plain { 2.0 * STEEP * area } else { f64::INFINITY };
+        let steep = f32x16::splat(simd, steep as f32);
+        let height = f32x16::splat(simd, a.dot(normal) as f32);
+        let area = f32x16::splat(simd, area as f32);
+        let lost = f32x16::splat(simd, self.lost as f32);
+        let lost_of_plane = f32x16::splat(simd, (LOST_OF_PLANE * longest) as f32);
+        let near = f32x16::splat(simd, near);
+        let moments = [splats(simd, m_ab), splats(simd, m_bc), splats(simd, m_ca)];
+        let edges = [splats(simd, ab), splats(simd, bc), splats(simd, ca)];
+        let normal = splats(simd, normal);
+        let is_spread = self.spread > 0.0;
+        for row in 0..MESH_ROWS {
+            let d = rows(simd, &self.d, row);
+            let mut sides = [dot(&d, &moments[0]), dot(&d, &moments[1]), dot(&d, &moments[2])];
+            if is_spread {
+                let m = rows(simd, &self.moment, row);
+                sides[0] = sides[0] + dot(&m, &edges[0]);
+                sides[1] = sides[1] + dot(&m, &edges[1]);
+                sides[2] = sides[2] + dot(&m, &edges[2]);
+            }
+            let least = sides[0].min(sides[1]).min(sides[2]);
+            let most = sides[0].max(sides[1]).max(sides[2]);
+            let maybe = !(most.simd_gt(bound) & least.simd_lt(-bound));
+            if !maybe.any_true() {
+                continue;
+            }
+            let inside = least.simd_gt(bound) | most.simd_lt(-bound);
+            let towards = dot(&d, &normal);
+            let inverse = f32x16::splat(simd, 1.0) / towards;
+            let mut height = height;
+            if is_spread {
+                height = height - dot(&rows(simd, &self.o, row), &normal);
+            }
+            let t = height * inverse;
+            let share = f32x16::splat(simd, LOST_OF_DISTANCE as f32);
+            let error = inverse.abs() * area * (t.abs() * share + lost) + lost_of_plane;
+            let is_steep = towards.abs().simd_gt(steep);
+            let certain = is_steep & inside;
+            let mut hit = certain & t.simd_gt(error) & maybe;
+            let mut doubt = maybe & !(hit | (certain & t.simd_lt(-error)));
+            if self.any_leaves {
+                let leaves = u32x16::from_slice(simd, &self.leaves.0[row * WIDTH..][..WIDTH]);
+                let others = !leaves.simd_eq(u32x16::splat(simd, surface));
+                (hit, doubt) = (hit & others, doubt & others);
+            }
+            let (best, best_error) = (row_of(simd, &self.t, row), row_of(simd, &self.error, row));
+            let nearer = hit & t.simd_lt(best);
+            let other = nearer.select(best - best_error, t - error);
+            let doubtful = is_steep.select(t - error, near);
+            let second = row_of(simd, &self.second, row);
+            let second = (hit & other.simd_lt(second)).select(other, second);
+            let second = (doubt & !second.simd_lt(doubtful)).select(doubtful, second);
+            second.store_slice(&mut self.second[row * WIDTH..][..WIDTH]);
+            if nearer.any_true() {
+                nearer.select(t, best).store_slice(&mut self.t[row * WIDTH..][..WIDTH]);
+                nearer.select(error, best_error).store_slice(&mut self.error[row * WIDTH..][..WIDTH]);
+                let surfaces = &mut self.surface.0[row * WIDTH..][..WIDTH];
+                let known = u32x16::from_slice(simd, surfaces);
+                nearer.select(u32x16::splat(simd, surface), known).store_slice(surfaces);
+            }
+        }
+    }
+
+    /// What was found.
+    #[inline(always)]
+    pub fn answer<S: Simd>(&self, simd: S) -> MeshAnswer {
+        let (mut hits, mut uncertain) = (0, 0);
+        for row in 0..MESH_ROWS {
+            let t = row_of(simd, &self.t, row);
+            let asked = t.simd_gt(f32x16::splat(simd, f32::NEG_INFINITY));
+            let apart = row_of(simd, &self.second, row).simd_gt(t + row_of(simd, &self.error, row));
+            let nothing = row_of(simd, &self.second, row).simd_ge(f32x16::splat(simd, f32::INFINITY));
+            let surface = u32x16::from_slice(simd, &self.surface.0[row * WIDTH..][..WIDTH]);
+            let none = surface.simd_eq(u32x16::splat(simd, NONE));
+            uncertain |= (asked & !(apart | nothing)).to_bitmask() << (row * WIDTH);
+            hits |= (asked & (apart | nothing) & !none).to_bitmask() << (row * WIDTH);
+        }
+        MeshAnswer { hits, uncertain }
+    }
+
+    /// The triangles that rays with a hit cross.
+    #[inline]
+    pub fn surfaces(&self) -> &Lanes<u32> {
+        &self.surface
+    }
+}
+
+/// A vector for sixteen.
+#[inline(always)]
+fn splats<S: Simd>(simd: S, v: DVec3) -> [f32x16<S>; 3] {
+    [f32x16::splat(simd, v.x as f32), f32x16::splat(simd, v.y as f32), f32x16::splat(simd, v.z as f32)]
+}
+
+/// Sixteen of a number of each ray.
+#[inline(always)]
+fn row_of<S: Simd>(simd: S, numbers: &[f32; PACKET], row: usize) -> f32x16<S> {
+    f32x16::from_slice(simd, &numbers[row * WIDTH..][..WIDTH])
+}
+
+/// Sixteen of a vector of each ray.
+#[inline(always)]
+fn rows<S: Simd>(simd: S, numbers: &[[f32; PACKET]; 3], row: usize) -> [f32x16<S>; 3] {
+    [row_of(simd, &numbers[0], row), row_of(simd, &numbers[1], row), row_of(simd, &numbers[2], row)]
+}
+
+#[inline(always)]
+fn dot<S: Simd>(a: &[f32x16<S>; 3], b: &[f32x16<S>; 3]) -> f32x16<S> {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}

@@ -1,6 +1,7 @@
 //! Stage 1, OBJECTS: bytes in, [`Scene`] out. Kind, place, size and surface of every solid.
 
 mod content;
+mod degrees;
 mod diagnostic;
 mod embedded;
 mod language;
@@ -10,6 +11,7 @@ mod model;
 mod nff;
 mod options;
 mod outline;
+mod profile;
 mod read;
 mod triangulation;
 mod unit_vector;

@@ -37,6 +37,23 @@ impl EarClipper {
         self.earcut.earcut(face.iter().map(DVec2::to_array), &[], &mut ears);
         Some(ears)
     }
+
+    /// Triangles of outlines that do not cross, which takes their square at most; none where the budget is
+    /// used up.
+    fn clip_rings(&mut self, corners: &[DVec2], holes: &[u32]) -> Vec<u32> {
+        let count = corners.len() as f64;
+        let left = self.budget - count * count;
+        let mut ears = Vec::new();
+        if left >= 0.0 {
+            self.budget = left;
+            let bounds = Bounds::around(corners.iter().map(|p| p.extend(0.0)));
+            let (center, half) = (bounds.center().truncate(), bounds.half().max_element());
+            // Unit size, so that no product over- or underflows.
+            let local = corners.iter().map(|&p| ((p - center) / half).to_array());
+            self.earcut.earcut(local, holes, &mut ears);
+        }
+        ears
+    }
 }
 
 /// Cuts a face into triangles whose edges, counted modulo 2, are exactly the face's own: so that a surface
@@ -76,6 +93,35 @@ pub fn triangulate(
         }
     }
     rest.cycles().iter().for_each(|cycle| frusta(cycle));
+}
+
+/// Cuts what lies within outlines that do not cross, the first around all others, into triangles whose edges,
+/// counted modulo 2, are exactly those of the outlines. Corners are numbered outline after outline.
+pub fn triangulate_rings(rings: &[&[DVec2]], clipper: &mut EarClipper, mut give: impl FnMut([u32; 3])) {
+    let corners: Vec<DVec2> = rings.concat();
+    let mut rest = EdgeSet::default();
+    let (mut holes, mut start) = (Vec::new(), 0);
+    for ring in rings {
+        let count = ring.len() as u32;
+        (0..count).for_each(|i| rest.toggle(start + i, start + (i + 1) % count));
+        start += count;
+        holes.push(start);
+    }
+    holes.pop();
+    for ear in clipper.clip_rings(&corners, &holes).chunks_exact(3) {
+        let [a, b, c] = [ear[0], ear[1], ear[2]];
+        if a != b && b != c && c != a {
+            give([a, b, c]);
+            rest.toggle_triangle([a, b, c]);
+        }
+    }
+    for cycle in rest.cycles() {
+        for pair in cycle.windows(2).skip(1) {
+            if cycle[0] != pair[0] && cycle[0] != pair[1] {
+                give([cycle[0], pair[0], pair[1]]);
+            }
+        }
+    }
 }
 
 /// The corners projected along the polygon's normal by Newell's method, within −1..=1.

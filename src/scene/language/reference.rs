@@ -18,6 +18,8 @@ pub fn reference() -> String {
         }
     };
     section("Primitives", |meaning| matches!(meaning, Meaning::Solid(_)), &mut text);
+    section("Plane figures", |meaning| matches!(meaning, Meaning::Figure(_)), &mut text);
+    section("Forms", |meaning| matches!(meaning, Meaning::Form(_)), &mut text);
     section("Operators", |meaning| matches!(meaning, Meaning::Operator(_)), &mut text);
     section("Maps", |meaning| matches!(meaning, Meaning::Map(_)), &mut text);
     let surface = |meaning| matches!(meaning, Meaning::Color | Meaning::Material | Meaning::Object);

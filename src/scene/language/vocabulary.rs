@@ -36,6 +36,8 @@ pub struct Word {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Meaning {
     Solid(SolidWord),
+    Figure(FigureWord),
+    Form(FormWord),
     Operator(OperatorWord),
     Map(MapWord),
     Color,
@@ -54,6 +56,27 @@ pub enum SolidWord {
     Cylinder,
     Cone,
     Polyhedron,
+}
+
+/// Words for plane figures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FigureWord {
+    Circle,
+    Square,
+    Polygon,
+}
+
+/// Words that make something new of what their children are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FormWord {
+    LinearExtrude,
+    RotateExtrude,
+    Hull,
+    Minkowski,
+    Offset,
+    Fill,
+    Projection,
+    Resize,
 }
 
 /// Words that put their children together.
@@ -90,6 +113,8 @@ pub struct Parameter {
 /// What an argument takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Takes {
+    /// Any number.
+    Number,
     /// A number above 0.
     Positive,
     /// A number that is 0 or more.
@@ -118,8 +143,20 @@ pub enum Takes {
     Glow,
     /// Three or four rows of four numbers.
     Matrix,
+    /// A number or `[x, y]`, above 0.
+    FlatSize,
+    /// A number or `[x, y]`, 0 or more.
+    FlatFactor,
+    /// `[x, y, z]` or `[x, y]`, each 0 or more.
+    NewSize,
+    /// A flag, or a list of them.
+    Flags,
     /// A list of points.
     Points,
+    /// A list of points of a plane.
+    FlatPoints,
+    /// A list of indices, or of lists of them.
+    Paths,
     /// A list of lists of indices of points.
     Faces,
     /// Anything: read for OpenSCAD's sake, without effect.
@@ -127,9 +164,18 @@ pub enum Takes {
 }
 
 impl Takes {
+    /// Whether two numbers may stand for three.
+    pub fn is_flat(self) -> bool {
+        matches!(
+            self,
+            Self::Offset | Self::Angles | Self::Factor | Self::FlatSize | Self::FlatFactor | Self::NewSize
+        )
+    }
+
     /// For messages and the documentation.
     pub fn describe(self) -> &'static str {
         match self {
+            Self::Number => "a number",
             Self::Positive => "a number above 0",
             Self::NotNegative => "a number, 0 or more",
             Self::Share => "a number from 0 to 1",
@@ -144,7 +190,13 @@ impl Takes {
             Self::Color => "[r, g, b] from 0 to 1, or a colour's name",
             Self::Glow => "a number or [r, g, b], 0 or more",
             Self::Matrix => "4 or 3 rows of 4 numbers",
+            Self::FlatSize => "a number or [x, y], above 0",
+            Self::FlatFactor => "a number or [x, y], 0 or more",
+            Self::NewSize => "[x, y, z] or [x, y], each 0 or more",
+            Self::Flags => "true or false, or a list of them",
             Self::Points => "a list of [x, y, z]",
+            Self::FlatPoints => "a list of [x, y]",
+            Self::Paths => "a list of indices, or of lists of them",
             Self::Faces => "a list of lists of indices",
             Self::Ignored => "anything",
         }

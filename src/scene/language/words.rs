@@ -1,6 +1,8 @@
 //! The table of every word, its arguments, their defaults and units.
 
-use super::vocabulary::{MapWord, Meaning, OperatorWord, Parameter, SolidWord, Takes, Word};
+use super::vocabulary::{
+    FigureWord, FormWord, MapWord, Meaning, OperatorWord, Parameter, SolidWord, Takes, Word,
+};
 
 /// An argument that may be given by its position.
 const fn placed(name: &'static str, takes: Takes, default: &'static str, summary: &'static str) -> Parameter {
@@ -96,6 +98,98 @@ pub static WORDS: &[Word] = &[
             named("triangles", Takes::Faces, "–", "an old name of `faces`"),
         ],
         "A solid with flat faces. They must close: every edge belongs to two faces.",
+    ),
+    word(
+        "circle",
+        Meaning::Figure(FigureWord::Circle),
+        &[
+            placed("r", Takes::Positive, "1", "radius"),
+            named("d", Takes::Positive, "–", "diameter, in place of `r`"),
+        ],
+        "A disc about the origin.",
+    ),
+    word(
+        "square",
+        Meaning::Figure(FigureWord::Square),
+        &[placed("size", Takes::FlatSize, "1", "lengths of the sides"), CENTER],
+        "A rectangle along the axes, from the origin towards +x and +y.",
+    ),
+    word(
+        "polygon",
+        Meaning::Figure(FigureWord::Polygon),
+        &[
+            placed("points", Takes::FlatPoints, "–", "the corners"),
+            placed(
+                "paths",
+                Takes::Paths,
+                "–",
+                "outlines, as indices of points from 0; all points in their order where it is not given",
+            ),
+            CONVEXITY,
+        ],
+        "What is inside of one or more outlines.",
+    ),
+    word(
+        "linear_extrude",
+        Meaning::Form(FormWord::LinearExtrude),
+        &[
+            placed("height", Takes::Positive, "100", "the way along z"),
+            named("center", Takes::Flag, "false", "whether the middle is at z = 0"),
+            named("twist", Takes::Number, "0", "degrees of turn on the way, clockwise seen from above"),
+            named("slices", Takes::Positive, "–", "in how many steps it is turned and scaled"),
+            named("scale", Takes::FlatFactor, "1", "by what it is scaled on the way"),
+            named("v", Takes::Point, "[0, 0, 1]", "the direction of the way; its length is that of `height`"),
+            named("segments", Takes::Ignored, "–", "without effect"),
+            named("convexity", Takes::Ignored, "–", "without effect"),
+        ],
+        "The solid that a figure sweeps on its way up.",
+    ),
+    word(
+        "rotate_extrude",
+        Meaning::Form(FormWord::RotateExtrude),
+        &[
+            placed("angle", Takes::Number, "360", "degrees of turn, counter-clockwise seen from above"),
+            named("start", Takes::Number, "–", "degrees from the x axis at which it begins"),
+            named("convexity", Takes::Ignored, "–", "without effect"),
+        ],
+        "The solid that a figure sweeps about the z axis: its y becomes z.",
+    ),
+    word("hull", Meaning::Form(FormWord::Hull), &[], "The smallest convex solid, or figure, around its children."),
+    word(
+        "minkowski",
+        Meaning::Form(FormWord::Minkowski),
+        &[CONVEXITY],
+        "Each point of the first child added to each of the others.",
+    ),
+    word(
+        "offset",
+        Meaning::Form(FormWord::Offset),
+        &[
+            placed("r", Takes::Number, "1", "how far the outline moves outwards, with round corners"),
+            named("delta", Takes::Number, "–", "the same with sharp corners, in place of `r`"),
+            named("chamfer", Takes::Flag, "false", "whether the corners of `delta` are cut off"),
+        ],
+        "A figure made larger; smaller where the number is below 0.",
+    ),
+    word("fill", Meaning::Form(FormWord::Fill), &[], "A figure without its holes."),
+    word(
+        "projection",
+        Meaning::Form(FormWord::Projection),
+        &[
+            placed("cut", Takes::Flag, "false", "whether it is what the plane z = 0 cuts, not the shadow"),
+            named("convexity", Takes::Ignored, "–", "without effect"),
+        ],
+        "The figure that solids cast on the plane z = 0.",
+    ),
+    word(
+        "resize",
+        Meaning::Form(FormWord::Resize),
+        &[
+            placed("newsize", Takes::NewSize, "[0, 0, 0]", "sizes along the axes; 0 leaves one as it is"),
+            placed("auto", Takes::Flags, "false", "whether a size of 0 goes along with the largest"),
+            CONVEXITY,
+        ],
+        "Scales its children to a size.",
     ),
     word("union", Meaning::Operator(OperatorWord::Union), &[], "What is in any child."),
     word(
@@ -215,25 +309,12 @@ pub static WORDS: &[Word] = &[
     ),
 ];
 
-const FLAT: &str = "it is flat, and ray13 shows solids";
-const MESHED: &str = "only OpenSCAD can work its shape out";
-const OTHER_FILE: &str = "it takes its shape from another file";
-
 /// Words of OpenSCAD that ray13 knows and can not show, and why.
 pub static UNSUPPORTED: &[(&str, &str)] = &[
-    ("hull", MESHED),
-    ("minkowski", MESHED),
-    ("linear_extrude", MESHED),
-    ("rotate_extrude", MESHED),
-    ("resize", "its factors depend on the mesh of its children"),
-    ("roof", MESHED),
-    ("fill", FLAT),
-    ("text", FLAT),
-    ("square", FLAT),
-    ("circle", FLAT),
-    ("polygon", FLAT),
-    ("offset", FLAT),
-    ("projection", FLAT),
+    ("roof", "only OpenSCAD can work its shape out"),
+    ("text", "letters are not drawn yet"),
     ("surface", OTHER_FILE),
     ("import", OTHER_FILE),
 ];
+
+const OTHER_FILE: &str = "it takes its shape from another file";

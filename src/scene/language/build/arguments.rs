@@ -8,6 +8,7 @@ use crate::scene::diagnostic::{Reported, Sink};
 use crate::scene::language::nearest::{nearest, quoted};
 use crate::scene::language::syntax::{Argument, Call, Spanned, TextSpan, Value};
 use crate::scene::language::vocabulary::{FRAGMENT_SETTINGS, Meaning, Parameter, Takes, Word};
+use crate::scene::profile::Fragments;
 
 /// The arguments of one call, each at its parameter.
 pub struct BoundArguments<'c, 'a> {
@@ -15,14 +16,14 @@ pub struct BoundArguments<'c, 'a> {
     call: &'c Call<'a>,
     /// One place for each parameter; `undef` counts as not given.
     values: Vec<Option<&'c Spanned<'a>>>,
-    /// `$fn`, where it is given.
-    pub fragments: Option<f64>,
+    /// `$fn`, `$fa` and `$fs`, where they are given.
+    settings: [Option<f64>; 3],
 }
 
 impl<'c, 'a> BoundArguments<'c, 'a> {
     /// Matches names and positions. All mismatches are reported, not the first only.
     pub fn bind(call: &'c Call<'a>, word: &'static Word, sink: &mut Sink) -> Result<Self, Reported> {
-        let mut bound = Self { word, call, values: vec![None; word.arguments.len()], fragments: None };
+        let mut bound = Self { word, call, values: vec![None; word.arguments.len()], settings: [None; 3] };
         let mut given = vec![false; word.arguments.len()];
         let mut result = Ok(());
         let mut keep = |outcome: Result<(), Reported>| {
@@ -54,10 +55,25 @@ impl<'c, 'a> BoundArguments<'c, 'a> {
             &argument.value,
             sink,
         )?;
-        if name == FRAGMENT_SETTINGS[0] {
-            self.fragments = number.or(self.fragments);
+        if let Some(index) = FRAGMENT_SETTINGS.iter().position(|&setting| setting == name) {
+            self.settings[index] = number.or(self.settings[index]);
         }
         Ok(())
+    }
+
+    /// Whether any of the three settings is given.
+    pub fn has_settings(&self) -> bool {
+        self.settings != [None; 3]
+    }
+
+    /// The settings, those that are not given as they are above.
+    pub fn fragments(&self, above: Fragments) -> Fragments {
+        let [number, angle, size] = self.settings;
+        Fragments {
+            number: number.unwrap_or(above.number),
+            angle: angle.unwrap_or(above.angle),
+            size: size.unwrap_or(above.size),
+        }
     }
 
     fn place(
@@ -101,6 +117,11 @@ impl<'c, 'a> BoundArguments<'c, 'a> {
         }
     }
 
+    /// The word of the call.
+    pub fn word(&self) -> &'static Word {
+        self.word
+    }
+
     fn get(&self, name: &str) -> Option<(&'static Parameter, &'c Spanned<'a>)> {
         let index = self.word.arguments.iter().position(|parameter| parameter.name == name)?;
         Some((&self.word.arguments[index], self.values[index]?))
@@ -137,14 +158,7 @@ impl<'c, 'a> BoundArguments<'c, 'a> {
     /// An error of the call; where wrong parts are left out, a note that a primitive, or what a map holds, is
     /// `lost`.
     pub fn refuse(&self, error: Diagnostic, lost: Lost, sink: &mut Sink) -> Lost {
-        let name = self.word.name;
-        let what = match self.word.meaning {
-            Meaning::Solid(_) if sink.leaves_out() => format!("`{name}` is left out"),
-            Meaning::Map(_) if sink.leaves_out() => format!("what `{name}` holds is left out"),
-            _ => return sink.report(error).into(),
-        };
-        sink.note(Diagnostic::note(error.span, format!("{what}: {}", error.message)).label(error.label));
-        lost
+        refuse(self.word, error, lost, sink)
     }
 
     fn wrong(&self, parameter: &Parameter, value: &Spanned<'_>, sink: &mut Sink) -> Lost {
@@ -211,6 +225,23 @@ impl<'c, 'a> BoundArguments<'c, 'a> {
         }
     }
 
+    /// Three flags; one stands for all of them, and those that are not given are false.
+    pub fn flags(&self, name: &str, sink: &mut Sink) -> Result<[bool; 3], Lost> {
+        let Some((parameter, value)) = self.get(name) else { return Ok([false; 3]) };
+        let flag = |item: &Spanned<'_>| match item.value {
+            Value::Flag(flag) => Some(flag),
+            // OpenSCAD writes flags as numbers here.
+            Value::Number(number) => Some(number != 0.0),
+            _ => None,
+        };
+        let flags = match &value.value {
+            Value::List(items) if items.len() <= 3 => items.iter().map(flag).collect::<Option<Vec<_>>>(),
+            _ => flag(value).map(|flag| vec![flag; 3]),
+        };
+        let Some(flags) = flags else { return Err(self.wrong(parameter, value, sink)) };
+        Ok([0, 1, 2].map(|axis| flags.get(axis).copied().unwrap_or(false)))
+    }
+
     /// A text that is not empty.
     pub fn text(&self, name: &str, sink: &mut Sink) -> Result<Option<&'c str>, Lost> {
         match self.get(name) {
@@ -226,13 +257,16 @@ impl<'c, 'a> BoundArguments<'c, 'a> {
         let Some((parameter, value)) = self.get(name) else { return Ok(None) };
         let takes = parameter.takes;
         let triple = match &value.value {
+            Value::Number(number) if matches!(takes, Takes::FlatSize | Takes::FlatFactor) => {
+                Some(DVec3::new(*number, *number, rest))
+            }
             Value::Number(number) if matches!(takes, Takes::Size | Takes::Factor | Takes::Glow) => {
                 Some(DVec3::splat(*number))
             }
             other => match numbers(other).as_deref() {
-                Some(&[x, y, z]) => Some(DVec3::new(x, y, z)),
-                Some(&[x, y]) if matches!(takes, Takes::Offset | Takes::Angles | Takes::Factor) => {
-                    Some(DVec3::new(x, y, rest))
+                Some(&[x, y]) if takes.is_flat() => Some(DVec3::new(x, y, rest)),
+                Some(&[x, y, z]) if !matches!(takes, Takes::FlatSize | Takes::FlatFactor) => {
+                    Some(DVec3::new(x, y, z))
                 }
                 _ => None,
             },
@@ -278,6 +312,20 @@ impl<'c, 'a> BoundArguments<'c, 'a> {
             },
         }
     }
+}
+
+/// An error of a call of a word; where wrong parts are left out, a note that it, or what it holds, is `lost`.
+pub fn refuse(word: &Word, error: Diagnostic, lost: Lost, sink: &mut Sink) -> Lost {
+    let name = word.name;
+    let what = match word.meaning {
+        Meaning::Solid(_) | Meaning::Figure(_) | Meaning::Form(_) if sink.leaves_out() => {
+            format!("`{name}` is left out")
+        }
+        Meaning::Map(_) if sink.leaves_out() => format!("what `{name}` holds is left out"),
+        _ => return sink.report(error).into(),
+    };
+    sink.note(Diagnostic::note(error.span, format!("{what}: {}", error.message)).label(error.label));
+    lost
 }
 
 /// The nearest share of light; of what is no number, none.
@@ -329,8 +377,8 @@ pub fn numbers(value: &Value<'_>) -> Option<Vec<f64>> {
 
 fn in_range(number: f64, takes: Takes) -> bool {
     let is_allowed = match takes {
-        Takes::Positive | Takes::Size => number > 0.0,
-        Takes::NotNegative | Takes::Glow => number >= 0.0,
+        Takes::Positive | Takes::Size | Takes::FlatSize => number > 0.0,
+        Takes::NotNegative | Takes::Glow | Takes::FlatFactor | Takes::NewSize => number >= 0.0,
         Takes::Share | Takes::Color => (0.0..=1.0).contains(&number),
         Takes::Field => 0.0 < number && number < 180.0,
         Takes::Factor => number != 0.0,

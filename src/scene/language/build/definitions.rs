@@ -1,7 +1,8 @@
 //! The first reading of a text: takes its definitions, and finds its root.
 
 use super::arguments::{BoundArguments, setting};
-use super::survey::is_definition;
+use super::solids::Origin;
+use super::survey::{is_definition, set};
 use super::{Builder, Flow};
 use crate::scene::Diagnostic;
 use crate::scene::diagnostic::Reported;
@@ -15,9 +16,9 @@ impl Builder {
         match event {
             SyntaxEvent::Assignment(name, value) => {
                 if let Ok(number) = setting(name.text, name.span, value, &mut self.sink)
-                    && name.text == "$fn"
+                    && let Some(number) = number
                 {
-                    self.survey.fragments = number.unwrap_or(0.0);
+                    set(&mut self.survey.fragments, name.text, number);
                 }
             }
             SyntaxEvent::Close => {
@@ -49,7 +50,7 @@ impl Builder {
                 // What is wrong has gone to the sink; the other definitions are looked at, too.
                 let _ = self.define(call, word);
                 if !self.memory.has_room_for(0) {
-                    let _ = self.no_room(0, call);
+                    let _ = self.no_room(0, Origin::of(word, call));
                 }
                 self.survey.definition = (!call.is_ended).then_some(word.name);
             }

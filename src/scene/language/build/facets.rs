@@ -3,14 +3,16 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::degrees;
+use crate::scene::degrees;
 use crate::math::{Bounds, DVec3};
+use crate::scene::profile::Fragments;
 use crate::scene::{Facets, HalfSpace, Shape};
 
 /// How many sides `$fn` asks for, where it asks for a few: OpenSCAD cuts the number to an integer. Below 3
 /// there is no polygon, and above 12 people write `$fn` for smoothness, which exact curves have.
-pub fn sides(fragments: f64) -> Option<u32> {
-    (3.0..13.0).contains(&fragments).then_some(fragments as u32)
+pub fn sides(fragments: Fragments) -> Option<u32> {
+    let number = fragments.number;
+    (3.0..13.0).contains(&number).then_some(number as u32)
 }
 
 /// The faceted solids made so far: a scene has few kinds of them, and many of each.
@@ -105,7 +107,8 @@ mod tests {
     #[test]
     fn counts_as_openscad_does() {
         assert_eq!(
-            [0.0, 2.9, 3.0, 6.7, 12.9, 13.0, -6.0].map(sides),
+            [0.0, 2.9, 3.0, 6.7, 12.9, 13.0, -6.0]
+                .map(|number| sides(Fragments { number, ..Fragments::default() })),
             [None, None, Some(3), Some(6), Some(12), None, None]
         );
     }

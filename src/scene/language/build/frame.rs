@@ -3,7 +3,9 @@
 use std::rc::Rc;
 
 use super::context::Context;
+use super::forms::Form;
 use super::lost::Lost;
+use super::solids::Origin;
 use crate::scene::language::syntax::TextSpan;
 use crate::scene::language::vocabulary::OperatorWord;
 
@@ -14,7 +16,7 @@ pub struct OpenCall {
     /// The place of its word.
     pub place: TextSpan,
     pub context: Rc<Context>,
-    /// Where its solids begin on the stack.
+    /// Where its solids, or its facets, begin on their stack.
     pub start: usize,
     /// What its solids are to each other, where there are any.
     pub run: Run,
@@ -37,6 +39,8 @@ pub enum Role {
     Object(Option<Box<str>>),
     /// They are operands.
     Operator(OperatorWord),
+    /// They are facets, of which something is made.
+    Form(Form, Origin),
     /// There may be none, because the call is a primitive.
     Primitive(&'static str, BuiltCall),
 }
@@ -55,6 +59,8 @@ pub enum Run {
 pub enum BuiltCall {
     /// What is last on the stack; and whether a part of it was left out.
     Solids(Run, bool),
+    /// The same of what is last on the stack of facets.
+    Piece(bool),
     Nothing(Lost),
 }
 
@@ -82,7 +88,8 @@ impl OpenCall {
     /// The operator over its children, where they are operands.
     pub fn operator(&self) -> Option<OperatorWord> {
         match self.role {
-            Role::Operator(operator) => Some(operator),
+            Role::Operator(operator) | Role::Form(Form::Operator(operator), _) => Some(operator),
+            Role::Form(..) => Some(OperatorWord::Union),
             Role::Object(_) => Some(OperatorWord::Union),
             Role::Objects | Role::Primitive(..) => None,
         }

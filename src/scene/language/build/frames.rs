@@ -58,7 +58,7 @@ impl Builder {
     }
 
     /// Says that an operator went with a child that it needs.
-    fn note_left_out(&mut self, frame: &OpenCall) {
+    pub(super) fn note_left_out(&mut self, frame: &OpenCall) {
         let message = match frame.operator() {
             Some(OperatorWord::Intersection) => "`intersection` is left out whole: a part of it is missing",
             Some(OperatorWord::Difference) => "`difference` is left out whole: what it cuts from is missing",
@@ -94,17 +94,21 @@ impl Builder {
                     self.sink.note(Diagnostic::note(place, message));
                 }
             }
+            BuiltCall::Piece(_) if operator == OperatorWord::Difference && frame.first_lost.is_some() => {
+                self.pieces.pop();
+            }
             // The others are read even where there is nothing to take them from: their errors are errors.
             BuiltCall::Solids(..) if operator == OperatorWord::Difference && frame.first_lost.is_some() => {
                 self.solids.truncate(start);
             }
-            BuiltCall::Solids(run, is_incomplete) => {
+            BuiltCall::Solids(_, is_incomplete) | BuiltCall::Piece(is_incomplete) => {
                 frame.any_incomplete |= is_incomplete;
                 if is_cutter && is_incomplete && self.sink.is_clean() {
                     let message =
                         "a hole of `difference` is not as it was meant: a part of what cuts it is left out";
                     self.sink.note(Diagnostic::note(place, message));
                 }
+                let BuiltCall::Solids(run, _) = built else { return };
                 // What is cut away may as well be cut away part by part.
                 let joined = if is_cutter { OperatorWord::Union } else { operator };
                 match run {

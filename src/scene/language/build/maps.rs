@@ -1,7 +1,7 @@
 //! The words that move their children, as affine maps.
 
 use super::arguments::{BoundArguments, numbers};
-use super::degrees;
+use crate::scene::degrees;
 use super::lost::Lost;
 use crate::math::{DAffine3, DMat3, DVec3};
 use crate::scene::Diagnostic;
@@ -28,6 +28,12 @@ pub fn map_of(word: MapWord, arguments: &BoundArguments<'_, '_>, sink: &mut Sink
             Ok(DAffine3::from_mat3(mirror(normal)))
         }
     }
+}
+
+/// What a map does within the plane z = 0.
+pub fn flattened(map: &DAffine3) -> DAffine3 {
+    let [x, y] = [map.matrix3.x_axis, map.matrix3.y_axis].map(|axis| axis.with_z(0.0));
+    DAffine3 { matrix3: DMat3::from_cols(x, y, DVec3::Z), translation: map.translation.with_z(0.0) }
 }
 
 fn multmatrix(arguments: &BoundArguments<'_, '_>, sink: &mut Sink) -> Result<DAffine3, Lost> {

@@ -5,14 +5,16 @@ mod chain;
 mod colors;
 mod context;
 mod definitions;
-mod degrees;
 mod facets;
+mod figures;
+mod forms;
 mod frame;
 mod frames;
 mod lost;
 mod maps;
 mod materials;
 mod operators;
+mod pieces;
 mod polyhedron;
 mod solids;
 mod survey;
@@ -33,6 +35,7 @@ use context::Context;
 use facets::Polygons;
 use frame::OpenCall;
 use materials::Surfaces;
+use pieces::Piece;
 use survey::{Survey, is_definition};
 
 /// Whether to read on.
@@ -62,6 +65,8 @@ pub struct Builder {
     frames: Vec<OpenCall>,
     /// The solids that wait for their operators, in file order.
     solids: Vec<Solid>,
+    /// The facets that wait for what is made of them, in file order.
+    pieces: Vec<Piece>,
     /// How many of the open calls, the innermost ones, are passed over.
     passed_over: usize,
     is_out_of_memory: bool,
@@ -82,6 +87,7 @@ impl Builder {
             survey: Survey::default(),
             frames: vec![OpenCall::scene(Rc::new(Context::default()))],
             solids: Vec::new(),
+            pieces: Vec::new(),
             passed_over: 0,
             is_out_of_memory: false,
         }

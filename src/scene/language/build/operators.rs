@@ -3,20 +3,24 @@
 use std::rc::Rc;
 
 use super::arguments::BoundArguments;
-use super::chain::Numbers;
-use super::context::Context;
+use super::chain::{Chain, Numbers};
+use super::context::{Context, Space};
+use super::forms::Form;
 use super::frame::{BuiltCall, OpenCall, Role, Run};
 use super::lost::Lost;
 use super::materials::tinted;
-use super::{Builder, maps};
+use super::pieces::Leaf;
+use super::solids::Origin;
+use super::{Builder, forms, maps};
 use crate::scene::diagnostic::Reported;
 use crate::scene::language::syntax::Call;
-use crate::scene::language::vocabulary::{MapWord, Meaning, OperatorWord, Word};
+use crate::scene::language::vocabulary::{FormWord, MapWord, Meaning, OperatorWord, Word};
+use crate::scene::profile::Fragments;
 use crate::scene::{Diagnostic, Object};
 
 impl Builder {
-    /// Begins the scene, with `$fn` of the whole file.
-    pub(super) fn begin(&mut self, fragments: f64) {
+    /// Begins the scene, with the settings of the whole file.
+    pub(super) fn begin(&mut self, fragments: Fragments) {
         self.frames = vec![OpenCall::scene(Rc::new(Context { fragments, ..Context::default() }))];
     }
 
@@ -48,15 +52,19 @@ impl Builder {
         self.make_room();
         let start = self.solids.len();
         match word.meaning {
-            Meaning::Solid(kind) => {
-                let built = match self.primitive(kind, word, call, &context) {
+            Meaning::Solid(_) | Meaning::Figure(_) => {
+                let built = match self.leaf(word, call, &context) {
                     // The most frequent of all: what is an object at once waits for nobody.
-                    Ok(solid) if is_object && call.is_ended => {
+                    Ok(Leaf::Solid(solid)) if is_object && call.is_ended => {
                         return self.scene.objects.push(Object { name: None, solid });
                     }
-                    Ok(solid) => {
+                    Ok(Leaf::Solid(solid)) => {
                         self.solids.push(solid);
                         BuiltCall::Solids(Run::One, false)
+                    }
+                    Ok(Leaf::Piece(piece)) => {
+                        self.pieces.push(piece);
+                        BuiltCall::Piece(false)
                     }
                     Err(lost) => BuiltCall::Nothing(lost),
                 };
@@ -73,16 +81,17 @@ impl Builder {
             Meaning::Material if call.is_ended => self.misplaced(call),
             Meaning::Camera | Meaning::Light | Meaning::World => self.misplaced(call),
             _ => {
-                let role = self.role(call, word, is_object);
-                let inner = match self.enter(call, word, &context) {
-                    Ok(inner) => inner,
+                let (role, inner) = match self.enter(call, word, &context) {
+                    Ok((Some(form), inner)) => (Role::Form(form, Origin::of(word, call)), inner),
+                    Ok((None, inner)) => (self.role(call, word, is_object), inner),
                     // What is below a wrong map is left out. Where it is an error, errors below it are looked
                     // for, too.
                     Err(lost) if self.sink.leaves_out() && self.sink.is_clean() => {
                         return self.lose(lost, call);
                     }
-                    Err(_) => context,
+                    Err(_) => (self.role(call, word, is_object), context),
                 };
+                let start = if let Role::Form(..) = role { self.pieces.len() } else { start };
                 self.frames.push(OpenCall::new(role, call.name.span, inner, start));
                 if call.is_ended {
                     self.close_frame();
@@ -143,14 +152,16 @@ impl Builder {
         call: &Call<'_>,
         word: &'static Word,
         above: &Rc<Context>,
-    ) -> Result<Rc<Context>, Lost> {
+    ) -> Result<(Option<Form>, Rc<Context>), Lost> {
         let sink = &mut self.sink;
         let arguments = BoundArguments::bind(call, word, sink)?;
-        let fragments = arguments.fragments.unwrap_or(above.fragments);
+        let form = self.form(word, &arguments, above, call.name.span)?;
+        let sink = &mut self.sink;
+        let fragments = arguments.fragments(above.fragments);
         let mut inner = match word.meaning {
             // Most groups hand down what they were given.
-            Meaning::Operator(_) | Meaning::Object if arguments.fragments.is_none() => {
-                return Ok(Rc::clone(above));
+            Meaning::Operator(_) | Meaning::Object if !arguments.has_settings() => {
+                return Ok((form, Rc::clone(above)));
             }
             _ => Context { fragments, ..Context::clone(above) },
         };
@@ -161,6 +172,8 @@ impl Builder {
                     MapWord::Translate | MapWord::Scale | MapWord::Multmatrix => Numbers::Written,
                 };
                 let map = maps::map_of(map, &arguments, sink)?;
+                let is_flat = matches!(above.space, Space::Extruded { .. });
+                let map = if is_flat { maps::flattened(&map) } else { map };
                 let maps = above.maps.then(map, numbers, call.name.span);
                 inner.maps = maps.map_err(|error| arguments.refuse(error, Lost::Empty, sink))?;
             }
@@ -169,9 +182,22 @@ impl Builder {
                 self.memory.take(super::materials::BYTES);
                 inner.surface = self.surfaces.apply(above.surface, &arguments, sink)?;
             }
+            // What is swept straight up is exact: each figure is a solid of its own.
+            Meaning::Form(FormWord::LinearExtrude) if form.is_none() => {
+                let sweep = forms::sweep(&arguments, fragments, sink)?;
+                inner.space = Space::Extruded { bottom: sweep.bottom, top: sweep.top };
+                let lean = forms::lean(&arguments, sink)?;
+                let maps = above.maps.then(lean, Numbers::Written, call.name.span);
+                inner.maps = maps.map_err(|error| arguments.refuse(error, Lost::Empty, sink))?;
+            }
+            // What something is made of is where that begins.
+            Meaning::Form(_) => {
+                inner.space = Space::Faceted;
+                inner.maps = Chain::default();
+            }
             _ => {}
         }
-        Ok(Rc::new(inner))
+        Ok((form, Rc::new(inner)))
     }
 
     /// The innermost open call ends.
@@ -190,6 +216,23 @@ impl Builder {
         match frame.role {
             Role::Objects => {}
             Role::Primitive(_, built) => self.give(built, start, place),
+            Role::Form(ref form, origin) => {
+                let form = form.clone();
+                let above = self.frames.last().map(|above| Rc::clone(&above.context)).unwrap_or_default();
+                let start = self.solids.len();
+                let built = match self.formed(&form, &frame, &above, origin) {
+                    Ok((Leaf::Solid(solid), is_incomplete)) => {
+                        self.solids.push(solid);
+                        BuiltCall::Solids(Run::One, is_incomplete)
+                    }
+                    Ok((Leaf::Piece(piece), is_incomplete)) => {
+                        self.pieces.push(piece);
+                        BuiltCall::Piece(is_incomplete)
+                    }
+                    Err(lost) => BuiltCall::Nothing(lost),
+                };
+                self.give(built, start, place);
+            }
             Role::Operator(_) => {
                 let built = self.ended(&frame);
                 self.give(built, start, place);

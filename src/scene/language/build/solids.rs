@@ -1,18 +1,35 @@
 //! The words for primitives: a unit shape, and the map that gives it its place and size.
 
-use super::arguments::BoundArguments;
+use super::arguments::{BoundArguments, refuse};
 use super::chain::Numbers;
 use super::context::Context;
 use super::facets::Polygons;
 use super::lost::Lost;
+use super::pieces::carried;
 use super::{Builder, facets, polyhedron};
 use crate::math::{DAffine3, DMat3, DVec3, Placement};
 use crate::scene::diagnostic::Sink;
-use crate::scene::language::syntax::Call;
+use crate::scene::language::syntax::{Call, TextSpan};
 use crate::scene::language::vocabulary::{SolidWord, Word};
 use crate::scene::memory::{ASSEMBLED, ASSEMBLED_FACES, ASSEMBLED_TRIANGLE};
 use crate::scene::model::is_within_reach;
 use crate::scene::{Diagnostic, Object, Primitive, REACH, Shape, Solid};
+
+/// The call that something was made of: where its mistakes are.
+#[derive(Clone, Copy, Debug)]
+pub struct Origin {
+    pub word: &'static Word,
+    /// The place of its word.
+    pub name: TextSpan,
+    /// Where its arguments end.
+    pub end: u32,
+}
+
+impl Origin {
+    pub fn of(word: &'static Word, call: &Call<'_>) -> Self {
+        Self { word, name: call.name.span, end: call.parentheses.end }
+    }
+}
 
 impl Builder {
     /// The primitive of a call.
@@ -23,27 +40,50 @@ impl Builder {
         call: &Call<'_>,
         context: &Context,
     ) -> Result<Solid, Lost> {
+        let arguments = BoundArguments::bind(call, word, &mut self.sink)?;
+        let sides = facets::sides(arguments.fragments(context.fragments));
+        let (shape, local) = self.shape(kind, &arguments, sides, call)?;
+        self.put(shape, local, DVec3::ZERO, context, Origin::of(word, call)).map(Solid::Primitive)
+    }
+
+    /// The unit shape of a call, and its map. Round ones are exact where no number of `sides` is given.
+    pub(super) fn shape(
+        &mut self,
+        kind: SolidWord,
+        arguments: &BoundArguments<'_, '_>,
+        sides: Option<u32>,
+        call: &Call<'_>,
+    ) -> Result<(Shape, DAffine3), Lost> {
         let sink = &mut self.sink;
-        let arguments = BoundArguments::bind(call, word, sink)?;
-        let mut round = RoundShapes {
-            sides: facets::sides(arguments.fragments.unwrap_or(context.fragments)),
-            polygons: &mut self.polygons,
-        };
-        let (shape, local) = match kind {
-            SolidWord::Cube => cube(&arguments, sink)?,
-            SolidWord::Sphere => sphere(&arguments, &mut round, sink)?,
-            SolidWord::Cylinder => cylinder(&arguments, &mut round, sink)?,
-            SolidWord::Cone => cone(&arguments, &mut round, sink)?,
+        let mut round = RoundShapes { sides, polygons: &mut self.polygons };
+        match kind {
+            SolidWord::Cube => cube(arguments, sink),
+            SolidWord::Sphere => sphere(arguments, &mut round, sink),
+            SolidWord::Cylinder => cylinder(arguments, &mut round, sink),
+            SolidWord::Cone => cone(arguments, &mut round, sink),
             SolidWord::Polyhedron => {
-                let bytes = polyhedron::bytes(&arguments);
+                let bytes = polyhedron::bytes(arguments);
                 if !self.memory.has_room_for(bytes) {
-                    return Err(self.no_room(bytes, call));
+                    return Err(self.no_room(bytes, Origin::of(arguments.word(), call)));
                 }
-                (polyhedron::polyhedron(&arguments, &mut self.clipper, sink)?, DAffine3::IDENTITY)
+                Ok((polyhedron::polyhedron(arguments, &mut self.clipper, sink)?, DAffine3::IDENTITY))
             }
-        };
-        let refuse = |error, sink: &mut Sink| arguments.refuse(error, Lost::Empty, sink);
-        let maps = match context.maps.then(local, Numbers::Written, call.name.span) {
+        }
+    }
+
+    /// A shape as a primitive of the scene: `local` puts it into the coordinates of its word, in which its
+    /// points may be off by `off` already.
+    pub(super) fn put(
+        &mut self,
+        shape: Shape,
+        local: DAffine3,
+        off: DVec3,
+        context: &Context,
+        origin: Origin,
+    ) -> Result<Primitive, Lost> {
+        let refuse = |error, sink: &mut Sink| refuse(origin.word, error, Lost::Empty, sink);
+        let sink = &mut self.sink;
+        let maps = match context.maps.then(local, Numbers::Written, origin.name) {
             Ok(maps) => maps,
             Err(error) => return Err(refuse(error, sink)),
         };
@@ -51,15 +91,15 @@ impl Builder {
         let bounds = shape.bounds().mapped(&map);
         if !is_within_reach(&bounds) {
             let message = format!("it reaches farther than {REACH:e} from the origin");
-            let error = Diagnostic::error(call.name.span, message);
+            let error = Diagnostic::error(origin.name, message);
             return Err(refuse(error.label("too large, or too far away"), sink));
         }
         if Placement::new(&map).is_none() {
-            let error = Diagnostic::error(call.name.span, "it is smaller than a 64-bit float holds");
+            let error = Diagnostic::error(origin.name, "it is smaller than a 64-bit float holds");
             return Err(refuse(error.label("too small, or too flat"), sink));
         }
         let material = self.surfaces.id(context.surface);
-        let error = maps.error(&shape.bounds());
+        let error = maps.error(&shape.bounds()) + carried(&context.maps.product().matrix3, off);
         let own = match &shape {
             Shape::Mesh(mesh) => {
                 let bytes = size_of_val(mesh.points.as_slice()) + size_of_val(mesh.triangles.as_slice());
@@ -70,16 +110,16 @@ impl Builder {
         };
         let bytes = own + size_of::<Object>() as u64 + ASSEMBLED;
         if !self.memory.has_room_for(bytes) {
-            return Err(self.no_room(bytes, call));
+            return Err(self.no_room(bytes, origin));
         }
         self.memory.take(bytes);
-        Ok(Solid::Primitive(Primitive::new(shape, map, material).with_map_error(error)))
+        Ok(Primitive::new(shape, map, material).with_map_error(error))
     }
 
     /// The error of what there is no memory for: it is the last that is read.
-    pub(super) fn no_room(&mut self, bytes: u64, call: &Call<'_>) -> Lost {
+    pub(super) fn no_room(&mut self, bytes: u64, origin: Origin) -> Lost {
         self.is_out_of_memory = true;
-        self.memory.refuse(bytes, call.parentheses.end, &mut self.sink).into()
+        self.memory.refuse(bytes, origin.end, &mut self.sink).into()
     }
 }
 
@@ -106,7 +146,7 @@ impl RoundShapes<'_> {
 }
 
 /// The map of the shape with centre `at` and half-sizes `semi`.
-fn placed(at: DVec3, semi: DVec3) -> DAffine3 {
+pub fn placed(at: DVec3, semi: DVec3) -> DAffine3 {
     DAffine3 { matrix3: DMat3::from_diagonal(semi), translation: at }
 }
 
@@ -154,7 +194,7 @@ fn sphere(
 }
 
 /// The radius, given as that or as a diameter; both together contradict each other.
-fn radius(
+pub fn radius(
     arguments: &BoundArguments<'_, '_>,
     diameter: &str,
     radius: &str,

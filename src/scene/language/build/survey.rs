@@ -1,4 +1,4 @@
-//! A first reading of a text for what may stand below its uses: definitions, `$fn` of the whole file, and a
+//! A first reading of a text for what may stand below its uses: definitions, settings of the whole file, and a
 //! root (`!`).
 //!
 //! Most long files have none of them, because a program wrote them: they are read once, and again only where
@@ -7,17 +7,18 @@
 use crate::scene::language::dictionary::{Known, look_up};
 use crate::scene::language::syntax::{Call, Value};
 use crate::scene::language::vocabulary::Meaning;
+use crate::scene::profile::Fragments;
 
 /// What is known of a whole file.
 #[derive(Debug, Default)]
 pub struct Survey {
     pub is_done: bool,
-    /// `$fn` of the whole file: the last assignment counts, as in OpenSCAD.
-    pub fragments: f64,
+    /// `$fn`, `$fa` and `$fs` of the whole file: the last assignment counts, as in OpenSCAD.
+    pub fragments: Fragments,
     /// Where the first call marked `!` has its name.
     pub root: Option<u32>,
-    /// While the root is looked for: `$fn` at each of the open calls.
-    above: Vec<f64>,
+    /// While the root is looked for: the settings at each of the open calls.
+    above: Vec<Fragments>,
     is_root_found: bool,
     /// While surveying: how many calls are open.
     pub depth: usize,
@@ -29,8 +30,8 @@ pub struct Survey {
 pub enum Found {
     /// Not the root.
     Above,
-    /// The root, which has this `$fn`.
-    Root(f64),
+    /// The root, which has these settings.
+    Root(Fragments),
 }
 
 impl Survey {
@@ -59,11 +60,13 @@ impl Survey {
             return Some(Found::Root(fragments));
         }
         if !call.is_ended {
-            let own = call.arguments.iter().find(|a| a.name.is_some_and(|name| name.text == "$fn"));
-            self.above.push(match own.map(|argument| &argument.value.value) {
-                Some(Value::Number(number)) => *number,
-                _ => fragments,
-            });
+            let mut inner = fragments;
+            for argument in &call.arguments {
+                if let (Some(name), Value::Number(number)) = (argument.name, &argument.value.value) {
+                    set(&mut inner, name.text, *number);
+                }
+            }
+            self.above.push(inner);
         }
         Some(Found::Above)
     }
@@ -75,6 +78,16 @@ impl Survey {
             self.above.pop();
         }
         is_seeking
+    }
+}
+
+/// Sets one of the settings.
+pub fn set(fragments: &mut Fragments, name: &str, number: f64) {
+    match name {
+        "$fn" => fragments.number = number,
+        "$fa" => fragments.angle = number,
+        "$fs" => fragments.size = number,
+        _ => {}
     }
 }
 

@@ -1,0 +1,20 @@
+//! Plane figures, what is made of them, and the facets that stand for curved solids where something is made of
+//! their corners: `docs/decisions/28-plane-figures.md` says what is exact and what is not.
+
+mod arcs;
+mod clip;
+mod convex_hull;
+mod faceted;
+mod figure;
+mod section;
+mod sums;
+mod sweep;
+
+pub use arcs::{Fragments, MOST_CORNERS, corners};
+pub use clip::{Join, combined, filled, grown};
+pub use convex_hull::{hull_of_figures, hull_of_solid};
+pub use faceted::faceted;
+pub use figure::{Figure, FigureOperator, Region};
+pub use section::{NoShadow, section, shadow};
+pub use sums::{NoSum, of_mesh, sum_of_figures, sum_of_solids};
+pub use sweep::{LinearSweep, NoRevolution, Revolution, prism};

@@ -1,8 +1,10 @@
 //! All stages in order: a request in, a finished frame out, with what each stage counted.
 
+mod accuracy;
 mod assemble;
 mod compare;
 mod draw;
+mod edges;
 mod explain;
 mod finished_tile;
 mod frame_cache;

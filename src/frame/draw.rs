@@ -14,10 +14,11 @@ use crate::shade::Channel;
 use crate::stage::{Counts, GiveUp, Progress, Stage, StageTimes, Stopwatch, Task};
 use crate::view::{TILE, Tile, tiles};
 
+use super::accuracy::Accuracy;
 use super::assemble::PictureDots;
 use super::frame_cache::Hits;
 use super::prepare::{Prepared, Work};
-use super::refine::{Accuracy, FirstRays, open_dots, refine};
+use super::refine::{FirstRays, open_dots, refine};
 use super::render::TileRenderer;
 use super::reuse::Reused;
 use super::workers::{Worker, Workers};
@@ -237,7 +238,7 @@ impl<C: Channel> Work<C> for Whole<'_> {
         });
         let accuracy = accuracy.filter(|_| !renderer.give_up.is_due());
         if let (Some(accuracy), Some(first)) = (accuracy, FirstRays::of(dots, renderer)) {
-            let (refined, counts) = refine(open_dots(&first, accuracy), accuracy, renderer, &workers);
+            let (refined, counts) = refine(&first, open_dots(&first, accuracy), accuracy, renderer, &workers);
             all.0 += counts;
             dots.set(&refined);
         }

@@ -1,9 +1,11 @@
 //! All stages in order: a request in, a finished frame out, with what each stage counted.
 
+mod accuracy;
 mod assemble;
 mod coarse;
 mod compare;
 mod draw;
+mod edges;
 mod explain;
 mod finished_tile;
 mod frame_cache;

@@ -3,11 +3,8 @@
 //! densities, 1987; the paper's own future work).
 //!
 //! What one ray leaves open is guessed from the dots around: where rays of other histories pass, an edge may
-//! run through the dot, and its light may be off by what the two sides differ by, times what the rays so far
-//! err on edges ([`edge_error`]). Where all histories are the same, light is smooth, and off by what it
-//! bends.
-
-use std::ops::Range;
+//! run through the dot. [`super::edges`] says how much of the dot lies on either side, and how far off that
+//! may be. Where all histories are the same, light is smooth, and off by what it bends.
 
 use rayon::prelude::*;
 
@@ -16,23 +13,21 @@ use crate::lattice::FRUSTA;
 use crate::math::{DVec3, Grid, PACKET};
 use crate::shade::Channel;
 use crate::stage::{Counts, Meter, Stopwatch};
-use crate::tone::{Level, Tone};
-use crate::view::{PointPacket, Tile, edge_error, missed_edge_error, sample_point, tiles};
+use crate::tone::Level;
+use crate::view::{EdgeModel, PointPacket, Tile, sample_point, tiles};
 
+use super::accuracy::{Accuracy, LightRange};
 use super::assemble::{PictureDots, RefinedDot};
+use super::edges::{Expected, Knowledge, OpenDot, SeenByRay};
 use super::render::TileRenderer;
 use super::small::small_solids;
 use super::workers::{PointScratch, Worker, Workers};
 
 /// Rays of a dot after each round: twice as many each, so that a dot which is decided has had half as many at
-/// least as it needed.
+/// least as it needed. None is decided by one: that an edge runs straight through its middle and past those
+/// of the dots around is a guess, by which one dot in a thousand came to be two levels off. With 2 first a
+/// few rays less are traced, for a few more wrong levels, in the same time.
 const ROUNDS: [u32; 7] = [4, 8, 16, 32, 64, 128, 256];
-
-/// So many standard deviations its mean is taken to be off at most. With 1.5 a dot that is called decided has
-/// another level in one case of fifteen at the border; of 1, 1.5 and 2 it takes the fewest rays for as many
-/// wrong levels as 16 rays for each dot leave (`benches/antialiasing.rs`, on hanyang, temple, glass and SPD
-/// tree).
-const DEVIATIONS: f64 = 1.5;
 
 /// How far the mean of smooth light over a dot is from that of its middle, as a share of how far the middle
 /// is off the line between two dots beside it: of a parabola a twenty-fourth of its second difference, from
@@ -51,80 +46,6 @@ pub(super) struct FirstRays<'a> {
     small: Grid<bool>,
 }
 
-/// When a dot is decided.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Accuracy {
-    /// The error that is small enough, as a share of a level, above 0.
-    pub error: f64,
-    pub tone: Tone,
-    /// Whether the three primaries count, and not only the luminance.
-    pub color: bool,
-}
-
-/// A dot whose level is not decided by one ray.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct OpenDot<C> {
-    column: u32,
-    row: u32,
-    /// The light of its rays so far.
-    sum: C,
-    rays: u32,
-    /// What its rays have seen.
-    own: LightRange,
-    /// What its rays and those of the dots around it have seen, as far as it may be in the dot.
-    around: LightRange,
-}
-
-/// The least and the most light that may be in a dot, by part.
-#[derive(Clone, Copy, Debug)]
-struct LightRange {
-    least: [f64; 3],
-    most: [f64; 3],
-}
-
-impl Accuracy {
-    /// The numbers of a light that count: those past the last are 0.
-    fn parts<C: Channel>(self, light: C) -> [f64; 3] {
-        if self.color && C::PARTS > 1 { light.rgb().to_array() } else { [light.gray(), 0.0, 0.0] }
-    }
-
-    /// Whether the light of a dot, somewhere between these, stays in one level, or so near that it does not
-    /// matter.
-    fn decides(self, between: &LightRange) -> bool {
-        between.least.into_iter().zip(between.most).all(|(least, most)| {
-            let [least, most] = [least, most].map(|light| self.tone.shown(light));
-            Level::nearest(least) == Level::nearest(most)
-                || Level::position(most) - Level::position(least) <= 2.0 * self.error
-        })
-    }
-}
-
-impl LightRange {
-    #[inline]
-    fn of(parts: [f64; 3]) -> Self {
-        Self { least: parts, most: parts }
-    }
-
-    #[inline]
-    fn add(&mut self, parts: [f64; 3]) {
-        for part in 0..3 {
-            self.least[part] = self.least[part].min(parts[part]);
-            self.most[part] = self.most[part].max(parts[part]);
-        }
-    }
-
-    /// From each end half of the way to a light between them.
-    fn halfway_to(&self, light: [f64; 3]) -> Self {
-        let half = |end: [f64; 3]| std::array::from_fn(|part| f64::midpoint(end[part], light[part]));
-        Self { least: half(self.least), most: half(self.most) }
-    }
-
-    /// How far it is from the least to the most.
-    fn width(&self, part: usize) -> f64 {
-        self.most[part] - self.least[part]
-    }
-}
-
 impl<'a> FirstRays<'a> {
     /// Those of a picture whose histories are kept.
     pub fn of<I>(dots: &'a PictureDots, renderer: &TileRenderer<I>) -> Option<Self> {
@@ -137,6 +58,11 @@ impl<'a> FirstRays<'a> {
     /// The light of a dot, as far as it is there: its luminance, or its three primaries.
     fn light<C: Channel>(&self, at: (u32, u32)) -> C {
         C::from_rgb(self.color.map_or_else(|| DVec3::splat(self.light[at]), |color| color[at]))
+    }
+
+    /// What the ray through the middle of a dot saw.
+    fn seen<C: Channel>(&self, at: (u32, u32)) -> SeenByRay<C> {
+        SeenByRay { light: self.light(at), history: self.history[at] }
     }
 
     /// A dot with what may be in it, as far as the rays around tell; none where that decides it.
@@ -178,136 +104,134 @@ impl<'a> FirstRays<'a> {
             let is_between = is_inside && opposites.into_iter().any(|sides| sides.into_iter().all(differs));
             if is_between { around } else { around.halfway_to(parts) }
         };
-        let dot = OpenDot { column, row, sum: own, rays: 1, own: LightRange::of(parts), around };
-        (self.small[(column, row)] || !accuracy.decides(&possible)).then_some(dot)
-    }
-}
-
-impl<C: Channel> OpenDot<C> {
-    fn mean(&self) -> C {
-        self.sum * (1.0 / f64::from(self.rays))
-    }
-
-    /// Adds the light of further rays.
-    fn add(&mut self, lights: &[C], accuracy: Accuracy) {
-        for light in lights {
-            self.sum = self.sum + *light;
-            self.own.add(accuracy.parts(*light));
-        }
-        self.rays += lights.len() as u32;
-    }
-
-    fn is_decided(&self, accuracy: Accuracy) -> bool {
-        let mean = accuracy.parts(self.mean());
-        let [seen, missed] =
-            [edge_error(self.rays), missed_edge_error(self.rays)].map(|error| DEVIATIONS * error);
-        let off: [f64; 3] =
-            std::array::from_fn(|part| (self.own.width(part) * seen).max(self.around.width(part) * missed));
-        let mut possible = self.around;
-        possible.add(self.own.least);
-        possible.add(self.own.most);
-        let between = |sign: f64| {
-            let end = |part: usize| mean[part] + sign * off[part];
-            std::array::from_fn(|part| end(part).clamp(possible.least[part], possible.most[part]))
-        };
-        accuracy.decides(&LightRange { least: between(-1.0), most: between(1.0) })
+        (self.small[(column, row)] || !accuracy.decides(&possible)).then(|| {
+            // Room for the first round.
+            let mut rays = Vec::with_capacity(ROUNDS[0] as usize);
+            rays.push(SeenByRay { light: own, history });
+            OpenDot { column, row, rays, around }
+        })
     }
 }
 
 /// The dots of a picture that one ray does not decide, those that are near each other one after the other.
 pub(super) fn open_dots<C: Channel>(first: &FirstRays, accuracy: Accuracy) -> Vec<OpenDot<C>> {
-    let tiles = tiles(first.light.size());
-    let of_tile = |tile: Tile| {
-        let dots = tile.dots_by_nearness();
-        dots.filter_map(|(column, row)| first.open_dot(column, row, accuracy)).collect::<Vec<_>>()
+    let size = first.light.size();
+    let is_gray = !accuracy.color || C::PARTS == 1;
+    let level = |&light: &f64| Level::nearest(accuracy.tone.shown(light));
+    let levels: Option<Vec<Level>> = is_gray.then(|| first.light.values().iter().map(level).collect());
+    // Most dots stand among dots of their level: what their light is expected to be lies between theirs.
+    let is_flat = |column: u32, row: u32| {
+        let Some(levels) = &levels else { return false };
+        let from = column.saturating_sub(1) as usize;
+        let to = (column + 2).min(size.width) as usize;
+        let own = levels[(row * size.width + column) as usize];
+        (row.saturating_sub(1)..(row + 2).min(size.height)).all(|row| {
+            let start = row as usize * size.width as usize;
+            levels[start + from..start + to].iter().all(|level| *level == own)
+        })
     };
-    tiles.into_par_iter().flat_map_iter(of_tile).collect()
+    let of_tile = |tile: Tile| {
+        let mut open = Vec::new();
+        for (column, row) in tile.dots() {
+            if first.small[(column, row)] || !is_flat(column, row) {
+                open.extend(first.open_dot(column, row, accuracy));
+            }
+        }
+        open.sort_unstable_by_key(|dot: &OpenDot<C>| tile.nearness((dot.column, dot.row)));
+        open
+    };
+    tiles(size).into_par_iter().flat_map_iter(of_tile).collect()
 }
 
 /// Traces more rays through some dots until all are decided. `workers` has one trace with memory of its own.
 pub(super) fn refine<C: Channel, I: TileIntegrator<C>>(
+    first: &FirstRays,
     mut open: Vec<OpenDot<C>>,
     accuracy: Accuracy,
     renderer: &TileRenderer<I>,
     workers: &Workers<I::Memory, C>,
 ) -> (Vec<RefinedDot<C>>, Counts) {
-    let mut refined = Vec::new();
+    let model = EdgeModel::default();
+    let mut numbers = Grid::filled(first.light.size(), 0);
+    for (number, dot) in (1..).zip(&open) {
+        numbers[(dot.column, dot.row)] = number;
+    }
+    let seen = |column, row| first.seen((column, row));
+    let expected = |open: &[OpenDot<C>], number: u32| {
+        let knowledge = Knowledge { model: &model, first: &seen, numbers: &numbers, open };
+        knowledge.expected(&open[number as usize], accuracy)
+    };
+    let mut undecided: Vec<u32> = (0..open.len() as u32).collect();
+    let mut refined = vec![None; open.len()];
     let mut counts = Counts::default();
     let mut had = 1;
     for rays in ROUNDS {
+        let samples: Vec<_> = (had..rays).map(sample_point).collect();
+        had = rays;
         // As many dots at a time as have their rays in the packets of one walk, but for what is left over.
-        let at_once = (FRUSTA * PACKET).div_ceil((rays - had) as usize);
-        let chunks = open.par_chunks_mut(at_once);
-        let counted = chunks.map(|some| {
+        let at_once = (FRUSTA * PACKET).div_ceil(samples.len());
+        let nothing = SeenByRay { light: C::DARK, history: History::MISS };
+        let mut seen = vec![nothing; undecided.len() * samples.len()];
+        let chunks = undecided.par_chunks(at_once).zip(seen.par_chunks_mut(at_once * samples.len()));
+        let counted = chunks.map(|(numbers, seen)| {
             workers.with(renderer, |worker| {
-                let mut meter = Meter::new(Stopwatch::still());
-                add_samples(some, had..rays, accuracy, renderer, worker, &mut meter);
-                meter.counts
+                let dots = numbers.iter().map(|&number| &open[number as usize]);
+                let middles = dots.map(|dot| [f64::from(dot.column) + 0.5, f64::from(dot.row) + 0.5]);
+                trace_samples(middles, &samples, renderer, worker, seen)
             })
         });
         counts += counted.reduce(Counts::default, |a, b| a + b);
-        had = rays;
-        let is_last = rays == ROUNDS[ROUNDS.len() - 1];
-        open.retain(|dot| {
-            let is_done = is_last || dot.is_decided(accuracy);
-            if is_done {
-                refined.push(RefinedDot { column: dot.column, row: dot.row, light: dot.mean() });
-            }
-            !is_done
+        for (number, seen) in undecided.iter().zip(seen.chunks(samples.len())) {
+            open[*number as usize].rays.extend_from_slice(seen);
+        }
+        let decide = |&number: &u32| {
+            let Expected { light, deviation, possible } = expected(&open, number);
+            accuracy.is_met_by(accuracy.parts(light), deviation, &possible).then_some(light)
+        };
+        let decided: Vec<Option<C>> = undecided.par_iter().map(decide).collect();
+        let mut light = decided.into_iter();
+        undecided.retain(|&number| {
+            refined[number as usize] = light.next().flatten();
+            refined[number as usize].is_none()
         });
     }
-    (refined, counts)
+    let refined = (0..).zip(&open).zip(refined).map(|((number, dot), light)| RefinedDot {
+        column: dot.column,
+        row: dot.row,
+        light: light.unwrap_or_else(|| expected(&open, number).light),
+    });
+    (refined.collect(), counts)
 }
 
-/// Adds the samples of these numbers to some dots.
-fn add_samples<C: Channel, I: TileIntegrator<C>>(
-    dots: &mut [OpenDot<C>],
-    numbers: Range<u32>,
-    accuracy: Accuracy,
+/// Traces samples of some dots, given by their middles: all of each dot, one dot after the other.
+fn trace_samples<C: Channel, I: TileIntegrator<C>>(
+    middles: impl Iterator<Item = [f64; 2]>,
+    samples: &[[f64; 2]],
     renderer: &TileRenderer<I>,
     worker: &mut Worker<I::Memory, C>,
-    meter: &mut Meter<Stopwatch>,
-) {
-    let Worker { memory, refining: PointScratch { points, packets, light }, .. } = worker;
-    let samples: Vec<_> = numbers.map(sample_point).collect();
+    seen: &mut [SeenByRay<C>],
+) -> Counts {
+    let Worker { memory, refining: PointScratch { points, packets }, .. } = worker;
+    let mut meter = Meter::new(Stopwatch::still());
     points.clear();
-    for dot in &*dots {
-        let (x, y) = (f64::from(dot.column) + 0.5, f64::from(dot.row) + 0.5);
+    for [x, y] in middles {
         points.extend(samples.iter().map(|[across, down]| [x + across, y + down]));
     }
-    light.clear();
-    light.resize(points.len(), C::DARK);
-    for (points, light) in points.chunks(FRUSTA * PACKET).zip(light.chunks_mut(FRUSTA * PACKET)) {
+    for (points, seen) in points.chunks(FRUSTA * PACKET).zip(seen.chunks_mut(FRUSTA * PACKET)) {
         packets.clear();
         packets.extend(points.chunks(PACKET).map(PointPacket::new));
-        renderer.shade_points(packets, memory, light, meter);
+        renderer.shade_points(packets, memory, seen, &mut meter);
     }
-    for (dot, lights) in dots.iter_mut().zip(light.chunks(samples.len())) {
-        dot.add(lights, accuracy);
-    }
+    meter.counts
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::math::Size;
+    use crate::tone::Tone;
 
     const ACCURACY: Accuracy = Accuracy { error: 1.0 / 16.0, tone: Tone::Lightness, color: false };
-
-    fn between(least: f64, most: f64) -> LightRange {
-        LightRange { least: [least, 0.0, 0.0], most: [most, 0.0, 0.0] }
-    }
-
-    #[test]
-    fn a_level_is_decided_between_its_borders_and_nearly_on_them() {
-        let level = Level::new(8).unwrap().light();
-        assert!(ACCURACY.decides(&between(level - 0.03, level + 0.03)));
-        // Its border with level 9 is at 0.4728.
-        assert!(!ACCURACY.decides(&between(level, 0.49)));
-        assert!(ACCURACY.decides(&between(0.4725, 0.4731)));
-        // White may be as bright as it likes.
-        assert!(ACCURACY.decides(&between(0.95, 1e300)));
-    }
 
     /// Rays of two histories with an edge between columns 3 and 4.
     fn first_rays(light: &Grid<f64>, history: &Grid<History>) -> Vec<(u32, u32)> {

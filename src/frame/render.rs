@@ -10,6 +10,7 @@ use crate::solid::Assembly;
 use crate::stage::{GiveUp, Meter, Probe, Stopwatch};
 use crate::view::{PinholeCamera, PointPacket, Tile, TileCamera, TileRays, sample_point};
 
+use super::edges::SeenByRay;
 use super::finished_tile::FinishedTile;
 use super::scratch_pool::ScratchPool;
 
@@ -124,13 +125,13 @@ impl<I> TileRenderer<'_, I> {
         }
     }
 
-    /// Sets `light` to that of rays through some points of the picture, at most 16 packets of them; leaves it
+    /// Sets `seen` to what rays through some points of the picture saw, at most 16 packets of them; leaves it
     /// where it is to give up.
     pub fn shade_points<C: Channel>(
         &self,
         points: &[PointPacket],
         memory: &mut RenderMemory<I::Memory, C>,
-        light: &mut [C],
+        seen: &mut [SeenByRay<C>],
         meter: &mut Meter<impl Probe>,
     ) where
         I: TileIntegrator<C>,
@@ -138,9 +139,15 @@ impl<I> TileRenderer<'_, I> {
         if self.give_up.is_due() {
             return;
         }
+        let RenderMemory { integrator: memory, sample } = memory;
         let camera = self.camera(&Tile::NONE, TileRays::Points(points));
-        let pass = TilePass { camera, kept: None, keeps_histories: false };
-        self.integrator.shade(&pass, &mut memory.integrator, light, meter);
+        let pass = TilePass { camera, kept: None, keeps_histories: true };
+        sample.resize(seen.len(), C::DARK);
+        self.integrator.shade(&pass, memory, sample, meter);
+        for (seen, light) in seen.iter_mut().zip(&*sample) {
+            seen.light = *light;
+        }
+        self.integrator.histories(&pass, memory, |ray, history| seen[ray].history = history);
     }
 
     /// A ray through each dot, by a sample's number.

@@ -14,23 +14,16 @@ use super::render::{RenderMemory, TileRenderer};
 pub(super) struct Worker<M, C> {
     pub memory: RenderMemory<M, C>,
     pub finished: FinishedTile<C>,
-    pub refining: PointScratch<C>,
+    pub refining: PointScratch,
 }
 
-/// Points of which rays are traced, and their light.
-#[derive(Debug)]
-pub(super) struct PointScratch<C> {
+/// Points of which rays are traced.
+#[derive(Debug, Default)]
+pub(super) struct PointScratch {
     /// In dots from the picture's upper left corner.
     pub points: Vec<[f64; 2]>,
     /// The same, as many as a packet has rays.
     pub packets: Vec<PointPacket>,
-    pub light: Vec<C>,
-}
-
-impl<C> Default for PointScratch<C> {
-    fn default() -> Self {
-        Self { points: Vec::new(), packets: Vec::new(), light: Vec::new() }
-    }
 }
 
 /// Memory of workers that have nothing in hand. Taken anew for each piece of work, since rayon would make

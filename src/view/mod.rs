@@ -2,6 +2,7 @@
 
 mod block;
 mod direction;
+mod edge_model;
 mod framing;
 mod pinhole;
 mod point_packet;
@@ -11,6 +12,7 @@ mod tile_camera;
 
 pub use block::{BLOCK, Block};
 pub use direction::{all_settled, settled};
+pub use edge_model::{EdgeModel, Extent, FITTED, Share};
 pub use framing::framed;
 pub use pinhole::{Picture, PinholeCamera};
 pub use point_packet::PointPacket;

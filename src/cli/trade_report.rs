@@ -15,8 +15,8 @@ use super::error::visible;
 use super::stats;
 use super::trade_line::CommandLine;
 
-/// Columns and rows of the plot where no terminal says how wide it is: those of the smallest screen, with room
-/// for the shell's prompt.
+/// Columns and rows of the plot where no terminal says how wide it is: those of the smallest screen, with
+/// room for the shell's prompt.
 pub const PLOT: Rect = Rect::new(0, 0, 79, 20);
 
 /// The narrowest and the widest plot, in columns: the widget's least, and what still is a plot at four times

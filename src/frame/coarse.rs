@@ -13,8 +13,8 @@ use super::{Frame, Request, Wants};
 
 impl Request {
     /// The request of a picture of the same view whose dots are `factor` times as wide and as high, 1 or
-    /// more. Where these do not come out even, they reach as far beyond each edge as beyond the opposite one, and
-    /// the middle of the picture stays where it is: nothing jumps when the finer picture follows.
+    /// more. Where these do not come out even, they reach as far beyond each edge as beyond the opposite
+    /// one, and the middle of the picture stays where it is: nothing jumps when the finer picture follows.
     #[must_use]
     pub fn coarser(&self, factor: u32) -> Self {
         let dots = fewer(self.dots, factor);

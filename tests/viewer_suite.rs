@@ -65,7 +65,13 @@ impl Reading for Pty {
 
     fn eye(&self) -> String {
         let status = self.row(self.size().rows - 3);
-        status.split("EYE").nth(1).and_then(|rest| rest.split("DIR").next()).unwrap_or_default().trim().to_owned()
+        status
+            .split("EYE")
+            .nth(1)
+            .and_then(|rest| rest.split("DIR").next())
+            .unwrap_or_default()
+            .trim()
+            .to_owned()
     }
 
     fn rays(&self) -> String {

@@ -65,7 +65,13 @@ impl Reading for Pty {
 
     fn eye(&self) -> String {
         let status = self.row(self.size().rows - 3);
-        status.split("EYE").nth(1).and_then(|rest| rest.split("DIR").next()).unwrap_or_default().to_owned()
+        status
+            .split("EYE")
+            .nth(1)
+            .and_then(|rest| rest.split("DIR").next())
+            .unwrap_or_default()
+            .trim()
+            .to_owned()
     }
 
     fn rays(&self) -> String {
@@ -275,8 +281,7 @@ fn a_picture_is_coarse_while_the_eye_moves_and_refined_at_rest() {
 #[test]
 fn a_key_does_not_wait_for_a_picture_that_is_refined() {
     // With an error so small every dot at an edge has all its rays.
-    let mut pty =
-        Pty::start(&[VIEWER, "glass", "--error", "1e-9", "--threads", "1"], Size { columns: 200, rows: 60 });
+    let mut pty = Pty::start(&[VIEWER, "glass", "--error", "1e-9", "--threads", "1"], SMALLEST);
     pty.wait_for("the first picture", |pty| pty.drawn() && pty.rays() == "1 a dot");
     for _ in 0..3 {
         let eye = pty.eye();

@@ -1,5 +1,5 @@
-//! With how many rays a picture is drawn: few enough while the eye moves that it keeps up, then more and more,
-//! until it is what was asked for. No thread and no clock: times are given.
+//! With how many rays a picture is drawn: few enough while the eye moves that it keeps up, then more and
+//! more, until it is what was asked for. No thread and no clock: times are given.
 
 use std::fmt::{self, Display, Formatter};
 use std::time::{Duration, Instant};
@@ -10,8 +10,8 @@ use crate::stage::GiveUp;
 
 use super::Painter;
 
-/// The largest dots are so many times as wide and as high as those of the whole picture: of characters of 2 × 4
-/// dots, those of four by two. With larger ones nobody finds the way.
+/// The largest dots are so many times as wide and as high as those of the whole picture: of characters of
+/// 2 × 4 dots, those of four by two. With larger ones nobody finds the way.
 const COARSEST: u32 = 8;
 
 /// A picture that nobody wants any more is given up when it has taken so many times the time of a picture;

@@ -19,8 +19,8 @@ pub struct Settings {
     pub camera: Option<Camera>,
     /// Shading model, shadows, structure, threads; and how many rays a dot has when nothing moves.
     pub options: Options,
-    /// The time of a picture while the eye moves: where one ray a dot takes longer, there are fewer and larger
-    /// dots until nothing moves. Absent where pictures take what they take.
+    /// The time of a picture while the eye moves: where one ray a dot takes longer, there are fewer and
+    /// larger dots until nothing moves. Absent where pictures take what they take.
     pub frame_time: Option<Duration>,
     /// Whether, where `options` have one ray a dot, the picture is anti-aliased when nothing moves: with as
     /// many rays as each dot needs for [`ERROR`](crate::plan::ERROR).

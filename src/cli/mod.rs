@@ -142,8 +142,8 @@ fn load(
     Ok((studio, settings))
 }
 
-/// Pictures a second while the eye moves, where nothing is asked for: as many as the viewer sends through mosh
-/// and tmux, and enough to look like motion.
+/// Pictures a second while the eye moves, where nothing is asked for: as many as the viewer sends through
+/// mosh and tmux, and enough to look like motion.
 const FPS: f64 = 20.0;
 
 /// The time of a picture where there are so many in a second; none where there are 0.

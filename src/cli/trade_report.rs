@@ -15,13 +15,17 @@ use super::error::visible;
 use super::stats;
 use super::trade_line::CommandLine;
 
-/// Columns and rows of the plot where no terminal says how wide it is: those of the smallest screen, with room
-/// for the shell's prompt.
+/// Columns and rows of the plot where no terminal says how wide it is: those of the smallest screen, with
+/// room for the shell's prompt.
 pub const PLOT: Rect = Rect::new(0, 0, 79, 20);
 
 /// The narrowest and the widest plot, in columns: the widget's least, and what still is a plot at four times
 /// the width of its height.
 const PLOT_COLUMNS: [u16; 2] = [40, 160];
+
+/// Fewer rays a dot do not know how far they are off: two see neither an edge in a corner of a dot nor how
+/// light bends (`tests/trade/reference.rs` holds the error of 8).
+const KNOWING_RAYS: u32 = 8;
 
 /// The columns of text in a file.
 const TEXT_COLUMNS: u16 = 100;
@@ -294,9 +298,11 @@ impl Report<'_> {
         };
         let flicker =
             reference.shimmer().map_or(String::new(), |own| format!("; flickers by {own:.2} itself"));
+        let guess =
+            if reference.rays() < KNOWING_RAYS { " (a guess: its rays are too few to know)" } else { "" };
         format!(
             "The reference: {} rays for each of {} × {} dots, {exact}{flicker}. \
-             Its own error: {} of the levels wrong, {:.3} levels RMS; that is {aim} of the {} to be told apart.",
+             Its own error: {} of the levels wrong, {:.3} levels RMS{guess}; that is {aim} of the {} to be told apart.",
             reference.rays(),
             dots.width,
             dots.height,

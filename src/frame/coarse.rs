@@ -12,9 +12,9 @@ use super::draw::composed;
 use super::{Frame, Request, Wants};
 
 impl Request {
-    /// The request of a picture of the same view whose dots are `factor` times as wide and as high, 1 or more.
-    /// Where these do not come out even, they reach as far beyond each edge as beyond the opposite one, and
-    /// the middle of the picture stays where it is: nothing jumps when the finer picture follows.
+    /// The request of a picture of the same view whose dots are `factor` times as wide and as high, 1 or
+    /// more. Where these do not come out even, they reach as far beyond each edge as beyond the opposite
+    /// one, and the middle of the picture stays where it is: nothing jumps when the finer picture follows.
     #[must_use]
     pub fn coarser(&self, factor: u32) -> Self {
         let dots = fewer(self.dots, factor);
@@ -113,7 +113,7 @@ mod tests {
                 assert!(
                     coarse.dots.width * factor >= dots.width && coarse.dots.height * factor >= dots.height
                 );
-                // A dot is as wide and as high as `factor` of the others: the tangents are rounded a few times.
+                // A dot is as wide and as high as `factor` others: tangents are rounded a few times.
                 let [few, many] = [coarse.dots, dots].map(|dots| [dots.width, dots.height].map(f64::from));
                 for axis in 0..2 {
                     let [one, other] =

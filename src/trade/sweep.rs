@@ -32,8 +32,8 @@ const FOR_SEARCH: f64 = 0.8;
 /// No setting whose picture is expected to take more than this part of the whole time is drawn.
 const FOR_ONE: f64 = 0.05;
 
-/// A setting that is measured is drawn so often at first: to be compared, from a view that is turned a little,
-/// without what is meant, and to be timed.
+/// A setting that is measured is drawn so often at first: to be compared, from a view that is turned a
+/// little, without what is meant, and to be timed.
 const PICTURES_OF_ONE: f64 = 4.0;
 
 /// A setting is first drawn this much narrower and lower, to see what it may take.

@@ -105,7 +105,8 @@ fn is_never_the_library_of_a_mesh() {
     // A file of that ending that nobody reads is one as any.
     let other = folder.join("other.mtl");
     fs::write(&other, "").unwrap();
-    done(&run(&["render", mesh, "-o", other.to_str().unwrap(), "--format", "txt"]));
+    let output = run(&["render", mesh, "-o", other.to_str().unwrap(), "--format", "txt"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     assert_eq!(fs::read_to_string(&library).unwrap(), "newmtl red\nKd 1 0 0\n");
 }
 

@@ -6,12 +6,12 @@
 
 use std::ops::ControlFlow;
 
-use fearless_simd::Simd;
+use fearless_simd::{Simd, SimdBase, f64x8};
 use rayon::prelude::*;
 
 use crate::bvh::{BuildPrimitive, Bvh8, MARGIN};
 use crate::math::{Bounds, DVec3, LANES, Lanes, Mask, Number, Placement, Ray, RayPacket, Vector};
-use crate::math::{REGISTERS, Rays, lanes};
+use crate::math::{REGISTERS, Rays};
 use crate::scene;
 
 use super::ray_shear::{OnPlane, RayShear, plane_crossing, planes_met};
@@ -108,7 +108,7 @@ impl TriangleMesh {
         some: u64,
         register: usize,
         surfaces: &Lanes<u32>,
-    ) -> Vector<fearless_simd::f64x8<S>> {
+    ) -> Vector<f64x8<S>> {
         normals(&self.gathered(simd, some, register, surfaces))
     }
 
@@ -120,28 +120,29 @@ impl TriangleMesh {
         some: u64,
         register: usize,
         surfaces: &Lanes<u32>,
-    ) -> [Vector<fearless_simd::f64x8<S>>; 3] {
+    ) -> [Vector<f64x8<S>>; 3] {
         let mut numbers = [[[0.0; LANES]; 3]; 3];
-        for lane in lanes(some) {
+        let mut rest = some;
+        while rest != 0 {
+            let lane = rest.trailing_zeros() as usize % LANES;
+            rest &= rest - 1;
             let corners = self.corners(surfaces.0[register * LANES + lane]);
-            for (to, corner) in numbers.iter_mut().zip(corners) {
-                (to[0][lane], to[1][lane], to[2][lane]) = (corner.x, corner.y, corner.z);
+            for corner in 0..3 {
+                for axis in 0..3 {
+                    numbers[corner][axis][lane] = corners[corner][axis];
+                }
             }
         }
-        numbers.map(
-            #[inline(always)]
-            |[x, y, z]| Vector {
-                x: fearless_simd::SimdBase::from_slice(simd, &x),
-                y: fearless_simd::SimdBase::from_slice(simd, &y),
-                z: fearless_simd::SimdBase::from_slice(simd, &z),
-            },
-        )
+        // Not by `map`, whose closure is compiled by itself, for any processor.
+        let [a, b, c] = &numbers;
+        [vector(simd, a), vector(simd, b), vector(simd, c)]
     }
 
     /// The corners of a triangle.
     #[inline(always)]
     pub fn corners(&self, surface: u32) -> [DVec3; 3] {
-        self.triangles[surface as usize].map(|corner| self.points[corner as usize])
+        let [a, b, c] = self.triangles[surface as usize];
+        [self.points[a as usize], self.points[b as usize], self.points[c as usize]]
     }
 
     /// The normal of a triangle, of length 1, turned either way.
@@ -175,6 +176,12 @@ impl TriangleMesh {
     pub fn misses(&self, b: &Bounds) -> bool {
         self.bounds().meet(b).is_empty()
     }
+}
+
+/// A vector of eight.
+#[inline(always)]
+fn vector<S: Simd>(simd: S, [x, y, z]: &[[f64; LANES]; 3]) -> Vector<f64x8<S>> {
+    Vector { x: f64x8::from_slice(simd, x), y: f64x8::from_slice(simd, y), z: f64x8::from_slice(simd, z) }
 }
 
 /// The normal of a triangle, of length 1; any for one without area.

@@ -13,7 +13,7 @@ use crate::solid::Departures;
 use super::Fast;
 use super::glass::GlassTest;
 use super::memory::TileMemory;
-use super::mesh::MeshObject;
+use super::mesh_walk::MeshObject;
 use super::object::PacketTest;
 use super::packet_culler::PacketCuller;
 use super::packet_hits::HitCandidate;

@@ -14,10 +14,11 @@ use crate::math::{Bounds, DVec3, LANES, Lanes, Mask, Number, Placement, Ray, Ray
 use crate::math::{REGISTERS, Rays};
 use crate::scene;
 
+use super::csg_query::PacketCrossings;
 use super::ray_shear::{OnPlane, RayShear, plane_crossing, planes_met};
 use super::span::{End, WORLD, rounding_at};
 
-/// Triangles that one thread takes at a time.
+/// Points or triangles that one thread takes at a time: fewer are done before another thread could begin.
 const STRETCH: usize = 8192;
 
 /// A closed surface of triangles, in the world.
@@ -36,15 +37,12 @@ pub struct TriangleMesh {
 impl TriangleMesh {
     /// The triangles of `unit`, put at `place`, which may be off by `map_error`.
     pub fn new(unit: &scene::Mesh, place: &Placement, map_error: DVec3) -> Self {
-        let put = |&p: &DVec3| place.linear * p + place.center;
-        let points: Vec<DVec3> = unit.points.par_iter().with_min_len(STRETCH).map(put).collect();
+        let points = mapped(&unit.points, |&p| place.linear * p + place.center);
         // Corners are moved into the world: they are what crossings are computed from.
-        let lengths = points.par_iter().with_min_len(STRETCH).map(|p| p.length());
-        let reach = lengths.reduce(|| 0.0, f64::max);
+        let reach = points.iter().map(|p| p.length()).fold(0.0, f64::max);
         let place_error = rounding_at(reach) + map_error.length();
         let corners = |t: &[u32; 3]| t.map(|i| points[i as usize]);
-        let all = unit.triangles.par_iter().with_min_len(STRETCH);
-        let bounds = all.map(|t| Bounds::around(corners(t))).reduce(|| Bounds::EMPTY, |a, b| a.join(&b));
+        let bounds = Bounds::around(unit.triangles.iter().flat_map(corners));
         let is_solid = |t: &&[u32; 3]| {
             let [a, b, c] = corners(t);
             a != b && b != c && c != a
@@ -57,7 +55,7 @@ impl TriangleMesh {
             BuildPrimitive::new(&around, number as u32)
         });
         let order = boxes.renumber();
-        triangles = order.into_par_iter().with_min_len(STRETCH).map(|old| triangles[old as usize]).collect();
+        triangles = mapped(&order, |&old| triangles[old as usize]);
         Self { points, triangles, boxes, bounds, place_error }
     }
 
@@ -75,28 +73,22 @@ impl TriangleMesh {
         });
     }
 
-    /// Where some rays of a packet meet the planes of the triangles that they cross, and how far that may be
-    /// off: as [`TriangleMesh::crossings`] finds it, for triangles that are not seen edge on.
+    /// Sets where those of a packet's rays that cross any of its triangles, `found.any`, meet the planes of
+    /// the triangles that they cross, `found.surface`, and how far that may be off: as
+    /// [`TriangleMesh::crossings`] finds it, for triangles that are not seen edge on.
     #[inline(always)]
-    pub fn planes_of<S: Simd>(
-        &self,
-        simd: S,
-        packet: &RayPacket,
-        some: u64,
-        surfaces: &Lanes<u32>,
-        [t, error]: [&mut Lanes; 2],
-    ) {
+    pub fn planes_of<S: Simd>(&self, simd: S, packet: &RayPacket, found: &mut PacketCrossings) {
         for register in 0..REGISTERS {
-            let own = some >> (register * LANES) & 0xFF;
+            let own = found.any >> (register * LANES) & 0xFF;
             if own == 0 {
                 continue;
             }
             let rays = packet.load(simd, register);
-            let corners = self.gathered(simd, own, register, surfaces);
-            let OnPlane { t: own_t, error: own_error, .. } =
-                planes_met(&rays, normals(&corners), nearest_of(&rays, &corners), self.place_error);
-            t.store(register, own_t);
-            error.store(register, own_error);
+            let corners = self.gathered(simd, own, register, &found.surface);
+            let anchors = nearest_of(&rays, &corners);
+            let OnPlane { t, error, .. } = planes_met(&rays, normals(&corners), anchors, self.place_error);
+            found.t.store(register, t);
+            found.error.store(register, error);
         }
     }
 
@@ -176,6 +168,14 @@ impl TriangleMesh {
     pub fn misses(&self, b: &Bounds) -> bool {
         self.bounds().meet(b).is_empty()
     }
+}
+
+/// Each of them by `f`; by all threads where they are many.
+fn mapped<T: Sync, U: Send>(items: &[T], f: impl Fn(&T) -> U + Send + Sync) -> Vec<U> {
+    if items.len() < STRETCH {
+        return items.iter().map(f).collect();
+    }
+    items.par_iter().with_min_len(STRETCH).map(f).collect()
 }
 
 /// A vector of eight.

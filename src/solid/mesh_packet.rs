@@ -154,7 +154,8 @@ impl MeshPacket {
                 spread = if o > spread { o } else { spread };
             }
             // What is not a number is not within.
-            if !(farthest < WITHIN) {
+            let is_within = farthest < WITHIN;
+            if !is_within {
                 return false;
             }
         }
@@ -236,9 +237,9 @@ impl MeshPacket {
             let mut sides = [dot(&d, &moments[0]), dot(&d, &moments[1]), dot(&d, &moments[2])];
             if is_spread {
                 let m = rows(simd, &self.moment, row);
-                sides[0] = sides[0] + dot(&m, &edges[0]);
-                sides[1] = sides[1] + dot(&m, &edges[1]);
-                sides[2] = sides[2] + dot(&m, &edges[2]);
+                sides[0] += dot(&m, &edges[0]);
+                sides[1] += dot(&m, &edges[1]);
+                sides[2] += dot(&m, &edges[2]);
             }
             let least = sides[0].min(sides[1]).min(sides[2]);
             let most = sides[0].max(sides[1]).max(sides[2]);
@@ -251,7 +252,7 @@ impl MeshPacket {
             let inverse = f32x16::splat(simd, 1.0) / towards;
             let mut height = height;
             if is_spread {
-                height = height - dot(&rows(simd, &self.o, row), &normal);
+                height -= dot(&rows(simd, &self.o, row), &normal);
             }
             let t = height * inverse;
             let share = f32x16::splat(simd, LOST_OF_DISTANCE as f32);

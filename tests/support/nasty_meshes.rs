@@ -141,7 +141,7 @@ pub fn nasty() -> Vec<Nasty> {
             "tiny triangles beside large ones",
             and(cube(5, 1.0), &moved(ball(5, 1e-6, 0.1), |p| p + 1.0 + 1e-5)),
         ),
-        Nasty { name: "ten thousand triangles at a corner", mesh: fan(5_000, 1e-4), dots: 5 },
+        Nasty { name: "ten thousand triangles at a corner", mesh: fan(10_000, 1e-4), dots: 5 },
     ];
     for nasty in &mut all {
         // One more point that no triangle has must not matter.

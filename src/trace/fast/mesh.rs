@@ -3,8 +3,8 @@
 
 use fearless_simd::Simd;
 
-use crate::math::{DVec3, Lanes, Ray, RayPacket, lanes};
-use crate::solid::{Departures, MeshAnswer, MeshQuery};
+use crate::math::{DVec3, Lanes, Ray, lanes};
+use crate::solid::{MeshAnswer, MeshQuery};
 
 use super::Fast;
 use super::memory::TileMemory;
@@ -12,6 +12,7 @@ use super::mesh_walk::{KnownStart, MeshObject, walk_mesh};
 use super::object::PacketTest;
 use super::precision::Precision;
 use super::sink::{HitSink, offer_crossings};
+use super::source::PacketSource;
 
 impl Fast<'_> {
     /// What a packet's rays cross first of a mesh. Answers whether any ray may have met it.
@@ -23,32 +24,28 @@ impl Fast<'_> {
         sink: &mut H,
         memory: &mut TileMemory,
     ) -> bool {
-        let (packet, departures) = (test.source.full_rays, test.source.full_departures);
-        let MeshAnswer { hits, uncertain } =
-            self.mesh_answer(simd, of, (packet, departures), test.k, test.passing, memory);
+        let (source, packet) = (test.source.full(), test.source.full_rays);
+        let MeshAnswer { hits, uncertain } = self.mesh_answer(simd, of, source, test.k, test.passing, memory);
         sink.mark_uncertain(uncertain);
         if hits == 0 {
             return false;
         }
-        let mut found = std::mem::take(&mut memory.doubles.found);
+        let TileMemory { mesh, mesh_start, doubles, .. } = memory;
+        let found = &mut *doubles.found;
         simd.vectorize(
             #[inline(always)]
             || {
-                let surfaces = memory.mesh.surfaces();
-                let numbers = [&mut found.t, &mut found.error];
-                of.mesh.planes_of(simd, packet, hits, surfaces, numbers);
-                found.surface = *surfaces;
+                (found.any, found.uncertain, found.entering) = (hits, 0, 0);
+                found.surface = *mesh.surfaces();
+                found.primitive = Lanes::filled(of.primitive);
+                of.mesh.planes_of(simd, packet, found);
             },
         );
-        (found.any, found.uncertain) = (hits, 0);
-        found.primitive = Lanes::filled(of.primitive);
-        found.entering = 0;
         for lane in lanes(hits) {
-            let enters = self.enters(of, &packet.ray(lane), found.t.0[lane], memory);
+            let enters = self.enters(of, &packet.ray(lane), found.t.0[lane], mesh_start);
             found.entering |= u64::from(enters) << lane;
         }
-        offer_crossings(simd, &found, of.object, sink);
-        memory.doubles.found = found;
+        offer_crossings(simd, found, of.object, sink);
         true
     }
 
@@ -57,7 +54,7 @@ impl Fast<'_> {
         &self,
         simd: S,
         of: &MeshObject,
-        (packet, departures): (&RayPacket, Option<&Departures>),
+        source: PacketSource,
         k: usize,
         wanted: u64,
         memory: &mut TileMemory,
@@ -69,9 +66,9 @@ impl Fast<'_> {
             #[inline(always)]
             || {
                 let query = MeshQuery {
-                    packet,
+                    packet: source.rays,
                     wanted,
-                    departures,
+                    departures: source.departures,
                     primitive: of.primitive,
                     limits: &cullers[k].limits(),
                     place_error: self.assembly.place_error,
@@ -87,23 +84,25 @@ impl Fast<'_> {
         )
     }
 
-    /// Whether a ray goes into a mesh where it first crosses it, at `t`: whether it starts outside.
-    fn enters(&self, of: &MeshObject, ray: &Ray, t: f64, memory: &mut TileMemory) -> bool {
+    /// Whether a ray goes into a mesh where it first crosses it, at `t`: whether it starts outside. `start` keeps
+    /// where many rays start, as those of a tile from the eye do.
+    fn enters(&self, of: &MeshObject, ray: &Ray, t: f64, start: &mut Option<KnownStart>) -> bool {
         let slack = DVec3::splat(self.slack);
         let b = of.mesh.bounds().padded(slack);
         if ray.o.cmplt(b.lo).any() || ray.o.cmpgt(b.hi).any() {
             return true;
         }
-        if let Some(known) = memory.mesh_start {
-            if known.primitive == of.primitive && known.o == ray.o {
-                return !known.inside;
-            }
+        if let Some(known) = start
+            && known.primitive == of.primitive
+            && known.o == ray.o
+        {
+            return !known.inside;
         }
         let mut before = 0_u32;
         of.mesh.crossings(ray, |end| before += u32::from(end.t < t));
         let inside = before % 2 == 1;
         if !of.mesh.boxes().has_near(ray.o) {
-            memory.mesh_start = Some(KnownStart { primitive: of.primitive, o: ray.o, inside });
+            *start = Some(KnownStart { primitive: of.primitive, o: ray.o, inside });
         }
         !inside
     }

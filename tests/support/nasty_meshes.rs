@@ -162,7 +162,7 @@ impl Nasty {
         }
     }
 
-    /// Looks from outside at the middle and at a corner, from inside, and along an edge and the face beside it.
+    /// Looks from outside at the middle and at a corner, from inside, and along an edge and a face.
     pub fn cameras(&self) -> Vec<Camera> {
         let (points, triangles) = (&self.mesh.points, &self.mesh.triangles);
         let used = || triangles.iter().flatten().map(|&i| points[i as usize]);

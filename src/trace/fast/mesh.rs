@@ -84,8 +84,8 @@ impl Fast<'_> {
         )
     }
 
-    /// Whether a ray goes into a mesh where it first crosses it, at `t`: whether it starts outside. `start` keeps
-    /// where many rays start, as those of a tile from the eye do.
+    /// Whether a ray goes into a mesh where it first crosses it, at `t`: whether it starts outside. `start`
+    /// keeps where many rays start, as those of a tile from the eye do.
     fn enters(&self, of: &MeshObject, ray: &Ray, t: f64, start: &mut Option<KnownStart>) -> bool {
         let slack = DVec3::splat(self.slack);
         let b = of.mesh.bounds().padded(slack);

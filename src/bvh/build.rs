@@ -23,17 +23,26 @@ const SETTLED: usize = 4096;
 /// The nodes over the boxes of `count` objects; the root is the first. Neither the number of threads nor the
 /// level changes anything about them.
 pub fn built(level: Level, count: usize, reach: impl Fn(usize) -> BuildPrimitive + Send + Sync) -> Vec<Node> {
-    let mut items = Vec::new();
-    (0..count).into_par_iter().with_min_len(SETTLED).map(reach).collect_into_vec(&mut items);
+    // What is few is not worth the way to other threads: a scene may have thousands of small meshes.
+    let are_few = count <= SETTLED;
+    let mut items: Vec<BuildPrimitive> = Vec::new();
+    if are_few {
+        items.extend((0..count).map(reach));
+    } else {
+        (0..count).into_par_iter().with_min_len(SETTLED).map(reach).collect_into_vec(&mut items);
+    }
     let mut nodes = Vec::new();
     if items.is_empty() {
         nodes.push(Node::EMPTY);
         return nodes;
     }
-    let about = items
-        .par_chunks(SETTLED)
-        .map(|items| dispatch!(level, simd => About::all(simd, items)))
-        .reduce(|| About::NOTHING, |a, b| dispatch!(level, simd => a.with(simd, &b)));
+    let of_all = |items: &[BuildPrimitive]| dispatch!(level, simd => About::all(simd, items));
+    let about = if are_few {
+        of_all(&items)
+    } else {
+        let all = items.par_chunks(SETTLED).map(of_all);
+        all.reduce(|| About::NOTHING, |a, b| dispatch!(level, simd => a.with(simd, &b)))
+    };
     let root = grown(level, &mut items, &about, 0);
     lay(&root, &mut nodes);
     nodes

@@ -47,6 +47,7 @@ impl BuildPrimitive {
     }
 
     /// The box of a ball that it tells.
+    #[must_use]
     pub fn round(mut self) -> Self {
         self.0[OBJECT] = f32::from_bits(self.object() | ROUND);
         self

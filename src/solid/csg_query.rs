@@ -139,12 +139,6 @@ impl<T: Real> PacketCrossings<T> {
     };
 }
 
-impl<T: Real> Default for PacketCrossings<T> {
-    fn default() -> Self {
-        Self::NONE
-    }
-}
-
 impl PacketCrossings {
     /// Sets the crossing of one ray.
     pub fn set(&mut self, lane: usize, crossing: &Crossing) {

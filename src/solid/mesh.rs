@@ -6,18 +6,19 @@
 
 use std::ops::ControlFlow;
 
-use fearless_simd::Simd;
+use fearless_simd::{Simd, SimdBase, f64x8};
 use rayon::prelude::*;
 
 use crate::bvh::{BuildPrimitive, Bvh8, MARGIN};
 use crate::math::{Bounds, DVec3, LANES, Lanes, Mask, Number, Placement, Ray, RayPacket, Vector};
-use crate::math::{REGISTERS, Rays, lanes};
+use crate::math::{REGISTERS, Rays};
 use crate::scene;
 
+use super::csg_query::PacketCrossings;
 use super::ray_shear::{OnPlane, RayShear, plane_crossing, planes_met};
 use super::span::{End, WORLD, rounding_at};
 
-/// Triangles that one thread takes at a time.
+/// Points or triangles that one thread takes at a time: fewer are done before another thread could begin.
 const STRETCH: usize = 8192;
 
 /// A closed surface of triangles, in the world.
@@ -36,15 +37,12 @@ pub struct TriangleMesh {
 impl TriangleMesh {
     /// The triangles of `unit`, put at `place`, which may be off by `map_error`.
     pub fn new(unit: &scene::Mesh, place: &Placement, map_error: DVec3) -> Self {
-        let put = |&p: &DVec3| place.linear * p + place.center;
-        let points: Vec<DVec3> = unit.points.par_iter().with_min_len(STRETCH).map(put).collect();
+        let points = mapped(&unit.points, |&p| place.linear * p + place.center);
         // Corners are moved into the world: they are what crossings are computed from.
-        let lengths = points.par_iter().with_min_len(STRETCH).map(|p| p.length());
-        let reach = lengths.reduce(|| 0.0, f64::max);
+        let reach = points.iter().map(|p| p.length()).fold(0.0, f64::max);
         let place_error = rounding_at(reach) + map_error.length();
         let corners = |t: &[u32; 3]| t.map(|i| points[i as usize]);
-        let all = unit.triangles.par_iter().with_min_len(STRETCH);
-        let bounds = all.map(|t| Bounds::around(corners(t))).reduce(|| Bounds::EMPTY, |a, b| a.join(&b));
+        let bounds = Bounds::around(unit.triangles.iter().flat_map(corners));
         let is_solid = |t: &&[u32; 3]| {
             let [a, b, c] = corners(t);
             a != b && b != c && c != a
@@ -57,7 +55,7 @@ impl TriangleMesh {
             BuildPrimitive::new(&around, number as u32)
         });
         let order = boxes.renumber();
-        triangles = order.into_par_iter().with_min_len(STRETCH).map(|old| triangles[old as usize]).collect();
+        triangles = mapped(&order, |&old| triangles[old as usize]);
         Self { points, triangles, boxes, bounds, place_error }
     }
 
@@ -75,28 +73,22 @@ impl TriangleMesh {
         });
     }
 
-    /// Where some rays of a packet meet the planes of the triangles that they cross, and how far that may be
-    /// off: as [`TriangleMesh::crossings`] finds it, for triangles that are not seen edge on.
+    /// Sets where those of a packet's rays that cross any of its triangles, `found.any`, meet the planes of
+    /// the triangles that they cross, `found.surface`, and how far that may be off: as
+    /// [`TriangleMesh::crossings`] finds it, for triangles that are not seen edge on.
     #[inline(always)]
-    pub fn planes_of<S: Simd>(
-        &self,
-        simd: S,
-        packet: &RayPacket,
-        some: u64,
-        surfaces: &Lanes<u32>,
-        [t, error]: [&mut Lanes; 2],
-    ) {
+    pub fn planes_of<S: Simd>(&self, simd: S, packet: &RayPacket, found: &mut PacketCrossings) {
         for register in 0..REGISTERS {
-            let own = some >> (register * LANES) & 0xFF;
+            let own = found.any >> (register * LANES) & 0xFF;
             if own == 0 {
                 continue;
             }
             let rays = packet.load(simd, register);
-            let corners = self.gathered(simd, own, register, surfaces);
-            let OnPlane { t: own_t, error: own_error, .. } =
-                planes_met(&rays, normals(&corners), nearest_of(&rays, &corners), self.place_error);
-            t.store(register, own_t);
-            error.store(register, own_error);
+            let corners = self.gathered(simd, own, register, &found.surface);
+            let anchors = nearest_of(&rays, &corners);
+            let OnPlane { t, error, .. } = planes_met(&rays, normals(&corners), anchors, self.place_error);
+            found.t.store(register, t);
+            found.error.store(register, error);
         }
     }
 
@@ -108,7 +100,7 @@ impl TriangleMesh {
         some: u64,
         register: usize,
         surfaces: &Lanes<u32>,
-    ) -> Vector<fearless_simd::f64x8<S>> {
+    ) -> Vector<f64x8<S>> {
         normals(&self.gathered(simd, some, register, surfaces))
     }
 
@@ -120,28 +112,29 @@ impl TriangleMesh {
         some: u64,
         register: usize,
         surfaces: &Lanes<u32>,
-    ) -> [Vector<fearless_simd::f64x8<S>>; 3] {
+    ) -> [Vector<f64x8<S>>; 3] {
         let mut numbers = [[[0.0; LANES]; 3]; 3];
-        for lane in lanes(some) {
+        let mut rest = some;
+        while rest != 0 {
+            let lane = rest.trailing_zeros() as usize % LANES;
+            rest &= rest - 1;
             let corners = self.corners(surfaces.0[register * LANES + lane]);
-            for (to, corner) in numbers.iter_mut().zip(corners) {
-                (to[0][lane], to[1][lane], to[2][lane]) = (corner.x, corner.y, corner.z);
+            for corner in 0..3 {
+                for axis in 0..3 {
+                    numbers[corner][axis][lane] = corners[corner][axis];
+                }
             }
         }
-        numbers.map(
-            #[inline(always)]
-            |[x, y, z]| Vector {
-                x: fearless_simd::SimdBase::from_slice(simd, &x),
-                y: fearless_simd::SimdBase::from_slice(simd, &y),
-                z: fearless_simd::SimdBase::from_slice(simd, &z),
-            },
-        )
+        // Not by `map`, whose closure is compiled by itself, for any processor.
+        let [a, b, c] = &numbers;
+        [vector(simd, a), vector(simd, b), vector(simd, c)]
     }
 
     /// The corners of a triangle.
     #[inline(always)]
     pub fn corners(&self, surface: u32) -> [DVec3; 3] {
-        self.triangles[surface as usize].map(|corner| self.points[corner as usize])
+        let [a, b, c] = self.triangles[surface as usize];
+        [self.points[a as usize], self.points[b as usize], self.points[c as usize]]
     }
 
     /// The normal of a triangle, of length 1, turned either way.
@@ -175,6 +168,20 @@ impl TriangleMesh {
     pub fn misses(&self, b: &Bounds) -> bool {
         self.bounds().meet(b).is_empty()
     }
+}
+
+/// Each of them by `f`; by all threads where they are many.
+fn mapped<T: Sync, U: Send>(items: &[T], f: impl Fn(&T) -> U + Send + Sync) -> Vec<U> {
+    if items.len() < STRETCH {
+        return items.iter().map(f).collect();
+    }
+    items.par_iter().with_min_len(STRETCH).map(f).collect()
+}
+
+/// A vector of eight.
+#[inline(always)]
+fn vector<S: Simd>(simd: S, [x, y, z]: &[[f64; LANES]; 3]) -> Vector<f64x8<S>> {
+    Vector { x: f64x8::from_slice(simd, x), y: f64x8::from_slice(simd, y), z: f64x8::from_slice(simd, z) }
 }
 
 /// The normal of a triangle, of length 1; any for one without area.

@@ -154,7 +154,8 @@ impl MeshPacket {
                 spread = if o > spread { o } else { spread };
             }
             // What is not a number is not within.
-            if !(farthest < WITHIN) {
+            let is_within = farthest < WITHIN;
+            if !is_within {
                 return false;
             }
         }
@@ -170,11 +171,12 @@ impl MeshPacket {
                 }
             }
         }
-        let apart = (2.0 * place_error + f64::from(f32::MIN_POSITIVE)) as f32;
+        // Limits are up to four roundings and a slack of four times `place_error` beyond what they stand for.
+        let apart = (8.0 * place_error + f64::from(f32::MIN_POSITIVE)) as f32;
         for lane in 0..PACKET {
             let asks = wanted >> lane & 1 == 1;
             self.t[lane] = if asks { limits[lane] } else { f32::NEG_INFINITY };
-            let lost = self.t[lane] * (4.0 * HALF_ULP as f32) + apart;
+            let lost = self.t[lane] * (16.0 * HALF_ULP as f32) + apart;
             self.error[lane] = if lost.is_finite() { lost } else { 0.0 };
             self.second[lane] = f32::INFINITY;
         }
@@ -206,18 +208,17 @@ impl MeshPacket {
     /// Intersects the rays with a triangle, whose box lies no nearer to any start than `near`.
     #[inline(always)]
     pub fn intersect<S: Simd>(&mut self, simd: S, [a, b, c]: [DVec3; 3], surface: u32, near: f32) {
-        let size = |v: DVec3| v.abs().element_sum();
         let (ab, bc, ca) = (b - a, c - b, a - c);
         let normal = ab.cross(c - a);
         let (a, b, c) = (a - self.base, b - self.base, c - self.base);
         let (m_ab, m_bc, m_ca) = (a.cross(ab), b.cross(bc), c.cross(ca));
-        let longest = size(ab).max(size(bc)).max(size(ca));
-        let far = size(a).max(size(b)).max(size(c)) + self.spread;
-        let bound = LOST_OF_MOMENT * size(m_ab).max(size(m_bc)).max(size(m_ca))
-            + LOST_OF_EDGE * self.spread * longest
-            + LOST_OF_SQUARE * far * far;
+        let longest = larger(larger(one_norm(ab), one_norm(bc)), one_norm(ca));
+        let far = larger(larger(one_norm(a), one_norm(b)), one_norm(c)) + self.spread;
+        let moment = larger(larger(one_norm(m_ab), one_norm(m_bc)), one_norm(m_ca));
+        let bound =
+            LOST_OF_MOMENT * moment + LOST_OF_EDGE * self.spread * longest + LOST_OF_SQUARE * far * far;
         let bound = f32x16::splat(simd, bound as f32);
-        let area = size(normal);
+        let area = one_norm(normal);
         // Else never steep.
         let is_plain = area > FLAT * longest * longest && PLAIN_EDGES.contains(&longest);
         let steep = if is_plain { 2.0 * STEEP * area } else { f64::INFINITY };
@@ -236,9 +237,9 @@ impl MeshPacket {
             let mut sides = [dot(&d, &moments[0]), dot(&d, &moments[1]), dot(&d, &moments[2])];
             if is_spread {
                 let m = rows(simd, &self.moment, row);
-                sides[0] = sides[0] + dot(&m, &edges[0]);
-                sides[1] = sides[1] + dot(&m, &edges[1]);
-                sides[2] = sides[2] + dot(&m, &edges[2]);
+                sides[0] += dot(&m, &edges[0]);
+                sides[1] += dot(&m, &edges[1]);
+                sides[2] += dot(&m, &edges[2]);
             }
             let least = sides[0].min(sides[1]).min(sides[2]);
             let most = sides[0].max(sides[1]).max(sides[2]);
@@ -251,7 +252,7 @@ impl MeshPacket {
             let inverse = f32x16::splat(simd, 1.0) / towards;
             let mut height = height;
             if is_spread {
-                height = height - dot(&rows(simd, &self.o, row), &normal);
+                height -= dot(&rows(simd, &self.o, row), &normal);
             }
             let t = height * inverse;
             let share = f32x16::splat(simd, LOST_OF_DISTANCE as f32);
@@ -305,6 +306,18 @@ impl MeshPacket {
     pub fn surfaces(&self) -> &Lanes<u32> {
         &self.surface
     }
+}
+
+/// The length of a vector as its components add up, without their signs.
+#[inline(always)]
+fn one_norm(v: DVec3) -> f64 {
+    v.x.abs() + v.y.abs() + v.z.abs()
+}
+
+/// The larger of two numbers.
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }
 
 /// A vector for sixteen.

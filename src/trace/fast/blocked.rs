@@ -13,7 +13,7 @@ use crate::solid::Departures;
 use super::Fast;
 use super::glass::GlassTest;
 use super::memory::TileMemory;
-use super::mesh::MeshObject;
+use super::mesh_walk::MeshObject;
 use super::object::PacketTest;
 use super::packet_culler::PacketCuller;
 use super::packet_hits::HitCandidate;
@@ -113,8 +113,8 @@ impl BlockedVisitor<'_, '_> {
         let ShadowPacket { rays, distance, blocked, uncertain, .. } = &mut self.shadow_packets[k];
         if let Some((primitive, mesh)) = self.fast.assembly.mesh(object) {
             let of = MeshObject { object, primitive, mesh };
-            let packet = (&*rays, Some(&self.departures[k]));
-            let answer = self.fast.mesh_answer(simd, &of, packet, k, passing, memory);
+            let source = PacketSource::new(rays, Some(&self.departures[k]));
+            let answer = self.fast.mesh_answer(simd, &of, source, k, passing, memory);
             *blocked |= answer.hits;
             *uncertain |= answer.uncertain;
             return;

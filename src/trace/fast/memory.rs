@@ -9,7 +9,7 @@ use crate::stage::Counts;
 
 use super::cell_rays::{CellItem, CellRays};
 use super::incoherent::IncoherentRays;
-use super::mesh::{KnownStart, MeshItem};
+use super::mesh_walk::{KnownStart, MeshItem};
 use super::packet_culler::PacketCuller;
 use super::packet_hits::PacketHits;
 use super::reordering::RayReordering;

@@ -15,6 +15,7 @@ mod glass;
 mod incoherent;
 mod memory;
 mod mesh;
+mod mesh_walk;
 mod object;
 mod packet_culler;
 mod packet_hits;

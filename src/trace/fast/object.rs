@@ -12,7 +12,7 @@ use super::Fast;
 use super::cells::CellsTest;
 use super::composite::CompositeTest;
 use super::memory::TileMemory;
-use super::mesh::MeshObject;
+use super::mesh_walk::MeshObject;
 use super::packet_culler::{PacketCuller, Slabs};
 use super::packet_hits::{Faces, HitCandidate};
 use super::precision::Precision;

@@ -1,0 +1,88 @@
+//! The walk of a packet's frustum through the boxes of a mesh, the nearest first: rays are intersected with
+//! the triangles that it meets.
+
+use fearless_simd::Simd;
+
+use crate::bvh::{BvhChild, WIDE};
+use crate::lattice::Frustum;
+use crate::math::DVec3;
+use crate::solid::{MeshPacket, TriangleMesh};
+
+/// A node of a mesh that is to be walked.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct MeshItem {
+    /// No ray meets it nearer than this.
+    near: f32,
+    node: u32,
+}
+
+/// A mesh that is an object, by its indices in the assembly.
+#[derive(Clone, Copy)]
+pub(super) struct MeshObject<'a> {
+    pub object: u32,
+    pub primitive: u32,
+    pub mesh: &'a TriangleMesh,
+}
+
+/// A point that many rays start from, and on which side of a mesh it lies.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct KnownStart {
+    /// The mesh, by its index among the primitives.
+    pub primitive: u32,
+    pub o: DVec3,
+    pub inside: bool,
+}
+
+/// Walks the boxes of a mesh with a packet's frustum. Answers how many nodes and triangles were looked at.
+#[inline(always)]
+pub(super) fn walk_mesh<S: Simd>(
+    simd: S,
+    mesh: &TriangleMesh,
+    frustum: &Frustum,
+    rays: &mut MeshPacket,
+    stack: &mut Vec<MeshItem>,
+) -> [u64; 2] {
+    let nodes = mesh.boxes().nodes();
+    let (mut visited, mut tested) = (0, 0);
+    let mut farthest = rays.farthest(simd);
+    stack.clear();
+    stack.push(MeshItem { near: f32::NEG_INFINITY, node: 0 });
+    while let Some(MeshItem { near, node }) = stack.pop() {
+        if near > farthest {
+            continue;
+        }
+        visited += 1;
+        let node = &nodes[node as usize];
+        let (lo, hi) = node.sides(simd);
+        let met = frustum.meets_boxes(simd, &lo, &hi);
+        let near: [f32; WIDE] = met.near.into();
+        let mut triangles = met.boxes & !node.inner();
+        let some = triangles != 0;
+        while triangles != 0 {
+            let slot = triangles.trailing_zeros() as usize;
+            triangles &= triangles - 1;
+            let Some(BvhChild::Object(surface)) = node.child(slot) else { continue };
+            if near[slot] <= farthest {
+                tested += 1;
+                rays.intersect(simd, mesh.corners(surface), surface, near[slot]);
+            }
+        }
+        if some {
+            farthest = rays.farthest(simd);
+        }
+        let (first, mut left) = (stack.len(), met.boxes & node.inner());
+        while left != 0 {
+            let slot = left.trailing_zeros() as usize;
+            left &= left - 1;
+            let Some(BvhChild::Node(index)) = node.child(slot) else { continue };
+            let near = near[slot];
+            let mut place = stack.len();
+            stack.push(MeshItem { near, node: index });
+            while place > first && stack[place - 1].near < near {
+                stack.swap(place - 1, place);
+                place -= 1;
+            }
+        }
+    }
+    [visited, tested]
+}

@@ -118,7 +118,14 @@ impl<P: Send + 'static, E: Send + 'static> Loading<P, E> {
                 Some(Event::HungUp) => return Err(AppError::HungUp),
                 Some(Event::Failed(error)) => return Err(error.into()),
                 Some(Event::Panicked) => return Err(AppError::LoadingPanicked),
-                Some(Event::Resized | Event::Answer(_) | Event::Reached(_) | Event::Drawn(_)) | None => {}
+                Some(
+                    Event::Resized
+                    | Event::Answer(_)
+                    | Event::Reached(_)
+                    | Event::Changed(_)
+                    | Event::Drawn(_),
+                )
+                | None => {}
             }
         }
     }

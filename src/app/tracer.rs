@@ -23,9 +23,18 @@ impl Tracer {
     pub fn start(painter: Arc<dyn Painter>, events: Sender<Event>) -> io::Result<Self> {
         let mailbox = Arc::new(Mailbox::default());
         let inbox = mailbox.clone();
-        let watch = Watch::start(painter.progress(), events.clone())?;
+        let mut watch = Watch::start(painter.progress(), events.clone())?;
+        let mut painter = painter;
         thread::Builder::new().name("tracer".to_owned()).spawn(move || {
             while let Some(request) = inbox.take() {
+                if let Some(next) = inbox.new_painter() {
+                    // Where the system has no thread for it, nobody is told how far a picture is.
+                    if let Ok(other) = Watch::start(next.progress(), events.clone()) {
+                        watch.close();
+                        watch = other;
+                    }
+                    painter = next;
+                }
                 watch.begin();
                 // What a panicking painter leaves half done is not looked at again: the program ends.
                 let drawn = panic::catch_unwind(AssertUnwindSafe(|| painter.draw(&request)));
@@ -44,6 +53,12 @@ impl Tracer {
     /// Whether this is the request that was asked last.
     pub fn has_been_asked(&self, request: &Request) -> bool {
         self.asked.as_ref() == Some(request)
+    }
+
+    /// Pictures that are asked for from now on are of another painter.
+    pub fn change(&mut self, painter: Arc<dyn Painter>) {
+        self.mailbox.lock().painter = Some(painter);
+        self.asked = None;
     }
 
     /// Asks for a picture in place of any that has not been begun. The same request twice is asked once.
@@ -71,6 +86,8 @@ struct Mailbox {
 #[derive(Default)]
 struct Slot {
     request: Option<Request>,
+    /// Who is to draw it and all that follow, where that is another than before.
+    painter: Option<Arc<dyn Painter>>,
     closed: bool,
 }
 
@@ -83,6 +100,10 @@ impl Mailbox {
     fn close(&self) {
         self.lock().closed = true;
         self.changed.notify_one();
+    }
+
+    fn new_painter(&self) -> Option<Arc<dyn Painter>> {
+        self.lock().painter.take()
     }
 
     /// Waits for a request; absent once the mailbox is closed.

@@ -1,5 +1,6 @@
 //! The loop of the viewer: wait for something to happen, change the model, show it.
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use ratatui::buffer::Buffer;
@@ -8,6 +9,7 @@ use super::events::{Event, Gone, Inbox};
 use super::identity::Identity;
 use super::model::{Effect, Model, Subject};
 use super::pacing::Pacing;
+use super::reloading::Reloaded;
 use super::screen;
 use super::shown::Shown;
 use super::suspend::suspend;
@@ -19,7 +21,7 @@ use crate::stage::WorkStep;
 
 /// Model, picture and terminal together.
 pub struct Viewer<'a> {
-    painter: &'a dyn Painter,
+    painter: Arc<dyn Painter>,
     model: Model,
     tracer: Tracer,
     terminal: &'a mut Terminal,
@@ -48,7 +50,7 @@ pub enum SessionEnd {
 impl<'a> Viewer<'a> {
     /// A viewer that has shown nothing yet.
     pub fn new(
-        painter: &'a dyn Painter,
+        painter: Arc<dyn Painter>,
         model: Model,
         tracer: Tracer,
         terminal: &'a mut Terminal,
@@ -100,9 +102,14 @@ impl<'a> Viewer<'a> {
         }
     }
 
+    /// Whose pictures are shown.
+    pub fn painter(&self) -> Arc<dyn Painter> {
+        Arc::clone(&self.painter)
+    }
+
     fn take_in(&mut self, event: Event) -> Result<Option<SessionEnd>, AppError> {
         match event {
-            Event::Key(key) => match self.model.update(self.painter, keys::action(key)) {
+            Event::Key(key) => match self.model.update(&*self.painter, keys::action(key)) {
                 Effect::None => {}
                 Effect::Suspend => suspend(self.terminal)?,
                 Effect::Quit => return Ok(Some(SessionEnd::Quit)),
@@ -114,12 +121,18 @@ impl<'a> Viewer<'a> {
                     self.pacing.set_relayed(identity == Identity::Relay);
                 }
             }
-            Event::Resized => self.model.resize(self.painter, terminal::window()),
+            Event::Resized => self.model.resize(&*self.painter, terminal::window()),
+            Event::Changed(Reloaded(Ok(painter))) => {
+                self.model.reload(&*painter);
+                self.tracer.change(Arc::clone(&painter));
+                self.painter = painter;
+            }
+            Event::Changed(Reloaded(Err(mistake))) => self.model.mistake = Some(mistake),
             Event::Stopped => suspend(self.terminal)?,
             Event::Continued => {
                 self.terminal.retake()?;
                 self.pacing.forget();
-                self.model.resize(self.painter, terminal::window());
+                self.model.resize(&*self.painter, terminal::window());
             }
             Event::Terminated(signal) => return Ok(Some(SessionEnd::Signal(signal))),
             Event::HungUp => return Err(AppError::HungUp),

@@ -210,7 +210,7 @@ fn folders_of(path: &Path, folders: &mut BTreeSet<PathBuf>, links: u32) {
 }
 
 /// Whether a folder is on a file system that another machine, or another program, may change without a word:
-/// NFS, SMB, FUSE, 9P, AFS, Coda, Ceph, and the shared folders of VirtualBox, by the numbers of Linux's
+/// NFS, SMB, FUSE, 9P, AFS, Coda, Ceph, and the shared folders of `VirtualBox`, by the numbers of Linux's
 /// `statfs`.
 #[cfg(target_os = "linux")]
 fn is_remote(folder: &Path) -> bool {

@@ -1,5 +1,6 @@
 //! A scene that is read again whenever a file of it changes.
 
+use std::fs;
 use std::path::PathBuf;
 use std::time::SystemTime;
 
@@ -39,8 +40,9 @@ impl EndOfWatch {
 impl WatchedScene {
     /// The scene of a file; not one of standard input, which comes once, or of the program's own.
     pub fn new(file: &str, reading: &ReadingArguments, onlooker: Onlooker) -> Option<Self> {
-        let is_file = file != "-" && (!input::is_scene(file) || std::path::Path::new(file).exists());
-        is_file.then(|| Self {
+        // A pipe is read once. What is not there may come.
+        let is_file = fs::metadata(file).map_or_else(|_| !input::is_scene(file), |found| found.is_file());
+        (file != "-" && is_file).then(|| Self {
             file: file.to_owned(),
             reading: reading.clone(),
             onlooker,

@@ -125,7 +125,11 @@ fn what_is_behind_the_end_is_said() {
         ("behind-binary.ply", [brick.ply_little(), vec![0; 9]].concat(), "9 bytes behind the last element"),
     ] {
         let output = ray13(&["check"], &file(name, &bytes));
-        assert!(output.status.success() && text(&output.stderr).contains(says), "{name}: {}", text(&output.stderr));
+        assert!(
+            output.status.success() && text(&output.stderr).contains(says),
+            "{name}: {}",
+            text(&output.stderr)
+        );
     }
 }
 

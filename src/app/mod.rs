@@ -2,9 +2,10 @@
 //!
 //! The thread that calls [`run`] or [`open`] owns the model and the screen, and waits for things that happen.
 //! Others wait for the terminal and for signals, and say what came; one reads the scene ([`open`]), and then
-//! one traces the picture that was asked for last, and one waits for changes of the scene's files and reads it
-//! again; and beside the first two of these one says how far it is, every 250 ms while it works. Else they wake by the clock only while something is waited for, the rest of a key
-//! or the terminal's answer: at rest the program does nothing and sends nothing.
+//! one traces the picture that was asked for last; and beside each of these two one says how far it is, every
+//! 250 ms while it works. One more waits for changes of the scene's files, and reads it again. Else they wake
+//! by the clock only while something is waited for, the rest of a key or the terminal's answer: at rest the
+//! program does nothing and sends nothing.
 
 mod around;
 mod caption;

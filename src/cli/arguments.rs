@@ -30,8 +30,8 @@ pub struct Arguments {
 
 #[derive(Clone, Debug, Args)]
 pub struct ViewerArguments {
-    /// The scene: a file of the scene language, OpenSCAD's .csg or NFF, a .scad where OpenSCAD is installed, a
-    /// mesh in STL, OFF, PLY or OBJ, - for standard input, or the name of an embedded scene
+    /// The scene: a file of the scene language, OpenSCAD's .csg or NFF, a .scad where OpenSCAD is installed,
+    /// a mesh in STL, OFF, PLY or OBJ, - for standard input, or the name of an embedded scene
     pub file: Option<String>,
     /// Print a still in place of the viewer, and again as the scene's files change (the viewer always follows
     /// them)

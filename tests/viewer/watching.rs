@@ -183,7 +183,9 @@ fn what_a_program_includes_and_the_colours_of_a_mesh_are_watched() {
     fs::write(folder.join("lib.scad"), "module part() cube([1, 1, 0.5]);\n").unwrap();
     shows(&mut pty, "what is included", &before);
     fs::write(folder.join("lib.scad"), "module part() cube(1\n").unwrap();
-    pty.wait_for("the mistake", |pty| pty.text().contains(" MISTAKE ") && pty.text().contains("lib.scad"));
+    pty.wait_for("the mistake", |pty| {
+        pty.text().contains(" MISTAKE ") && pty.text().contains("Parser error")
+    });
     fs::write(folder.join("lib.scad"), "module part() cube(1);\n").unwrap();
     pty.wait_for("the first picture", |pty| pty.drawn() && pty.picture() == before);
     pty.send("q");

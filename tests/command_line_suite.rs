@@ -11,6 +11,7 @@ mod command_line {
     mod kept;
     mod plan;
     mod plans;
+    mod programs;
     mod readme;
     mod scenes;
     mod still;

@@ -7,6 +7,7 @@ mod viewer {
     mod loading;
     pub mod pty;
     mod terminals;
+    mod watching;
 }
 
 use std::path::Path;

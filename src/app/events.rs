@@ -9,6 +9,7 @@ use ratatui::crossterm::event::KeyEvent;
 
 use super::fence::Fence;
 use super::input::{self, Answer, Input};
+use super::reloading::Reloaded;
 use crate::frame::Frame;
 use crate::stage::WorkStep;
 
@@ -27,6 +28,8 @@ pub enum Event {
     Working(WorkStep),
     /// The scene is there, or why there is none.
     Loaded,
+    /// A file of the scene has changed.
+    Changed(Reloaded),
     /// A picture is finished.
     Drawn(Box<Frame>),
     /// A picture that nobody wanted any more was given up.

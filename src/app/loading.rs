@@ -119,7 +119,12 @@ impl<P: Send + 'static, E: Send + 'static> Loading<P, E> {
                 Some(Event::Failed(error)) => return Err(error.into()),
                 Some(Event::Panicked) => return Err(AppError::LoadingPanicked),
                 Some(
-                    Event::Resized | Event::Answer(_) | Event::Reached(_) | Event::Drawn(_) | Event::GivenUp,
+                    Event::Resized
+                    | Event::Answer(_)
+                    | Event::Reached(_)
+                    | Event::Changed(_)
+                    | Event::Drawn(_)
+                    | Event::GivenUp,
                 )
                 | None => {}
             }

@@ -3,8 +3,9 @@
 //! The thread that calls [`run`] or [`open`] owns the model and the screen, and waits for things that happen.
 //! Others wait for the terminal and for signals, and say what came; one reads the scene ([`open`]), and then
 //! one traces the picture that was asked for last; and beside each of these two one says how far it is, every
-//! 250 ms while it works. Else they wake by the clock only while something is waited for, the rest of a key
-//! or the terminal's answer: at rest the program does nothing and sends nothing.
+//! 250 ms while it works. One more waits for changes of the scene's files, and reads it again. Else they wake
+//! by the clock only while something is waited for, the rest of a key or the terminal's answer: at rest the
+//! program does nothing and sends nothing.
 
 mod around;
 mod caption;
@@ -20,11 +21,13 @@ mod input;
 mod keys;
 mod layout;
 mod loading;
+mod mistake;
 mod model;
 mod motion;
 mod pacing;
 mod painter;
 mod refinement;
+mod reloading;
 mod screen;
 mod settings;
 mod shown;
@@ -40,8 +43,10 @@ mod watch;
 
 use std::env;
 use std::io;
+use std::panic::{self, AssertUnwindSafe};
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, Sender};
+use std::thread;
 
 use ratatui::crossterm::style::force_color_output;
 
@@ -58,6 +63,8 @@ use model::Model;
 use pacing::Pacing;
 pub use painter::Painter;
 use refinement::Refinement;
+use reloading::Reloaded;
+pub use reloading::Reloading;
 pub use settings::{Questions, Settings};
 use terminal::Terminal;
 use tracer::Tracer;
@@ -87,19 +94,21 @@ pub fn run(painter: impl Painter + 'static, settings: Settings) -> Result<(), Ap
 pub fn run_shared<P: Painter + 'static>(painter: &Arc<P>, settings: Settings) -> Result<(), AppError> {
     let (sender, events) = mpsc::channel();
     let session = Session::start(settings.terminal, sender, events)?;
-    session.show(painter, settings)
+    let painter: Arc<dyn Painter> = painter.clone();
+    session.show(painter, settings, Reloading::<P>::never()).map(drop)
 }
 
 /// The same with a scene that is still to be read, on another thread, while the screen shows how far that is;
-/// a short time passes before it shows anything. Gives the painter back; nothing where the person quits
-/// before it is there.
+/// a short time passes before it shows anything. What `reloading` gives afterwards is shown in its place.
+/// Gives the last painter back; nothing where the person quits before the first is there.
 ///
 /// # Errors
 /// What reading gives, with the terminal given back; and see [`AppError`].
 pub fn open<P: Painter + 'static, E: From<AppError> + Send + 'static>(
     opening: &Opening,
     load: impl FnOnce(&Progress) -> Result<(P, Settings), E> + Send + 'static,
-) -> Result<Option<Arc<P>>, E> {
+    reloading: Reloading<P>,
+) -> Result<Option<Arc<dyn Painter>>, E> {
     let (sender, events) = mpsc::channel();
     let mut loading = Loading::start(load, sender.clone()).map_err(AppError::from)?;
     let (session, loaded) = if let Some(loaded) = loading.done_at_once() {
@@ -110,10 +119,12 @@ pub fn open<P: Painter + 'static, E: From<AppError> + Send + 'static>(
         match loading.wait(opening, &mut session.terminal, &mut session.inbox) {
             Ok(Waited::Loaded(loaded)) => (session, *loaded),
             Ok(Waited::Ended(end)) => {
+                (reloading.end)();
                 session.end(Ok(end))?;
                 return Ok(None);
             }
             Err(error) => {
+                (reloading.end)();
                 session.end(Err(error))?;
                 return Ok(None);
             }
@@ -121,9 +132,8 @@ pub fn open<P: Painter + 'static, E: From<AppError> + Send + 'static>(
     };
     match loaded {
         Ok((painter, settings)) => {
-            let painter = Arc::new(painter);
-            session.show(&painter, settings)?;
-            Ok(Some(painter))
+            let shown = session.show(Arc::new(painter), settings, reloading)?;
+            Ok(Some(shown))
         }
         Err(error) => {
             session.end(Ok(SessionEnd::Quit))?;
@@ -155,22 +165,28 @@ impl Session {
         Ok(Self { terminal, inbox: Inbox::new(events), sender })
     }
 
-    /// Shows the painter's pictures until the end.
+    /// Shows the painter's pictures, and those of the ones that follow it, until the end; gives the last.
     fn show<P: Painter + 'static>(
         mut self,
-        painter: &Arc<P>,
+        painter: Arc<dyn Painter>,
         mut settings: Settings,
-    ) -> Result<(), AppError> {
+        reloading: Reloading<P>,
+    ) -> Result<Arc<dyn Painter>, AppError> {
         let tracer = Tracer::start(painter.clone(), self.sender.clone())?;
+        let end_reloading = reloading.end;
+        reload(reloading.next, self.sender.clone())?;
         let (terminal, inbox) = (&mut self.terminal, &mut self.inbox);
         let pacing = look_ahead(terminal, inbox, &mut settings)?;
         let refinement = Refinement::new(settings.frame_time, settings.adaptive_at_rest);
-        let model = Model::new(&**painter, settings, terminal::window());
+        let model = Model::new(&*painter, settings, terminal::window());
         let mut viewer =
-            Viewer::new(&**painter, model, Drawing { tracer, refinement }, terminal, inbox, pacing);
+            Viewer::new(painter, model, Drawing { tracer, refinement }, terminal, inbox, pacing);
         let end = viewer.run();
+        let painter = viewer.painter();
         drop(viewer);
-        self.end(end)
+        end_reloading();
+        self.end(end)?;
+        Ok(painter)
     }
 
     /// Gives the terminal back.
@@ -186,6 +202,30 @@ impl Session {
             }
         }
     }
+}
+
+/// Starts the thread that waits for the scenes that follow the first; it ends with them, or with the viewer.
+fn reload<P: Painter + 'static>(
+    mut next: Box<dyn FnMut() -> Option<Result<P, String>> + Send>,
+    events: Sender<Event>,
+) -> io::Result<()> {
+    let wait = move || {
+        loop {
+            // What a panic leaves half done is not looked at: the program ends.
+            let event = match panic::catch_unwind(AssertUnwindSafe(&mut next)) {
+                Ok(None) => return,
+                Ok(Some(scene)) => {
+                    Event::Changed(Reloaded(scene.map(|painter| Arc::new(painter) as Arc<dyn Painter>)))
+                }
+                Err(_) => Event::Panicked,
+            };
+            let is_last = matches!(event, Event::Panicked);
+            if events.send(event).is_err() || is_last {
+                return;
+            }
+        }
+    };
+    thread::Builder::new().name("reloader".to_owned()).spawn(wait).map(drop)
 }
 
 /// Asks who draws the screen, how far away that is, and which colours it has.

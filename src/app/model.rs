@@ -31,6 +31,8 @@ pub struct Model {
     pub help: bool,
     /// What the reader left out, for the person who looks.
     pub notes: Vec<String>,
+    /// Why the scene's file is no scene now, where it is none: what is shown is what it was before.
+    pub mistake: Option<String>,
     /// Where things stand.
     pub layout: Layout,
     views: usize,
@@ -85,6 +87,7 @@ impl Model {
             moved: false,
             help: false,
             notes: painter.scene().notes.clone(),
+            mistake: None,
             layout,
             views: painter.scene().views.len(),
             cell_aspect: window.cell_aspect(),
@@ -98,6 +101,21 @@ impl Model {
         self.layout = Layout::new(window.cells);
         self.cell_aspect = window.cell_aspect();
         if !self.moved {
+            self.go_home(painter);
+        }
+    }
+
+    /// Shows another scene, from where the one before is seen. Only a view that the scene itself gives, and
+    /// that nobody has moved, is where the scene has it now.
+    pub fn reload(&mut self, painter: &dyn Painter) {
+        let scene = painter.scene();
+        self.notes.clone_from(&scene.notes);
+        self.mistake = None;
+        self.views = scene.views.len();
+        let is_named = |view: &Camera| view.name.is_some() && view.name == self.camera.name;
+        let same = scene.views.iter().position(is_named);
+        self.settings.view = same.unwrap_or(self.settings.view.min(self.views.saturating_sub(1)));
+        if !self.moved && self.views > 0 {
             self.go_home(painter);
         }
     }
@@ -380,6 +398,27 @@ mod tests {
         moved.resize(&three(), wide);
         assert_eq!(moved.camera, camera);
         assert_eq!(moved.request().unwrap().dots, at_rest.request().unwrap().dots);
+    }
+
+    #[test]
+    fn another_scene_is_seen_from_where_the_one_before_was() {
+        let with = |names: &[&str]| {
+            let views = names.iter().map(|name| view(name)).collect();
+            Studio::new(Scene { views, notes: vec!["new".to_owned()], ..Scene::default() }).unwrap()
+        };
+        let mut model = model();
+        press(&mut model, &[Action::NextView]);
+        model.mistake = Some("wrong".to_owned());
+        // The view `b` has become the first, and another aspect frames it.
+        model.reload(&with(&["b", "a"]));
+        assert_eq!((model.view_name(), model.settings.view), ("b".to_owned(), 0));
+        assert_eq!((model.mistake.clone(), model.notes.clone()), (None, vec!["new".to_owned()]));
+        press(&mut model, &[Action::OrbitLeft]);
+        let camera = model.camera.clone();
+        model.reload(&with(&["a", "b"]));
+        assert_eq!((model.camera.clone(), model.settings.view), (camera.clone(), 1));
+        model.reload(&with(&[]));
+        assert_eq!((model.camera.clone(), model.settings.view), (camera, 0));
     }
 
     #[test]

@@ -76,6 +76,8 @@ struct InHand {
     request: Request,
     detail: Detail,
     begun: Instant,
+    /// Whether it is of a scene that has been read anew since.
+    is_stale: bool,
 }
 
 impl Order {
@@ -140,33 +142,41 @@ impl Refinement {
         } else {
             self.frame_time.map_or(Duration::MAX, |time| time.saturating_mul(PATIENCE))
         };
-        self.in_hand = Some(InHand { request: wanted.clone(), detail, begun: now });
+        self.in_hand = Some(InHand { request: wanted.clone(), detail, begun: now, is_stale: false });
         Order { request: Request { options, ..wanted.clone() }, factor, patience }
+    }
+
+    /// Notes that the scene was read anew: what has been drawn, and what is being drawn, is of another.
+    pub fn start_anew(&mut self) {
+        (self.shown, self.cost) = (None, None);
+        if let Some(in_hand) = &mut self.in_hand {
+            in_hand.is_stale = true;
+        }
     }
 
     /// Whether what is being drawn is not what is wanted.
     pub fn is_outdated(&self, wanted: Option<&Request>) -> bool {
-        self.in_hand.as_ref().is_some_and(|in_hand| Some(&in_hand.request) != wanted)
+        self.in_hand.as_ref().is_some_and(|in_hand| in_hand.is_stale || Some(&in_hand.request) != wanted)
     }
 
     /// Notes that it is drawn; gives its rays.
     pub fn finished(&mut self, frame: &Frame) -> Option<RaysTold> {
-        let InHand { request, detail, .. } = self.in_hand.take()?;
+        let InHand { request, detail, is_stale, .. } = self.in_hand.take()?;
         let full = self.full(&request);
         let is_adaptive = detail == Detail::Full && full.adaptive.is_some();
         let rays = rays(&request, detail, full.samples);
         // Where some were taken over from the picture before, it tells nothing of their time.
-        if !is_adaptive && frame.counts.primary_rays >= rays {
+        if !is_adaptive && !is_stale && frame.counts.primary_rays >= rays {
             self.cost = Some(frame.total.as_secs_f64() / rays.max(1) as f64);
         }
-        self.shown = Some((request, detail));
+        self.shown = Some((request, detail)).filter(|_| !is_stale);
         Some(RaysTold { detail, samples: full.samples, is_adaptive })
     }
 
     /// Notes that it was given up.
     pub fn given_up(&mut self, now: Instant) {
-        let Some(InHand { request, detail, begun }) = self.in_hand.take() else { return };
-        if !self.refines(&request) && detail != Detail::Full {
+        let Some(InHand { request, detail, begun, is_stale }) = self.in_hand.take() else { return };
+        if !is_stale && !self.refines(&request) && detail != Detail::Full {
             // It would have taken longer.
             let least = now.saturating_duration_since(begun).as_secs_f64();
             let least = least / rays(&request, detail, 1).max(1) as f64;

@@ -10,7 +10,7 @@ use super::layout::{self, Around};
 use super::model::Model;
 use super::shown::Shown;
 use super::theme::Theme;
-use super::{caption, charset, help, status};
+use super::{caption, charset, help, mistake, status};
 use crate::frame::Frame;
 use crate::plan::Shading;
 use crate::stage::{Task, WorkStep};
@@ -48,6 +48,10 @@ pub fn draw(model: &Model, shown: Option<&Shown>, working: Option<WorkStep>, buf
     };
     if let Some(over) = over {
         let place = caption::draw(&over, theme.text, picture, buffer);
+        charset::fit(buffer, place, terminal);
+    }
+    if let Some(mistake) = &model.mistake {
+        let place = mistake::draw(mistake, &theme, picture, buffer);
         charset::fit(buffer, place, terminal);
     }
     if model.help {

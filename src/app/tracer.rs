@@ -33,9 +33,18 @@ impl Tracer {
     pub fn start(painter: Arc<dyn Painter>, events: Sender<Event>) -> io::Result<Self> {
         let mailbox = Arc::new(Mailbox::default());
         let inbox = mailbox.clone();
-        let watch = Watch::start(painter.progress(), events.clone())?;
+        let mut watch = Watch::start(painter.progress(), events.clone())?;
+        let mut painter = painter;
         thread::Builder::new().name("tracer".to_owned()).spawn(move || {
             while let Some(Job { order, unwanted }) = inbox.take() {
+                if let Some(next) = inbox.new_painter() {
+                    // Where the system has no thread for it, nobody is told how far a picture is.
+                    if let Ok(other) = Watch::start(next.progress(), events.clone()) {
+                        watch.close();
+                        watch = other;
+                    }
+                    painter = next;
+                }
                 watch.begin();
                 let begin = Instant::now();
                 let when = || unwanted.load(Ordering::Relaxed) && begin.elapsed() >= order.patience;
@@ -68,6 +77,11 @@ impl Tracer {
     pub fn give_up(&self) {
         self.unwanted.store(true, Ordering::Relaxed);
     }
+
+    /// Pictures that are asked for from now on are of another painter.
+    pub fn change(&mut self, painter: Arc<dyn Painter>) {
+        self.mailbox.lock().painter = Some(painter);
+    }
 }
 
 impl Drop for Tracer {
@@ -87,6 +101,8 @@ struct Mailbox {
 #[derive(Default)]
 struct Slot {
     job: Option<Job>,
+    /// Who is to draw it and all that follow, where that is another than before.
+    painter: Option<Arc<dyn Painter>>,
     closed: bool,
 }
 
@@ -99,6 +115,10 @@ impl Mailbox {
     fn close(&self) {
         self.lock().closed = true;
         self.changed.notify_one();
+    }
+
+    fn new_painter(&self) -> Option<Arc<dyn Painter>> {
+        self.lock().painter.take()
     }
 
     /// Waits for a job; absent once the mailbox is closed.

@@ -1,5 +1,6 @@
 //! The loop of the viewer: wait for something to happen, change the model, show it.
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use ratatui::buffer::Buffer;
@@ -9,6 +10,7 @@ use super::identity::Identity;
 use super::model::{Effect, Model, Subject};
 use super::pacing::Pacing;
 use super::refinement::{Detail, Refinement};
+use super::reloading::Reloaded;
 use super::screen;
 use super::shown::Shown;
 use super::suspend::suspend;
@@ -20,7 +22,7 @@ use crate::stage::WorkStep;
 
 /// Model, picture and terminal together.
 pub struct Viewer<'a> {
-    painter: &'a dyn Painter,
+    painter: Arc<dyn Painter>,
     model: Model,
     drawing: Drawing,
     terminal: &'a mut Terminal,
@@ -55,7 +57,7 @@ pub enum SessionEnd {
 impl<'a> Viewer<'a> {
     /// A viewer that has shown nothing yet.
     pub fn new(
-        painter: &'a dyn Painter,
+        painter: Arc<dyn Painter>,
         model: Model,
         drawing: Drawing,
         terminal: &'a mut Terminal,
@@ -113,9 +115,14 @@ impl<'a> Viewer<'a> {
         }
     }
 
+    /// Whose pictures are shown.
+    pub fn painter(&self) -> Arc<dyn Painter> {
+        Arc::clone(&self.painter)
+    }
+
     fn take_in(&mut self, event: Event) -> Result<Option<SessionEnd>, AppError> {
         match event {
-            Event::Key(key) => match self.model.update(self.painter, keys::action(key)) {
+            Event::Key(key) => match self.model.update(&*self.painter, keys::action(key)) {
                 Effect::None => {}
                 Effect::Suspend => suspend(self.terminal)?,
                 Effect::Quit => return Ok(Some(SessionEnd::Quit)),
@@ -127,12 +134,19 @@ impl<'a> Viewer<'a> {
                     self.pacing.set_relayed(identity == Identity::Relay);
                 }
             }
-            Event::Resized => self.model.resize(self.painter, terminal::window()),
+            Event::Resized => self.model.resize(&*self.painter, terminal::window()),
+            Event::Changed(Reloaded(Ok(painter))) => {
+                self.model.reload(&*painter);
+                self.drawing.tracer.change(Arc::clone(&painter));
+                self.drawing.refinement.start_anew();
+                self.painter = painter;
+            }
+            Event::Changed(Reloaded(Err(mistake))) => self.model.mistake = Some(mistake),
             Event::Stopped => suspend(self.terminal)?,
             Event::Continued => {
                 self.terminal.retake()?;
                 self.pacing.forget();
-                self.model.resize(self.painter, terminal::window());
+                self.model.resize(&*self.painter, terminal::window());
             }
             Event::Terminated(signal) => return Ok(Some(SessionEnd::Signal(signal))),
             Event::HungUp => return Err(AppError::HungUp),

@@ -30,9 +30,13 @@ pub struct Arguments {
 
 #[derive(Clone, Debug, Args)]
 pub struct ViewerArguments {
-    /// The scene: a file of the scene language, OpenSCAD's .csg or NFF, a mesh in STL, OFF, PLY or OBJ, - for
-    /// standard input, or the name of an embedded scene
+    /// The scene: a file of the scene language, OpenSCAD's .csg or NFF, a .scad where OpenSCAD is installed,
+    /// a mesh in STL, OFF, PLY or OBJ, - for standard input, or the name of an embedded scene
     pub file: Option<String>,
+    /// Print a still in place of the viewer, and again as the scene's files change (the viewer always follows
+    /// them)
+    #[arg(long)]
+    pub watch: bool,
     #[command(flatten)]
     pub reading: ReadingArguments,
     #[command(flatten)]
@@ -78,7 +82,7 @@ pub enum Command {
 }
 
 /// How a scene is read.
-#[derive(Clone, Copy, Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct ReadingArguments {
     /// Leave out what OpenSCAD can show and ray13 can not (the viewer always does)
     #[arg(long)]
@@ -90,6 +94,25 @@ pub struct ReadingArguments {
     /// too.
     #[arg(skip)]
     pub up: Option<UpAxis>,
+    #[command(flatten)]
+    pub openscad: OpenScadArguments,
+}
+
+/// What OpenSCAD is told of a program of its own, a `.scad` file.
+#[derive(Clone, Debug, Default, Args)]
+pub struct OpenScadArguments {
+    /// Give a variable of a .scad file this value, as in -D 'size=[1,2,3]'; any number of times
+    #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = values::definition, allow_hyphen_values = true)]
+    pub define: Vec<String>,
+    /// A file of parameter sets for a .scad file, as OpenSCAD's customizer writes it
+    #[arg(short = 'p', value_name = "FILE", requires = "set")]
+    pub parameters: Option<PathBuf>,
+    /// The parameter set of that file
+    #[arg(short = 'P', value_name = "SET", requires = "parameters")]
+    pub set: Option<String>,
+    /// Time that OpenSCAD may take for a .scad file, as in 30s [default: 60s]
+    #[arg(long, value_name = "TIME", value_parser = values::duration)]
+    pub openscad_time: Option<Duration>,
 }
 
 #[derive(Clone, Debug, Args)]
@@ -127,6 +150,9 @@ pub struct RenderArguments {
     /// Write to this file, never one that the scene is read from; - is standard output, as is nothing
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// Draw the still again whenever a file of the scene changes, in its place on a terminal
+    #[arg(long)]
+    pub watch: bool,
     /// Say on standard error what was counted and how long it took
     #[arg(long, value_enum)]
     pub stats: Option<StatsFormat>,

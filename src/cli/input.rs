@@ -8,7 +8,8 @@ use std::path::Path;
 
 use crate::frame::Studio;
 use crate::scene::{
-    self, Diagnostics, EmbeddedScene, MAX_FILE_BYTES, ReadError, ReadOptions, Scene, embedded,
+    self, Diagnostics, EmbeddedScene, FilesRead, Format, MAX_FILE_BYTES, ReadError, ReadOptions, Scene,
+    embedded,
 };
 use crate::stage::Progress;
 
@@ -16,58 +17,105 @@ use super::arguments::ReadingArguments;
 use super::diagnostics;
 use super::error::{CliError, tell, visible};
 use super::memory;
+use super::openscad::{self, OpenScadRun, Program};
 use super::terminal::capabilities;
+
+/// Who looks on while a scene is read.
+#[derive(Clone, Debug, Default)]
+pub struct Onlooker {
+    /// Is told how far it is.
+    pub progress: Option<Progress>,
+    /// Can end OpenSCAD, where that is at work.
+    pub openscad: OpenScadRun,
+    /// Is told of the files that it is read from.
+    pub files: Option<FilesRead>,
+    /// Shows what is wrong on a screen of its own, and not on standard error.
+    pub has_screen: bool,
+}
 
 /// Reads a scene: a file, `-` for standard input, or an embedded scene where there is no file of that name.
 pub fn read(file: &str, reading: &ReadingArguments) -> Result<Scene, CliError> {
-    read_watched(file, reading, None)
+    let onlooker = Onlooker { openscad: OpenScadRun::minding_signals(), ..Onlooker::default() };
+    read_watched(file, reading, &onlooker)
 }
 
 /// Reads a scene of which the bytes are here already; `file` is where they are from.
 pub fn read_bytes(file: &str, bytes: &[u8], reading: &ReadingArguments) -> Result<Scene, CliError> {
+    if openscad::is_program(file, &reading.openscad)? {
+        return read(file, reading);
+    }
     let folder = Path::new(file).parent().map(Path::to_owned);
-    let options = ReadOptions { folder, ..options(reading, None) };
-    scene::read(file, bytes, &options).map_err(|e| no_scene(file, &e))
+    let onlooker = Onlooker::default();
+    let options = ReadOptions { folder, ..options(reading, &onlooker) };
+    scene::read(file, bytes, &options).map_err(|e| no_scene(file, &e, &onlooker))
 }
 
-/// The same, where `progress` says how far this is.
-pub fn read_watched(
-    file: &str,
-    reading: &ReadingArguments,
-    progress: Option<Progress>,
-) -> Result<Scene, CliError> {
-    let options = &options(reading, progress);
+/// The same as [`read`], where somebody looks on.
+pub fn read_watched(file: &str, reading: &ReadingArguments, onlooker: &Onlooker) -> Result<Scene, CliError> {
+    let options = &options(reading, onlooker);
+    let is_program = openscad::is_program(file, &reading.openscad)?;
     if file == "-" {
         let mut bytes = Vec::new();
         let limited = std::io::stdin().lock().take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes);
         limited.map_err(|e| CliError::Input(format!("standard input could not be read: {e}")))?;
-        return scene::read("standard input", &bytes, options).map_err(|e| rendered(&e));
+        if is_program {
+            return read_program("standard input", Program::Text(&bytes), options, reading, onlooker);
+        }
+        return scene::read("standard input", &bytes, options).map_err(|e| rendered(&e, onlooker));
+    }
+    if is_program && Path::new(file).is_file() {
+        return read_program(file, Program::File(Path::new(file)), options, reading, onlooker);
     }
     match scene::read_file(Path::new(file), options) {
         Ok(scene) => Ok(scene),
-        Err(ReadError::Content(diagnostics)) => Err(no_scene(file, &diagnostics)),
+        Err(ReadError::Content(diagnostics)) => Err(no_scene(file, &diagnostics, onlooker)),
         Err(error @ ReadError::File { .. }) => match named(file) {
             Some(inside) => {
-                scene::read(inside.name, inside.text.as_bytes(), options).map_err(|e| rendered(&e))
+                scene::read(inside.name, inside.text.as_bytes(), options).map_err(|e| rendered(&e, onlooker))
             }
             None => Err(CliError::Scene(visible(&format!("{error}{}", embedded_names(file))))),
         },
     }
 }
 
-fn options(reading: &ReadingArguments, progress: Option<Progress>) -> ReadOptions {
-    let ReadingArguments { skip_unsupported, memory, up } = *reading;
+/// Reads what OpenSCAD makes of a program of its own.
+fn read_program(
+    name: &str,
+    program: Program<'_>,
+    options: &ReadOptions,
+    reading: &ReadingArguments,
+    onlooker: &Onlooker,
+) -> Result<Scene, CliError> {
+    let made = openscad::convert(name, program, &reading.openscad, &onlooker.openscad)?;
+    if let Some(files) = &onlooker.files {
+        made.files.iter().for_each(|file| files.add(file));
+    }
+    let folder = match program {
+        Program::File(path) => path.parent().map(Path::to_owned),
+        Program::Text(_) => None,
+    };
+    let options = ReadOptions { folder, format: Some(Format::Language), ..options.clone() };
+    // Places are those of a text that is not kept; what is wrong in it stands in no program.
+    let source = format!("{name}, as OpenSCAD's .csg");
+    let mut scene = scene::read(&source, &made.csg, &options).map_err(|e| rendered(&e, onlooker))?;
+    scene.notes.splice(0..0, made.said.into_iter().map(|line| format!("OpenSCAD: {line}")));
+    Ok(scene)
+}
+
+fn options(reading: &ReadingArguments, onlooker: &Onlooker) -> ReadOptions {
+    let ReadingArguments { skip_unsupported, memory, up, openscad: _ } = *reading;
     let memory = memory.or_else(memory::half_of_all);
-    ReadOptions { skip_unsupported, progress, memory, up, ..ReadOptions::default() }
+    let Onlooker { progress, files, .. } = onlooker.clone();
+    ReadOptions { skip_unsupported, progress, memory, up, files, ..ReadOptions::default() }
 }
 
 /// Why a file is no scene, given what the reader says.
-fn no_scene(file: &str, diagnostics: &Diagnostics) -> CliError {
+fn no_scene(file: &str, diagnostics: &Diagnostics, onlooker: &Onlooker) -> CliError {
     match foreign(file) {
         Some(format) => CliError::Input(format!(
             "{file} looks like {format}, which ray13 does not read: give it a scene or OpenSCAD's .csg"
         )),
-        None => rendered(diagnostics),
+        None => rendered(diagnostics, onlooker),
     }
 }
 
@@ -115,8 +163,8 @@ fn embedded_names(file: &str) -> String {
     format!("\n  = help: it is neither a file nor an embedded scene; of those there are {}", names.join(", "))
 }
 
-fn rendered(diagnostics: &Diagnostics) -> CliError {
-    let colors = std::io::stderr().is_terminal() && capabilities().has_grays();
+fn rendered(diagnostics: &Diagnostics, onlooker: &Onlooker) -> CliError {
+    let colors = !onlooker.has_screen && std::io::stderr().is_terminal() && capabilities().has_grays();
     CliError::Scene(diagnostics::render(diagnostics, colors))
 }
 

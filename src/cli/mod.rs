@@ -2,19 +2,23 @@
 
 mod arguments;
 mod bench;
+mod changes;
 mod diagnostics;
 mod diff;
 mod effects;
 mod error;
 mod input;
+mod interrupts;
 mod levels;
 mod manual;
 mod marked;
 mod memory;
 mod names;
+mod openscad;
 mod parse;
 mod picture;
 mod plan;
+mod reload;
 mod render;
 mod snapshot;
 mod stats;
@@ -29,16 +33,19 @@ mod write;
 
 use std::io::{self, IsTerminal};
 use std::process::ExitCode;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use crate::app::{self, Opening, Settings};
+use crate::app::{self, Opening, Painter, Reloading, Settings};
 use crate::frame::Studio;
-use crate::scene::embedded;
+use crate::scene::{Scene, embedded};
 use crate::stage::Progress;
 
 use arguments::{Arguments, Command, ReadingArguments, SceneArguments, ViewerArguments};
 use error::{CliError, tell, visible};
+use input::Onlooker;
+use openscad::OpenScadRun;
+use reload::WatchedScene;
 use write::print;
 
 /// The scene that the program shows when it is given none.
@@ -78,6 +85,9 @@ fn command(arguments: Arguments) -> Result<(), CliError> {
 fn view(arguments: &ViewerArguments) -> Result<(), CliError> {
     let file = arguments.file.as_deref().unwrap_or(FIRST_SCENE);
     let picture = &arguments.picture;
+    if arguments.watch {
+        return render::watched_still(file, &arguments.reading, picture);
+    }
     let still = || {
         if arguments.fps.is_some() {
             tell("--fps has no effect: a still does not move");
@@ -96,14 +106,13 @@ fn view(arguments: &ViewerArguments) -> Result<(), CliError> {
     let opening = Opening { title: input::title(file), palette, terminal };
     let viewed = if file == "-" && io::stdin().is_terminal() {
         // The scene is typed where the keys come from: first the one, then the other.
-        let (studio, settings) = load(arguments, file, &opening, &Progress::default())?;
+        let scene = input::read(file, &of_viewer(arguments))?;
+        let (studio, settings) = load(arguments, scene, &opening, &Progress::default())?;
         let studio = Arc::new(studio);
         app::run_shared(&studio, settings)?;
-        Some(studio)
+        Some(studio as Arc<dyn Painter>)
     } else {
-        let (file, opening) = (file.to_owned(), &opening);
-        let (arguments, known) = (arguments.clone(), opening.clone());
-        app::open(opening, move |progress| load(&arguments, &file, &known, progress))?
+        open(arguments, file, &opening)?
     };
     if let Some(studio) = viewed {
         input::say(&no_effects);
@@ -112,16 +121,66 @@ fn view(arguments: &ViewerArguments) -> Result<(), CliError> {
     Ok(())
 }
 
-/// The scene that the viewer shows, and with what it starts.
-fn load(
+/// The viewer shows what it can, and says on the screen what it left out.
+fn of_viewer(arguments: &ViewerArguments) -> ReadingArguments {
+    ReadingArguments { skip_unsupported: true, ..arguments.reading.clone() }
+}
+
+/// The viewer on a scene that is still to be read, and read again as its files change.
+fn open(
     arguments: &ViewerArguments,
     file: &str,
     opening: &Opening,
+) -> Result<Option<Arc<dyn Painter>>, CliError> {
+    let reading = of_viewer(arguments);
+    let openscad = OpenScadRun::default();
+    let onlooker = Onlooker { openscad: openscad.clone(), has_screen: true, ..Onlooker::default() };
+    let watched = WatchedScene::new(file, &reading, onlooker.clone());
+    let reloading = watched.is_some();
+    let end = watched.as_ref().map(WatchedScene::end);
+    let watched = Arc::new(Mutex::new(watched));
+    let (arguments, known, file) = (arguments.clone(), opening.clone(), file.to_owned());
+    let first = Arc::clone(&watched);
+    let read = move |progress: &Progress| {
+        // What is wrong with the first scene is told when the screen is given back.
+        let onlooker = Onlooker { progress: Some(progress.clone()), has_screen: false, ..onlooker };
+        let scene = match &mut *lock(&first) {
+            Some(watched) => watched.read_for(&onlooker)?,
+            None => input::read_watched(&file, &reading, &onlooker)?,
+        };
+        load(&arguments, scene, &known, progress)
+    };
+    let next = move || {
+        let mut watched = lock(&watched);
+        let watched = watched.as_mut().filter(|_| reloading)?;
+        if !watched.wait() {
+            return None;
+        }
+        let studio = watched.read().and_then(input::studio);
+        Some(studio.map_err(|error| error.to_string()))
+    };
+    let end = move || {
+        openscad.end();
+        if let Some(end) = &end {
+            end.end();
+        }
+    };
+    app::open(opening, read, Reloading { next: Box::new(next), end: Box::new(end) })
+}
+
+/// What one thread does after the other.
+fn lock<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
+    // A thread that panics ends the program.
+    shared.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// What the viewer shows of a scene, and with what it starts.
+fn load(
+    arguments: &ViewerArguments,
+    scene: Scene,
+    opening: &Opening,
     progress: &Progress,
 ) -> Result<(Studio, Settings), CliError> {
-    // The viewer shows what it can, and says on the screen what it left out.
-    let reading = ReadingArguments { skip_unsupported: true, ..arguments.reading };
-    let scene = input::read_watched(file, &reading, Some(progress.clone()))?;
     let studio = input::watched_studio(scene, progress.clone())?;
     let picture = &arguments.picture;
     let view = picture.camera.view_index(studio.scene())?;

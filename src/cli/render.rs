@@ -11,12 +11,18 @@ use crate::glyph::Palette;
 use crate::math::Grid;
 use crate::output::{self, Capabilities, Pixels};
 use crate::plan::PrecisionChoice;
+use crate::scene::Scene;
 use crate::tone::Tone;
 
-use super::arguments::{PictureArguments, RawChannel, ReadingArguments, RenderArguments, StillFormat};
+use super::arguments::{
+    PictureArguments, RawChannel, ReadingArguments, RenderArguments, SceneArguments, StillFormat,
+};
 use super::effects::{self, Still};
-use super::error::{CliError, tell};
+use super::error::{CliError, tell, visible};
+use super::input::Onlooker;
+use super::openscad::OpenScadRun;
 use super::picture::{Look, Unsized};
+use super::reload::WatchedScene;
 use super::write::{Destination, print};
 use super::{input, stats, terminal};
 
@@ -28,11 +34,51 @@ pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
     let still = Still { format, channel: arguments.channel, levels: arguments.levels };
     let notes = effects::check(&arguments.picture, effects::Presentation::Still(still))?;
     input::say(&notes);
-    let reading = Instant::now();
-    let scene = input::read(&arguments.scene.file, &arguments.scene.reading)?;
-    to.check_libraries(&scene)?;
-    input::say(&scene.notes);
+    let SceneArguments { file, reading } = &arguments.scene;
+    if !arguments.watch {
+        let begin = Instant::now();
+        let scene = input::read(file, reading)?;
+        to.check_libraries(&scene)?;
+        input::say(&scene.notes);
+        return draw(arguments, still, scene, begin, &to);
+    }
+    let onlooker = Onlooker { openscad: OpenScadRun::minding_signals(), ..Onlooker::default() };
+    let Some(mut watched) = WatchedScene::new(file, reading, onlooker) else {
+        return Err(CliError::Input(format!("{}: only a file is watched", visible(file))));
+    };
+    let has_place = terminal::of_output().is_some_and(|terminal| terminal.cursor);
+    let to = if has_place && arguments.output.is_none() { Destination::Place } else { to };
+    loop {
+        let begin = Instant::now();
+        let drawn = watched.read().and_then(|scene| {
+            to.check_libraries(&scene)?;
+            let notes = scene.notes.clone();
+            draw(arguments, still, scene, begin, &to)?;
+            input::say(&notes);
+            Ok(())
+        });
+        match drawn {
+            // A mistake stands below the last picture until it is mended.
+            Err(error @ (CliError::Input(_) | CliError::Scene(_))) => error.report(),
+            other => other?,
+        }
+        if !watched.wait() {
+            return Ok(());
+        }
+    }
+}
+
+/// Draws a scene that was read since `begin`, and writes the still.
+fn draw(
+    arguments: &RenderArguments,
+    still: Still,
+    scene: Scene,
+    begin: Instant,
+    to: &Destination,
+) -> Result<(), CliError> {
+    let format = still.format;
     let studio = input::studio(scene)?;
+    let reading = begin;
     let read = reading.elapsed();
     // What goes into a file is not for the terminal that the command runs in.
     let terminal = if arguments.output.is_some() { None } else { terminal::of_output() };
@@ -56,6 +102,24 @@ pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
         None => say_nothing(&frame),
     }
     Ok(())
+}
+
+/// A still on standard output, and again as the scene's files change.
+pub fn watched_still(
+    file: &str,
+    reading: &ReadingArguments,
+    picture: &PictureArguments,
+) -> Result<(), CliError> {
+    run(&RenderArguments {
+        scene: SceneArguments { file: file.to_owned(), reading: reading.clone() },
+        picture: picture.clone(),
+        format: None,
+        channel: None,
+        levels: false,
+        output: None,
+        watch: true,
+        stats: None,
+    })
 }
 
 /// One still on standard output, which is no terminal, or one without a cursor: characters only.

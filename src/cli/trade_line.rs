@@ -7,7 +7,7 @@ use crate::math::DVec3;
 use crate::scene::UpAxis;
 use crate::trade::Setting;
 
-use super::arguments::{Arguments, PictureArguments, TradeArguments};
+use super::arguments::{Arguments, OpenScadArguments, PictureArguments, TradeArguments};
 use super::error::CliError;
 use super::up::Up;
 
@@ -21,6 +21,15 @@ pub struct CommandLine {
     /// Where the knobs stand without options.
     bare: Setting,
     own: Setting,
+}
+
+/// What OpenSCAD is told of a program.
+fn told(openscad: &OpenScadArguments) -> String {
+    let defines = openscad.define.iter().map(|define| format!(" -D {}", quoted(define)));
+    let parameters =
+        openscad.parameters.iter().map(|file| format!(" -p {}", quoted(&file.to_string_lossy())));
+    let set = openscad.set.iter().map(|set| format!(" -P {}", quoted(set)));
+    defines.chain(parameters).chain(set).collect()
 }
 
 impl CommandLine {
@@ -38,7 +47,11 @@ impl CommandLine {
         Ok(Self {
             picture: picture.clone(),
             file: quoted(&arguments.scene.file),
-            rest: format!("{skip}{turned}{}", rest(picture, request)),
+            rest: format!(
+                "{skip}{turned}{}{}",
+                told(&arguments.scene.reading.openscad),
+                rest(picture, request)
+            ),
             bare,
             own: Setting::of(request),
         })

@@ -53,6 +53,17 @@ pub fn up(text: &str) -> Result<Up, String> {
     point(text).map(Up::Direction).map_err(|error| format!("{error}; or y or z, the axis of a mesh file"))
 }
 
+/// A variable of a program and its value, as in `size=[1,2,3]`.
+pub fn definition(text: &str) -> Result<String, String> {
+    let is_name = |name: &str| {
+        !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '$'))
+    };
+    match text.split_once('=') {
+        Some((name, value)) if is_name(name.trim()) && !value.trim().is_empty() => Ok(text.to_owned()),
+        _ => Err("expected NAME=VALUE, as in size=[1,2,3] or 'name=\"a text\"'".into()),
+    }
+}
+
 /// Full angles across and down in degrees, as in `40x25`.
 pub fn field(text: &str) -> Result<[f64; 2], String> {
     let angles = pair::<f64>(text).ok_or("expected ACROSSxDOWN in degrees, as in 40x25")?;

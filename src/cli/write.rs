@@ -25,6 +25,8 @@ pub fn print(bytes: &[u8]) -> Result<(), CliError> {
 pub enum Destination {
     /// Standard output.
     Standard,
+    /// The top of the terminal that is standard output, over the picture before.
+    Place,
     /// A file, a pipe or a device.
     File(PathBuf),
 }
@@ -42,7 +44,7 @@ impl Destination {
     pub fn check(&self, scene: &str) -> Result<(), CliError> {
         let Some(source) = input::metadata(scene) else { return Ok(()) };
         let (name, found) = match self {
-            Self::Standard => ("standard output".to_owned(), standard_output()),
+            Self::Standard | Self::Place => ("standard output".to_owned(), standard_output()),
             Self::File(path) => (path.display().to_string(), fs::metadata(path).ok()),
         };
         let is_source = found.is_some_and(|found| found.is_file() && is_same(&found, &source))
@@ -61,7 +63,7 @@ impl Destination {
 
     fn path(&self) -> Option<&Path> {
         match self {
-            Self::Standard => None,
+            Self::Standard | Self::Place => None,
             Self::File(path) => Some(path),
         }
     }
@@ -70,9 +72,23 @@ impl Destination {
     pub fn write(&self, bytes: &[u8]) -> Result<(), CliError> {
         match self {
             Self::Standard => print(bytes),
+            Self::Place => print(&in_place(bytes)),
             Self::File(path) => write_file(path, bytes),
         }
     }
+}
+
+/// A text from the top of the screen on: the rest of each line, and all below, is cleared, and nothing before
+/// it is written, which would be seen as a flash.
+fn in_place(bytes: &[u8]) -> Vec<u8> {
+    let mut out = b"\x1b[H".to_vec();
+    for line in bytes.split_inclusive(|&byte| byte == b'\n') {
+        let (line, end) = line.strip_suffix(b"\n").map_or((line, &b""[..]), |line| (line, b"\x1b[K\r\n"));
+        out.extend(line);
+        out.extend(end);
+    }
+    out.extend(b"\x1b[J");
+    out
 }
 
 #[cfg(unix)]

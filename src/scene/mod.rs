@@ -24,5 +24,5 @@ pub use model::{
     Anchor, Camera, CameraError, Corner, Facets, FieldSpan, HalfSpace, Light, Material, MaterialId, Mesh,
     Object, Primitive, REACH, Scene, Shape, Solid, World,
 };
-pub use options::{Format, ReadOptions, UpAxis};
+pub use options::{FilesRead, Format, ReadOptions, UpAxis};
 pub use read::{MAX_FILE_BYTES, ReadError, read, read_file};

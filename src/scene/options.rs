@@ -1,6 +1,8 @@
 //! How a scene is written, and how it is to be read.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::math::DVec3;
 use crate::stage::Progress;
@@ -73,6 +75,32 @@ impl UpAxis {
     }
 }
 
+/// The files that a scene is read from, as far as they are known: for who waits for changes of them. Those
+/// that could not be read are among them.
+#[derive(Clone, Debug, Default)]
+pub struct FilesRead(Arc<Mutex<BTreeSet<PathBuf>>>);
+
+impl FilesRead {
+    /// Takes a file.
+    pub fn add(&self, file: &Path) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).insert(file.to_owned());
+    }
+
+    /// All so far, in the order of their names.
+    pub fn all(&self) -> Vec<PathBuf> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).iter().cloned().collect()
+    }
+}
+
+/// Lists are the same where files that are added to the one are in the other.
+impl PartialEq for FilesRead {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl Eq for FilesRead {}
+
 /// How to read.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ReadOptions {
@@ -89,4 +117,6 @@ pub struct ReadOptions {
     pub up: Option<UpAxis>,
     /// Where the files are that a mesh names; [`read_file`](super::read_file) takes the folder of its own.
     pub folder: Option<PathBuf>,
+    /// Where to note the files that the scene is read from.
+    pub files: Option<FilesRead>,
 }

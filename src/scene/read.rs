@@ -35,6 +35,9 @@ pub enum ReadError {
 pub fn read_file(path: &Path, options: &ReadOptions) -> Result<Scene, ReadError> {
     let name = path.display().to_string();
     let file_error = |cause| ReadError::File { path: path.to_owned(), cause };
+    if let Some(files) = &options.files {
+        files.add(path);
+    }
     let file = File::open(path).map_err(file_error)?;
     let metadata = file.metadata().map_err(file_error)?;
     if metadata.is_dir() {

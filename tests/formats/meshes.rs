@@ -117,6 +117,23 @@ fn colours_beside_an_obj_file_are_its_colours() {
 }
 
 #[test]
+fn what_is_behind_the_end_is_said() {
+    let brick = MeshText::brick();
+    for (name, bytes, says) in [
+        ("behind.off", (brick.off() + "3 0 1 2\n\n# no more\n").into_bytes(), "1 lines behind the last face"),
+        ("behind.ply", (brick.ply_ascii() + "3 0 1 2\n").into_bytes(), "4 words behind the last element"),
+        ("behind-binary.ply", [brick.ply_little(), vec![0; 9]].concat(), "9 bytes behind the last element"),
+    ] {
+        let output = ray13(&["check"], &file(name, &bytes));
+        assert!(
+            output.status.success() && text(&output.stderr).contains(says),
+            "{name}: {}",
+            text(&output.stderr)
+        );
+    }
+}
+
+#[test]
 fn what_is_wrong_has_a_place() {
     let brick = MeshText::brick();
     let binary = brick.stl_binary(b"");

@@ -60,7 +60,7 @@ pub(super) fn read(
         Format::Stl => stl::read(bytes),
         Format::Off => off::read(bytes),
         Format::Ply => ply::read(bytes),
-        Format::Obj => obj::read(bytes, options.folder.as_deref()),
+        Format::Obj => obj::read(bytes, options),
         Format::Language | Format::Nff => return None,
     };
     let polygons = match polygons {

@@ -75,6 +75,10 @@ pub fn read(bytes: &[u8]) -> Result<PolygonMesh, MeshError> {
         // What follows on the line is a colour.
         mesh.add_face(face.iter().copied()).map_err(|fault| fault.at(word.span()))?;
     }
+    let rest = lines.count();
+    if rest > 0 {
+        mesh.notes.push(format!("{rest} lines behind the last face are ignored"));
+    }
     Ok(mesh)
 }
 

@@ -20,7 +20,7 @@ use crate::scene::memory::Memory;
 pub const MAX_DEPTH: usize = 2000;
 
 const EXPORT: &str = "arithmetic, variables and modules are OpenSCAD's work: \
-     export the file as .csg (openscad -o part.csg part.scad)";
+     name the file part.scad, or export it as .csg (openscad -o part.csg part.scad)";
 
 /// Reads a text event by event.
 pub struct Parser<'a> {

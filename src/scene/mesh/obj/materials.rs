@@ -6,7 +6,7 @@ use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
 
 use crate::math::DVec3;
-use crate::scene::Material;
+use crate::scene::{Material, ReadOptions};
 
 use super::super::words::MeshLines;
 
@@ -55,17 +55,20 @@ impl MaterialLibrary {
         }
     }
 
-    /// Reads the materials of a file in this folder, and in no other.
-    pub fn load(&mut self, name: &[u8], folder: Option<&Path>) {
+    /// Reads the materials of a file in the folder that the options name, and in no other.
+    pub fn load(&mut self, name: &[u8], options: &ReadOptions) {
         let shown = String::from_utf8_lossy(name).into_owned();
         let path = Path::new(&shown);
         let mut parts = path.components().filter(|part| *part != Component::CurDir);
         let inside = matches!((parts.next(), parts.next()), (Some(Component::Normal(_)), None));
-        let bytes = match folder {
+        let bytes = match &options.folder {
             _ if !inside => Err("only a file beside the mesh is read".to_owned()),
             None => Err("it is not known where the mesh lies".to_owned()),
             Some(folder) => {
                 let file = folder.join(path);
+                if let Some(files) = &options.files {
+                    files.add(&file);
+                }
                 let bytes = read(&file).map_err(|error| error.to_string());
                 if bytes.is_ok() && !self.files.contains(&file) {
                     self.files.push(file);
@@ -149,17 +152,18 @@ mod tests {
     #[test]
     fn only_what_lies_beside_is_read() {
         let mut library = MaterialLibrary::default();
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+        let folder = Some(Path::new(env!("CARGO_MANIFEST_DIR")).join("src"));
+        let options = ReadOptions { folder, ..ReadOptions::default() };
         for name in ["../README.md", "/etc/hostname", "scene/mod.rs", "", "scene", "no such file"] {
             library.notes.clear();
-            library.load(name.as_bytes(), Some(&folder));
+            library.load(name.as_bytes(), &options);
             assert_eq!(library.notes.len(), 1, "{name}");
         }
         assert_eq!(library.materials.len(), 1);
         library.notes.clear();
         assert!(library.files.is_empty());
         for _ in 0..2 {
-            library.load(b"./lib.rs", Some(&folder));
+            library.load(b"./lib.rs", &options);
         }
         assert_eq!(library.files, [folder.join("lib.rs")]);
         assert_eq!(library.notes, Vec::<String>::new());

@@ -3,9 +3,9 @@
 mod materials;
 
 use std::collections::HashMap;
-use std::path::Path;
 
 use crate::math::DVec3;
+use crate::scene::ReadOptions;
 
 use super::fault::{MeshError, MeshFault};
 use super::index::CornerNumbers;
@@ -72,8 +72,8 @@ pub fn is_obj(bytes: &[u8]) -> bool {
     false
 }
 
-/// Reads a file. Its materials are looked for in `folder`.
-pub fn read(bytes: &[u8], folder: Option<&Path>) -> Result<PolygonMesh, MeshError> {
+/// Reads a file. Its materials are looked for in the folder that the options name.
+pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<PolygonMesh, MeshError> {
     let mut reader = Reader {
         mesh: PolygonMesh::of("OBJ"),
         groups: Groups::default(),
@@ -81,7 +81,7 @@ pub fn read(bytes: &[u8], folder: Option<&Path>) -> Result<PolygonMesh, MeshErro
     };
     for mut words in MeshLines::continued(bytes) {
         if let Some(word) = words.next() {
-            reader.statement(word, &mut words, folder)?;
+            reader.statement(word, &mut words, options)?;
         }
     }
     reader.mesh.materials = reader.library.materials;
@@ -124,7 +124,7 @@ impl Reader {
         &mut self,
         word: MeshWord<'_>,
         words: &mut MeshWords<'_>,
-        folder: Option<&Path>,
+        options: &ReadOptions,
     ) -> Result<(), MeshError> {
         match word.bytes {
             b"v" => {
@@ -146,7 +146,7 @@ impl Reader {
                 self.library.choose(words.rest_of_line());
                 self.groups.is_new = true;
             }
-            b"mtllib" => self.library.load(words.rest_of_line(), folder),
+            b"mtllib" => self.library.load(words.rest_of_line(), options),
             other => {
                 if !IGNORED.iter().any(|ignored| ignored.as_bytes() == other) {
                     let wanted = "a statement of OBJ, such as `v`, `f` or `o`";

@@ -43,6 +43,9 @@ pub fn read(bytes: &[u8]) -> Result<PolygonMesh, MeshError> {
             }
         }
     }
+    if let Some(rest) = values.rest() {
+        mesh.notes.push(format!("{rest} behind the last element are ignored"));
+    }
     let is_short = |element: &Element<'_>| element.name == b"vertex" && element.properties.is_empty();
     if header.elements.iter().any(is_short) {
         return Err(MeshFault::Unexpected("`property float x` in the header".to_owned()).of_all());

@@ -59,6 +59,15 @@ impl<'a> PlyValues<'a> {
         Ok(PlyValue { number: number(value, scalar, self.encoding), start, length })
     }
 
+    /// What is left when all has been read, in words: none where nothing is.
+    pub fn rest(&self) -> Option<String> {
+        let (count, what) = match self.encoding {
+            Encoding::Ascii => (self.words.clone().count(), "words"),
+            _ => (self.bytes.len().saturating_sub(self.at), "bytes"),
+        };
+        (count > 0).then(|| format!("{count} {what}"))
+    }
+
     /// The length of a list, which is a whole number and not negative.
     pub fn length(&mut self, scalar: Scalar) -> Result<u64, MeshError> {
         let what = "the length of a list";

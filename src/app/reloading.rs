@@ -1,0 +1,31 @@
+//! Scenes that follow the first one, as its file changes.
+
+use std::fmt;
+use std::sync::Arc;
+
+use super::Painter;
+
+/// What comes after the first scene.
+pub struct Reloading<P> {
+    /// Waits until the scene has changed and gives it, or what is wrong with it; nothing at the end. It is
+    /// asked on a thread of its own.
+    pub next: Box<dyn FnMut() -> Option<Result<P, String>> + Send>,
+    /// Ends the waiting, and what the loading of a scene has begun; called before the program ends.
+    pub end: Box<dyn Fn() + Send>,
+}
+
+impl<P> Reloading<P> {
+    /// Nothing.
+    pub fn never() -> Self {
+        Self { next: Box::new(|| None), end: Box::new(|| {}) }
+    }
+}
+
+/// The scene that a file has become, or why it is none.
+pub struct Reloaded(pub Result<Arc<dyn Painter>, String>);
+
+impl fmt::Debug for Reloaded {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Reloaded").field(&self.0.as_ref().map(|_| ())).finish()
+    }
+}

@@ -58,9 +58,8 @@ impl Fragments {
         } else {
             // A spiral of Archimedes between two radii, `turn` apart.
             let end = if scale > 1.0 { turn * scale / (scale - 1.0) } else { turn / (1.0 - scale) };
-            let length = |theta: f64| {
-                0.5 * radius / end * (theta * (1.0 + theta * theta).sqrt() + libm::asinh(theta))
-            };
+            let length =
+                |theta: f64| 0.5 * radius / end * (theta * (1.0 + theta * theta).sqrt() + libm::asinh(theta));
             (length(end) - length(end - turn)).hypot(height)
         };
         (twist / angle).ceil().min((way / size).ceil()).max(least)

@@ -66,9 +66,7 @@ impl Builder {
         let arguments = BoundArguments::bind(call, word, &mut self.sink)?;
         let fragments = arguments.fragments(context.fragments);
         let flat = match kind {
-            FigureWord::Circle => {
-                Flat::Disc(radius(&arguments, "d", "r", &mut self.sink)?.unwrap_or(1.0))
-            }
+            FigureWord::Circle => Flat::Disc(radius(&arguments, "d", "r", &mut self.sink)?.unwrap_or(1.0)),
             FigureWord::Square => {
                 let size = arguments.triple("size", 1.0, &mut self.sink)?.unwrap_or(DVec3::ONE);
                 let half = size.truncate() * 0.5;
@@ -126,14 +124,18 @@ impl Builder {
 
     /// The error of what would have too many corners.
     pub(super) fn too_many(&mut self, origin: Origin) -> Lost {
-        let error = Diagnostic::error(origin.name, format!("it would have more than {MOST_CORNERS:e} corners"));
+        let error =
+            Diagnostic::error(origin.name, format!("it would have more than {MOST_CORNERS:e} corners"));
         let error = error.help("make curves coarser, by $fn or $fs, or take fewer slices");
         super::arguments::refuse(origin.word, error, Lost::Missing, &mut self.sink)
     }
 
     /// The error of outlines that cross too often.
     pub(super) fn tangled(&mut self, origin: Origin) -> Lost {
-        let error = Diagnostic::error(origin.name, "its outlines cross each other too often to be sorted out");
+        let error = Diagnostic::error(
+            origin.name,
+            "its outlines are too dense, or cross too often, to be sorted out",
+        );
         let error = error.help("leave detail out, or split it");
         super::arguments::refuse(origin.word, error, Lost::Missing, &mut self.sink)
     }
@@ -191,7 +193,8 @@ impl Builder {
             }))),
         };
         placed.ok_or_else(|| {
-            let message = format!("`{}` is made flat by what stands above it, and left out", origin.word.name);
+            let message =
+                format!("`{}` is made flat by what stands above it, and left out", origin.word.name);
             self.sink.note(Diagnostic::note(origin.name, message));
             Lost::Empty
         })
@@ -281,11 +284,14 @@ fn chosen(
         let mut outline = Vec::with_capacity(indices.len());
         for index in indices {
             let point = match index.value {
-                Value::Number(number) if number >= 0.0 && number.fract() == 0.0 => points.get(number as usize),
+                Value::Number(number) if number >= 0.0 && number.fract() == 0.0 => {
+                    points.get(number as usize)
+                }
                 _ => None,
             };
             let Some(&point) = point else {
-                let message = format!("a path of `polygon` names one of its {} points by an index", points.len());
+                let message =
+                    format!("a path of `polygon` names one of its {} points by an index", points.len());
                 return Err(refuse(index, message, sink));
             };
             outline.push(point);

@@ -1,12 +1,12 @@
 //! The words that make something new of what their children are.
 
+use super::Builder;
 use super::arguments::{BoundArguments, refuse};
 use super::context::{Context, Space};
 use super::frame::OpenCall;
 use super::lost::Lost;
 use super::pieces::{Leaf, Piece, corners, united};
 use super::solids::Origin;
-use super::Builder;
 use crate::math::{Bounds, DAffine3, DMat3, DVec2, DVec3};
 use crate::scene::diagnostic::Sink;
 use crate::scene::language::syntax::TextSpan;
@@ -92,7 +92,8 @@ impl Builder {
             FormWord::RotateExtrude => {
                 let angle = arguments.number("angle", sink)?.unwrap_or(360.0);
                 if angle == 0.0 {
-                    let error = Diagnostic::error(arguments.place_of("angle"), "an angle of 0 sweeps nothing");
+                    let error =
+                        Diagnostic::error(arguments.place_of("angle"), "an angle of 0 sweeps nothing");
                     return Err(arguments.refuse(error, Lost::Empty, sink));
                 }
                 Form::Turned(Revolution { angle, start: arguments.number("start", sink)?, fragments })
@@ -113,7 +114,11 @@ impl Builder {
                 }
             }
             FormWord::Projection => {
-                if arguments.flag("cut", sink)? { Form::Section } else { Form::Shadow }
+                if arguments.flag("cut", sink)? {
+                    Form::Section
+                } else {
+                    Form::Shadow
+                }
             }
             FormWord::Resize => {
                 let size = arguments.triple("newsize", 0.0, sink)?.unwrap_or(DVec3::ZERO);
@@ -134,7 +139,8 @@ impl Builder {
         let pieces = self.pieces.split_off(frame.start);
         let any_left_out = frame.any_missing || frame.any_incomplete;
         let none = if any_left_out { Lost::Missing } else { Lost::Empty };
-        let is_union = matches!(form, Form::Operator(_) | Form::Grown(..) | Form::Linear(..) | Form::Turned(_));
+        let is_union =
+            matches!(form, Form::Operator(_) | Form::Grown(..) | Form::Linear(..) | Form::Turned(_));
         let lost = match form {
             Form::Operator(OperatorWord::Intersection) if frame.any_empty => Some(Lost::Empty),
             Form::Operator(OperatorWord::Intersection) if frame.any_missing => Some(Lost::Missing),
@@ -146,7 +152,8 @@ impl Builder {
             if lost == Lost::Missing && frame.present > 1 {
                 self.note_left_out(frame);
                 if !is_union && self.sink.is_clean() {
-                    let message = format!("`{}` is left out whole: a part of it is missing", origin.word.name);
+                    let message =
+                        format!("`{}` is left out whole: a part of it is missing", origin.word.name);
                     self.sink.note(Diagnostic::note(origin.name, message));
                 }
             }
@@ -182,7 +189,8 @@ impl Builder {
         pieces.retain(|piece| piece.is_figure() == is_flat);
         if pieces.len() < count {
             let kind = if is_flat { "solids" } else { "figures" };
-            let message = format!("{kind} within `{}` are left out: it is of the other kind", origin.word.name);
+            let message =
+                format!("{kind} within `{}` are left out: it is of the other kind", origin.word.name);
             self.sink.note(Diagnostic::note(origin.name, message));
         }
         pieces
@@ -240,7 +248,11 @@ impl Builder {
                     Join::Sharp | Join::Chamfered => 2.0,
                 };
                 self.check_corners(figure.count() as f64 * 2.0 + sides, origin)?;
-                if *by == 0.0 { Ok(Piece::Figure(figure)) } else { Ok(Piece::Figure(grown(&figure, *by, *join))) }
+                if *by == 0.0 {
+                    Ok(Piece::Figure(figure))
+                } else {
+                    Ok(Piece::Figure(grown(&figure, *by, *join)))
+                }
             }
             Form::Fill => {
                 let figure = self.figure_of(FigureOperator::Union, &figures, origin)?;
@@ -271,9 +283,7 @@ impl Builder {
                 let error = DVec3::splat(figure.error);
                 Ok(Piece::Solid(Solid::Primitive(of_mesh(mesh).with_map_error(error))))
             }
-            Form::Section => {
-                section(&united(solids)).map(Piece::Figure).map_err(|_| self.tangled(origin))
-            }
+            Form::Section => section(&united(solids)).map(Piece::Figure).map_err(|_| self.tangled(origin)),
             Form::Shadow => shadow(&united(solids)).map(Piece::Figure).map_err(|why| match why {
                 NoShadow::TooMany => self.too_many(origin),
                 NoShadow::Cut => self.not_yet("the shadow of what is cut is not worked out", origin),

@@ -206,7 +206,7 @@ pub fn grown(figure: &Figure, by: f64, join: Join) -> Figure {
     Figure { error: grown.error + figure.error, ..grown }
 }
 
-/// Whether paths have too many crossings, or too many sides beside each other, for a sweep that looks at each.
+/// Whether paths have too many crossings, or too many sides beside each other, for a sweep to look at each.
 fn is_tangled<'p>(paths: impl Iterator<Item = &'p Vec<DVec2>>) -> bool {
     let sides: Vec<[DVec2; 2]> =
         paths.flat_map(|path| (0..path.len()).map(|i| [path[i], path[(i + 1) % path.len()]])).collect();

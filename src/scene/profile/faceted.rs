@@ -15,7 +15,7 @@ pub fn faceted(shape: &Shape, radius: f64, fragments: &Fragments) -> Option<Arc<
         Shape::Mesh(mesh) => Some(Arc::clone(mesh)),
         Shape::Cube => Some(Arc::new(cube())),
         Shape::Sphere => {
-            let rings = ((count + 1.0) / 2.0).floor();
+            let rings = (count * 0.5).ceil();
             let ring = |i: usize| {
                 let polar = (i as f64 + 0.5) * 180.0 / rings;
                 (degrees::sin(polar), degrees::cos(polar))

@@ -242,7 +242,9 @@ impl Sweep {
             triangulate_rings(&rings, clipper, |triangle| {
                 triangles.push(triangle.map(|i| numbers[i as usize]));
             });
-            triangles.into_iter().for_each(|triangle| self.give(triangle));
+            for triangle in triangles {
+                self.give(triangle);
+            }
             start += rings.iter().map(|ring| ring.len()).sum::<usize>();
         }
     }

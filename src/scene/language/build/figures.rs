@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use super::arguments::{BoundArguments, numbers};
-use super::context::{Context, Space};
+use super::context::{Context, FormSpace};
 use super::lost::Lost;
-use super::pieces::{Leaf, Piece, moved, rebuilt};
-use super::solids::{Origin, placed, radius};
+use super::origin::Origin;
+use super::pieces::{Made, Piece, moved, rebuilt};
+use super::solids::{placed, radius};
 use super::{Builder, facets};
 use crate::math::{DAffine3, DVec2, DVec3};
 use crate::scene::diagnostic::Sink;
@@ -35,15 +36,15 @@ impl Builder {
         word: &'static Word,
         call: &Call<'_>,
         context: &Context,
-    ) -> Result<Leaf, Lost> {
-        let is_faceted = context.space == Space::Faceted;
+    ) -> Result<Made, Lost> {
+        let is_faceted = context.space == FormSpace::Faceted;
         match word.meaning {
             Meaning::Figure(kind) => self.figure(kind, word, call, context),
-            Meaning::Solid(_) if matches!(context.space, Space::Extruded { .. }) => {
+            Meaning::Solid(_) if matches!(context.space, FormSpace::Extruded { .. }) => {
                 Err(self.solid_in_drawing(Origin::of(word, call)))
             }
-            Meaning::Solid(kind) if is_faceted => self.facets(kind, word, call, context).map(Leaf::Piece),
-            Meaning::Solid(kind) => self.primitive(kind, word, call, context).map(Leaf::Solid),
+            Meaning::Solid(kind) if is_faceted => self.facets(kind, word, call, context).map(Made::Piece),
+            Meaning::Solid(kind) => self.primitive(kind, word, call, context).map(Made::Solid),
             _ => Err(Lost::Missing),
         }
     }
@@ -61,7 +62,7 @@ impl Builder {
         word: &'static Word,
         call: &Call<'_>,
         context: &Context,
-    ) -> Result<Leaf, Lost> {
+    ) -> Result<Made, Lost> {
         let origin = Origin::of(word, call);
         let arguments = BoundArguments::bind(call, word, &mut self.sink)?;
         let fragments = arguments.fragments(context.fragments);
@@ -75,9 +76,9 @@ impl Builder {
             }
             FigureWord::Polygon => Flat::Outlines(self.polygon(&arguments, origin)?),
         };
-        if context.space == Space::Faceted {
+        if context.space == FormSpace::Faceted {
             let figure = self.outlined(flat, fragments, origin)?;
-            return self.placed_piece(Piece::Figure(figure), context, origin).map(Leaf::Piece);
+            return self.placed_piece(Piece::Figure(figure), context, origin).map(Made::Piece);
         }
         let (bottom, top) = context.space.thickness();
         let (middle, half) = (0.5 * (bottom + top), 0.5 * (top - bottom));
@@ -91,10 +92,10 @@ impl Builder {
             }
             Flat::Rectangle(at, size) => (Shape::Cube, placed(at.extend(middle), size.extend(half))),
             Flat::Outlines(figure) => {
-                return self.shown(Piece::Figure(figure), context, origin).map(Leaf::Solid);
+                return self.shown(Piece::Figure(figure), context, origin).map(Made::Solid);
             }
         };
-        self.put(shape, local, DVec3::ZERO, context, origin).map(|p| Leaf::Solid(Solid::Primitive(p)))
+        self.put(shape, local, DVec3::ZERO, context, origin).map(|p| Made::Solid(Solid::Primitive(p)))
     }
 
     /// The outlines of a figure.
@@ -215,7 +216,7 @@ impl Builder {
                 let shape = Shape::Mesh(Arc::new(mesh));
                 self.put(shape, DAffine3::IDENTITY, off, context, origin).map(Solid::Primitive)
             }
-            Piece::Solid(_) if matches!(context.space, Space::Extruded { .. }) => {
+            Piece::Solid(_) if matches!(context.space, FormSpace::Extruded { .. }) => {
                 Err(self.solid_in_drawing(origin))
             }
             Piece::Solid(solid) => {

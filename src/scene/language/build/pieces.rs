@@ -14,7 +14,7 @@ pub enum Piece {
 
 /// What a call without children, or one that makes something of them, is.
 #[derive(Clone, Debug)]
-pub enum Leaf {
+pub enum Made {
     Solid(Solid),
     Piece(Piece),
 }

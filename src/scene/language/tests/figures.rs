@@ -118,7 +118,10 @@ fn twists_and_scales_and_turns_enclose_what_they_should() {
     assert_volume("rotate_extrude(angle = 90, $fn = 90) translate([3, 0]) square(2);", tau * 4.0);
     assert_volume("rotate_extrude(angle = -90, $fn = 90) translate([-5, 0]) square(2);", tau * 4.0);
     assert_volume("rotate_extrude($fn = 90) polygon([[0, 0], [3, 0], [0, 3]]);", tau / 2.0 * 9.0);
-    assert_volume("linear_extrude(6, v = [3, 0, 4]) square(2);", 4.0 * 6.0 * 0.8);
+    assert_volume(
+        "linear_extrude(6, v = [3, 0, 4]) polygon([[0, 0], [2, 0], [2, 2], [0, 2]]);",
+        4.0 * 6.0 * 0.8,
+    );
 }
 
 #[test]

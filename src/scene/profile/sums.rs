@@ -10,7 +10,7 @@ use crate::scene::triangulation::{EarClipper, triangulate_rings};
 use crate::scene::{MaterialId, Mesh, Primitive, Shape, Solid};
 
 /// More sums of two corners than this are not computed.
-const MOST_SUMS: usize = 2_000_000;
+const MOST_SUMS: usize = 1_000_000;
 
 /// The sum of two figures; none where that is too much to compute.
 pub fn sum_of_figures(a: &Figure, b: &Figure, clipper: &mut EarClipper) -> Option<Figure> {

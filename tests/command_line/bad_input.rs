@@ -50,10 +50,10 @@ fn is_deep_nesting_without_a_crash() {
 
 #[test]
 fn can_be_skipped_where_openscad_is_larger_than_ray13() {
-    let (_, file) = scene("skip", "sphere(1);\nhull() { cube(1); sphere(1); }\n");
-    assert!(fails(&run(&["render", &file, "--format", "txt"]), 2).contains("hull"));
+    let (_, file) = scene("skip", "sphere(1);\nroof() { cube(1); sphere(1); }\n");
+    assert!(fails(&run(&["render", &file, "--format", "txt"]), 2).contains("roof"));
     let skipped = run(&["render", &file, "--format", "txt", "--skip-unsupported"]);
     assert!(skipped.status.success());
     assert!(!skipped.stdout.is_empty());
-    assert!(text(&skipped.stderr).contains("hull"), "what was left out is not said");
+    assert!(text(&skipped.stderr).contains("roof"), "what was left out is not said");
 }

@@ -45,8 +45,7 @@ fn the_picture_is_that_of_the_rest() {
 
 #[test]
 fn an_intersection_with_something_unknown_is_not_its_other_child() {
-    let unknown =
-        "intersection() { linear_extrude(height = 3) { circle(r = 5); } cube(size = [1000, 1000, 1000]); }";
+    let unknown = "intersection() { roof() { circle(r = 5); } cube(size = [1000, 1000, 1000]); }";
     let (alone, both) = ("cube(size = [10, 1, 1]);", format!("{unknown}\ncube(size = [10, 1, 1]);"));
     let shown = levels(&file("unknown.csg", &both), &["--skip-unsupported"]);
     assert_eq!(text(&shown.stdout), text(&levels(&file("alone.csg", alone), &[]).stdout));
@@ -54,10 +53,7 @@ fn an_intersection_with_something_unknown_is_not_its_other_child() {
     let none = levels(&file("none.csg", unknown), &["--skip-unsupported"]);
     let message = text(&none.stderr);
     assert_eq!(none.status.code(), Some(2));
-    assert!(
-        message.contains("nothing is left") && message.contains("`linear_extrude` is left out"),
-        "{message}"
-    );
+    assert!(message.contains("nothing is left") && message.contains("`roof` is left out"), "{message}");
     assert!(!message.contains("add a solid"), "{message}");
 }
 

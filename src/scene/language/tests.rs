@@ -3,6 +3,7 @@
 mod bad_input;
 mod csg;
 mod documentation;
+mod figures;
 mod hostile;
 mod language;
 mod leaves;

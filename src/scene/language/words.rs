@@ -154,7 +154,12 @@ pub static WORDS: &[Word] = &[
         ],
         "The solid that a figure sweeps about the z axis: its y becomes z.",
     ),
-    word("hull", Meaning::Form(FormWord::Hull), &[], "The smallest convex solid, or figure, around its children."),
+    word(
+        "hull",
+        Meaning::Form(FormWord::Hull),
+        &[],
+        "The smallest convex solid, or figure, around its children.",
+    ),
     word(
         "minkowski",
         Meaning::Form(FormWord::Minkowski),

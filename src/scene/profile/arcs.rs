@@ -54,14 +54,13 @@ impl Fragments {
         let (angle, size) = self.least();
         let turn = twist.to_radians();
         let way = if scale == 1.0 {
-            (turn * radius).hypot(height)
+            libm::hypot(turn * radius, height)
         } else {
             // A spiral of Archimedes between two radii, `turn` apart.
             let end = if scale > 1.0 { turn * scale / (scale - 1.0) } else { turn / (1.0 - scale) };
-            let length = |theta: f64| {
-                0.5 * radius / end * (theta * (1.0 + theta * theta).sqrt() + libm::asinh(theta))
-            };
-            (length(end) - length(end - turn)).hypot(height)
+            let length =
+                |theta: f64| 0.5 * radius / end * (theta * (1.0 + theta * theta).sqrt() + libm::asinh(theta));
+            libm::hypot(length(end) - length(end - turn), height)
         };
         (twist / angle).ceil().min((way / size).ceil()).max(least)
     }
@@ -75,7 +74,7 @@ impl Fragments {
         if self.number > 0.0 {
             return self.number.trunc().max(1.0);
         }
-        (shift.hypot(height) / self.least().1).ceil().max(1.0)
+        (libm::hypot(shift, height) / self.least().1).ceil().max(1.0)
     }
 
     /// `$fa` and `$fs`, not below OpenSCAD's least.

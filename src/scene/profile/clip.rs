@@ -14,13 +14,13 @@ use crate::math::DVec2;
 /// such, are far from the end of 128 bits, and a quarter of the bits of 64 is left for offsets to grow into.
 const MOST_UNITS: i32 = 44;
 
-/// More pairs of sides than this are not looked at for crossings.
-const MOST_PAIRS: usize = 400_000_000;
+/// More pairs of sides that are beside each other are not looked at.
+const MOST_PAIRS: usize = 60_000_000;
 
 /// More crossings than this an outline may not have.
-const MOST_CROSSINGS: usize = 200_000;
+const MOST_CROSSINGS: usize = 100_000;
 
-/// Outlines cross each other too often to be sorted out.
+/// Outlines cross each other too often, or are too dense, to be sorted out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tangled;
 
@@ -44,7 +44,7 @@ struct Grid {
 impl Grid {
     /// A grid for coordinates up to `reach`.
     fn new(reach: f64) -> Self {
-        let exponent = if reach > 0.0 { libm::ilogb(reach).clamp(-900, 1000) } else { 0 };
+        let exponent = if reach > 0.0 { libm::ilogb(reach).clamp(-900, 1022) } else { 0 };
         Self { unit: libm::ldexp(1.0, exponent + 1 - MOST_UNITS), places: HashMap::new() }
     }
 
@@ -138,9 +138,7 @@ pub fn combined(operator: FigureOperator, figures: &[Figure]) -> Result<Figure, 
     let mut paths: Vec<Paths64> = figures.iter().map(|figure| grid.paths(figure)).collect();
     let none = Paths64::new();
     let figure = match operator {
-        FigureOperator::Union => {
-            grid.clipped(ClipType::Union, FillRule::NonZero, &paths.concat(), &none)
-        }
+        FigureOperator::Union => grid.clipped(ClipType::Union, FillRule::NonZero, &paths.concat(), &none),
         FigureOperator::Difference => {
             let first = paths.remove(0);
             grid.clipped(ClipType::Difference, FillRule::NonZero, &first, &paths.concat())
@@ -176,7 +174,8 @@ pub fn covered(outlines: &[Vec<DVec2>]) -> Figure {
         })
         .collect();
     // Few at a time, then the sums of few: a sweep over all at once would meet every crossing of every pair.
-    let mut layers: Vec<Paths64> = paths.chunks(32).map(|few| union_subjects_64(&few.to_vec(), FillRule::NonZero)).collect();
+    let mut layers: Vec<Paths64> =
+        paths.chunks(32).map(|few| union_subjects_64(&few.to_vec(), FillRule::NonZero)).collect();
     while layers.len() > 8 {
         layers = layers.chunks(8).map(|few| union_subjects_64(&few.concat(), FillRule::NonZero)).collect();
     }
@@ -207,28 +206,50 @@ pub fn grown(figure: &Figure, by: f64, join: Join) -> Figure {
     Figure { error: grown.error + figure.error, ..grown }
 }
 
-/// Whether paths cross too often for a sweep that looks at each crossing.
+/// Whether paths have too many crossings, or too many sides beside each other, for a sweep to look at each.
 fn is_tangled<'p>(paths: impl Iterator<Item = &'p Vec<DVec2>>) -> bool {
-    let mut sides: Vec<[DVec2; 2]> = paths
-        .flat_map(|path| (0..path.len()).map(|i| [path[i], path[(i + 1) % path.len()]]))
-        .collect();
+    let sides: Vec<[DVec2; 2]> =
+        paths.flat_map(|path| (0..path.len()).map(|i| [path[i], path[(i + 1) % path.len()]])).collect();
     if sides.len() < 500 {
         return false;
     }
-    let low = |side: &[DVec2; 2]| side[0].x.min(side[1].x);
-    sides.sort_by(|a, b| low(a).total_cmp(&low(b)));
-    let (mut open, mut pairs, mut crossings) = (Vec::<[DVec2; 2]>::new(), 0, 0);
-    for side in sides {
-        open.retain(|other| other[0].x.max(other[1].x) >= low(&side));
-        pairs += open.len();
-        let cuts = |[a, b]: [DVec2; 2], [c, d]: [DVec2; 2]| {
-            (b - a).perp_dot(c - a) * (b - a).perp_dot(d - a) < 0.0
-        };
-        crossings += open.iter().filter(|&&other| cuts(side, other) && cuts(other, side)).count();
-        if pairs > MOST_PAIRS || crossings > MOST_CROSSINGS {
-            return true;
+    // The library's sweep goes along y, and keeps the sides that it passes in a list.
+    let mut along_y: Vec<[DVec2; 2]> = sides.iter().map(|side| side.map(|p| DVec2::new(p.y, p.x))).collect();
+    let mut along_x = sides;
+    let (pairs_x, pairs_y) = (count_of_pairs(&mut along_x), count_of_pairs(&mut along_y));
+    if pairs_y > MOST_PAIRS || pairs_x.min(pairs_y) > MOST_PAIRS {
+        return true;
+    }
+    crossings(&if pairs_x < pairs_y { along_x } else { along_y }) > MOST_CROSSINGS
+}
+
+/// Where a side begins and ends along x.
+fn ends([a, b]: &[DVec2; 2]) -> [f64; 2] {
+    [a.x.min(b.x), a.x.max(b.x)]
+}
+
+/// Puts sides in the order of where they begin along x; gives how many pairs are beside each other there.
+fn count_of_pairs(sides: &mut [[DVec2; 2]]) -> usize {
+    sides.sort_by(|a, b| ends(a)[0].total_cmp(&ends(b)[0]));
+    let mut last: Vec<f64> = sides.iter().map(|side| ends(side)[1]).collect();
+    last.sort_by(f64::total_cmp);
+    let ended = |x: f64| last.partition_point(|&end| end < x);
+    sides.iter().enumerate().map(|(before, side)| before.saturating_sub(ended(ends(side)[0]))).sum()
+}
+
+/// How often sides, in the order of where they begin along x, cross; more than [`MOST_CROSSINGS`] are not
+/// counted.
+fn crossings(sides: &[[DVec2; 2]]) -> usize {
+    let cuts =
+        |[a, b]: [DVec2; 2], [c, d]: [DVec2; 2]| (b - a).perp_dot(c - a) * (b - a).perp_dot(d - a) < 0.0;
+    let (mut open, mut count) = (Vec::<[DVec2; 2]>::new(), 0);
+    for &side in sides {
+        open.retain(|other| ends(other)[1] >= ends(&side)[0]);
+        count += open.iter().filter(|&&other| cuts(side, other) && cuts(other, side)).count();
+        if count > MOST_CROSSINGS {
+            break;
         }
         open.push(side);
     }
-    false
+    count
 }

@@ -173,7 +173,8 @@ impl<'p> Hull<'p> {
         let normal = (b - a).cross(c - a);
         let far = |index: u32| normal.dot(self.points[index as usize] - a);
         let above = &self.faces[face].above;
-        let point = above.iter().copied().reduce(|best, next| if far(next) > far(best) { next } else { best })?;
+        let point =
+            above.iter().copied().reduce(|best, next| if far(next) > far(best) { next } else { best })?;
         // All faces that see the point, and the sides behind which none does.
         let mut seen = vec![face];
         self.faces[face].is_there = false;
@@ -208,7 +209,12 @@ impl<'p> Hull<'p> {
             })?;
             self.faces[other].beyond[side] = new;
             let beyond = [other, usize::MAX, usize::MAX];
-            self.faces.push(HullFace { corners: [from, to, point], beyond, above: Vec::new(), is_there: true });
+            self.faces.push(HullFace {
+                corners: [from, to, point],
+                beyond,
+                above: Vec::new(),
+                is_there: true,
+            });
         }
         for new in start..self.faces.len() {
             let &behind = by_first.get(&self.faces[new].corners[1])?;
@@ -271,7 +277,7 @@ mod tests {
     fn flat_points_have_no_hull() {
         assert!(hull(vec![]).is_none());
         assert!(hull(vec![DVec3::ZERO; 9]).is_none());
-        assert!(hull((0..9).map(|i| DVec3::new(0.1, 0.7, 0.3) * f64::from(i)).collect()).is_none());
+        assert!(hull((0..9).map(|i| DVec3::new(0.5, 3.5, 1.5) * f64::from(i)).collect()).is_none());
         let square = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
         assert!(hull(square.map(|[x, y]| DVec3::new(x, y, 0.3)).to_vec()).is_none());
         assert!(outline(square.map(|[x, _]| DVec2::new(x, 0.1 * x)).to_vec()).is_none());

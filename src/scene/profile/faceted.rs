@@ -15,7 +15,7 @@ pub fn faceted(shape: &Shape, radius: f64, fragments: &Fragments) -> Option<Arc<
         Shape::Mesh(mesh) => Some(Arc::clone(mesh)),
         Shape::Cube => Some(Arc::new(cube())),
         Shape::Sphere => {
-            let rings = ((count + 1.0) / 2.0).floor();
+            let rings = (count * 0.5).ceil();
             let ring = |i: usize| {
                 let polar = (i as f64 + 0.5) * 180.0 / rings;
                 (degrees::sin(polar), degrees::cos(polar))
@@ -31,7 +31,8 @@ pub fn faceted(shape: &Shape, radius: f64, fragments: &Fragments) -> Option<Arc<
 }
 
 fn cube() -> Mesh {
-    let corner = |i: u32| DVec3::from_array([0, 1, 2].map(|axis| if i >> axis & 1 == 0 { -1.0 } else { 1.0 }));
+    let corner =
+        |i: u32| DVec3::from_array([0, 1, 2].map(|axis| if i >> axis & 1 == 0 { -1.0 } else { 1.0 }));
     let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
     let triangles = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
     Mesh { points: (0..8).map(corner).collect(), triangles }

@@ -1,5 +1,5 @@
-//! Plane figures, what is made of them, and the facets that stand for curved solids where something is made of
-//! their corners: `docs/decisions/28-plane-figures.md` says what is exact and what is not.
+//! Plane figures, what is made of them, and the facets that stand for curved solids where something is made
+//! of their corners: `docs/decisions/28-plane-figures.md` says what is exact and what is not.
 
 mod arcs;
 mod clip;

@@ -21,20 +21,17 @@ const MOST_TRIANGLES: usize = 20_000;
 
 /// What the plane z = 0 cuts of a solid of meshes.
 pub fn section(solid: &Solid) -> Result<Figure, Tangled> {
-    solid.fold(
-        &mut |primitive| filled(&cut(primitive), 0.0),
-        &mut |solid, parts| {
-            let figures = parts.collect::<Result<Vec<_>, _>>()?;
-            combined(
-                match solid {
-                    Solid::Difference(_) => FigureOperator::Difference,
-                    Solid::Intersection(_) => FigureOperator::Intersection,
-                    Solid::Union(_) | Solid::Primitive(_) => FigureOperator::Union,
-                },
-                &figures,
-            )
-        },
-    )
+    solid.fold(&mut |primitive| filled(&cut(primitive), 0.0), &mut |solid, parts| {
+        let figures = parts.collect::<Result<Vec<_>, _>>()?;
+        combined(
+            match solid {
+                Solid::Difference(_) => FigureOperator::Difference,
+                Solid::Intersection(_) => FigureOperator::Intersection,
+                Solid::Union(_) | Solid::Primitive(_) => FigureOperator::Union,
+            },
+            &figures,
+        )
+    })
 }
 
 fn placed(primitive: &Primitive) -> Option<Mesh> {

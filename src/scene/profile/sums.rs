@@ -10,7 +10,7 @@ use crate::scene::triangulation::{EarClipper, triangulate_rings};
 use crate::scene::{MaterialId, Mesh, Primitive, Shape, Solid};
 
 /// More sums of two corners than this are not computed.
-const MOST_SUMS: usize = 8_000_000;
+const MOST_SUMS: usize = 1_000_000;
 
 /// The sum of two figures; none where that is too much to compute.
 pub fn sum_of_figures(a: &Figure, b: &Figure, clipper: &mut EarClipper) -> Option<Figure> {
@@ -133,13 +133,14 @@ pub fn is_convex(mesh: &Mesh) -> bool {
     // A cross product of differences and a product with a third, 8 half-ulps, of coordinates that were mapped
     // by 4 more.
     let within = 16.0 * f64::EPSILON * Bounds::around(mesh.points.iter().copied()).farthest().max_element();
-    let is_small = mesh.points.len().saturating_mul(mesh.triangles.len()) <= 50 * MOST_SUMS;
-    is_small && mesh.triangles.iter().all(|triangle| {
-        let [a, b, c] = triangle.map(|i| mesh.points[i as usize]);
-        let Some(normal) = (b - a).cross(c - a).try_normalize() else { return true };
-        let heights = mesh.points.iter().map(|&p| normal.dot(p - a));
-        let (low, high) =
-            heights.fold((0.0_f64, 0.0_f64), |(low, high), height| (low.min(height), high.max(height)));
-        low >= -within || high <= within
-    })
+    let is_small = mesh.points.len().saturating_mul(mesh.triangles.len()) <= 100 * MOST_SUMS;
+    is_small
+        && mesh.triangles.iter().all(|triangle| {
+            let [a, b, c] = triangle.map(|i| mesh.points[i as usize]);
+            let Some(normal) = (b - a).cross(c - a).try_normalize() else { return true };
+            let heights = mesh.points.iter().map(|&p| normal.dot(p - a));
+            let (low, high) =
+                heights.fold((0.0_f64, 0.0_f64), |(low, high), height| (low.min(height), high.max(height)));
+            low >= -within || high <= within
+        })
 }

@@ -62,7 +62,7 @@ impl LinearSweep {
         for layer in 0..layers.len() {
             sweep.layer(figure, |p| place(layer, p));
         }
-        let back = self.twist > 0.0;
+        let back = self.twist < 0.0;
         for layer in 1..layers.len() {
             // At an end that is a point or a line the other diagonal keeps triangles from being flat.
             let is_end = layers[layer].scale.min_element() == 0.0;
@@ -242,14 +242,17 @@ impl Sweep {
             triangulate_rings(&rings, clipper, |triangle| {
                 triangles.push(triangle.map(|i| numbers[i as usize]));
             });
-            triangles.into_iter().for_each(|triangle| self.give(triangle));
+            for triangle in triangles {
+                self.give(triangle);
+            }
             start += rings.iter().map(|ring| ring.len()).sum::<usize>();
         }
     }
 
     fn mesh(mut self) -> Mesh {
         cancel_pairs(&mut self.triangles);
-        let mut triangles: Vec<[u32; 3]> = self.triangles.into_iter().map(|(triangle, ())| triangle).collect();
+        let mut triangles: Vec<[u32; 3]> =
+            self.triangles.into_iter().map(|(triangle, ())| triangle).collect();
         triangles.shrink_to_fit();
         self.points.shrink_to_fit();
         Mesh { points: self.points, triangles }

@@ -12,12 +12,12 @@ pub struct Context {
     pub surface: Surface,
     /// How fine curves are cut, where they are.
     pub fragments: Fragments,
-    pub space: Space,
+    pub space: FormSpace,
 }
 
 /// What becomes of figures and solids.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Space {
+pub enum FormSpace {
     /// Solids are solids, and figures are as thick as OpenSCAD shows them.
     #[default]
     Solid,
@@ -27,7 +27,7 @@ pub enum Space {
     Faceted,
 }
 
-impl Space {
+impl FormSpace {
     /// From where to where along z a figure reaches: one unit, about the plane z = 0, where nothing is made
     /// of it.
     pub fn thickness(self) -> (f64, f64) {

@@ -1,7 +1,7 @@
 //! The first reading of a text: takes its definitions, and finds its root.
 
 use super::arguments::{BoundArguments, setting};
-use super::solids::Origin;
+use super::origin::Origin;
 use super::survey::{is_definition, set};
 use super::{Builder, Flow};
 use crate::scene::Diagnostic;

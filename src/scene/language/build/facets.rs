@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use crate::scene::degrees;
 use crate::math::{Bounds, DVec3};
+use crate::scene::degrees;
 use crate::scene::profile::Fragments;
 use crate::scene::{Facets, HalfSpace, Shape};
 

@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use super::arguments::{BoundArguments, numbers};
-use super::context::{Context, Space};
+use super::context::{Context, FormSpace};
 use super::lost::Lost;
-use super::pieces::{Leaf, Piece, moved, rebuilt};
-use super::solids::{Origin, placed, radius};
+use super::origin::Origin;
+use super::pieces::{Made, Piece, moved, rebuilt};
+use super::solids::{placed, radius};
 use super::{Builder, facets};
 use crate::math::{DAffine3, DVec2, DVec3};
 use crate::scene::diagnostic::Sink;
@@ -35,15 +36,15 @@ impl Builder {
         word: &'static Word,
         call: &Call<'_>,
         context: &Context,
-    ) -> Result<Leaf, Lost> {
-        let is_faceted = context.space == Space::Faceted;
+    ) -> Result<Made, Lost> {
+        let is_faceted = context.space == FormSpace::Faceted;
         match word.meaning {
             Meaning::Figure(kind) => self.figure(kind, word, call, context),
-            Meaning::Solid(_) if matches!(context.space, Space::Extruded { .. }) => {
+            Meaning::Solid(_) if matches!(context.space, FormSpace::Extruded { .. }) => {
                 Err(self.solid_in_drawing(Origin::of(word, call)))
             }
-            Meaning::Solid(kind) if is_faceted => self.facets(kind, word, call, context).map(Leaf::Piece),
-            Meaning::Solid(kind) => self.primitive(kind, word, call, context).map(Leaf::Solid),
+            Meaning::Solid(kind) if is_faceted => self.facets(kind, word, call, context).map(Made::Piece),
+            Meaning::Solid(kind) => self.primitive(kind, word, call, context).map(Made::Solid),
             _ => Err(Lost::Missing),
         }
     }
@@ -61,14 +62,12 @@ impl Builder {
         word: &'static Word,
         call: &Call<'_>,
         context: &Context,
-    ) -> Result<Leaf, Lost> {
+    ) -> Result<Made, Lost> {
         let origin = Origin::of(word, call);
         let arguments = BoundArguments::bind(call, word, &mut self.sink)?;
         let fragments = arguments.fragments(context.fragments);
         let flat = match kind {
-            FigureWord::Circle => {
-                Flat::Disc(radius(&arguments, "d", "r", &mut self.sink)?.unwrap_or(1.0))
-            }
+            FigureWord::Circle => Flat::Disc(radius(&arguments, "d", "r", &mut self.sink)?.unwrap_or(1.0)),
             FigureWord::Square => {
                 let size = arguments.triple("size", 1.0, &mut self.sink)?.unwrap_or(DVec3::ONE);
                 let half = size.truncate() * 0.5;
@@ -77,9 +76,9 @@ impl Builder {
             }
             FigureWord::Polygon => Flat::Outlines(self.polygon(&arguments, origin)?),
         };
-        if context.space == Space::Faceted {
+        if context.space == FormSpace::Faceted {
             let figure = self.outlined(flat, fragments, origin)?;
-            return self.placed_piece(Piece::Figure(figure), context, origin).map(Leaf::Piece);
+            return self.placed_piece(Piece::Figure(figure), context, origin).map(Made::Piece);
         }
         let (bottom, top) = context.space.thickness();
         let (middle, half) = (0.5 * (bottom + top), 0.5 * (top - bottom));
@@ -93,10 +92,10 @@ impl Builder {
             }
             Flat::Rectangle(at, size) => (Shape::Cube, placed(at.extend(middle), size.extend(half))),
             Flat::Outlines(figure) => {
-                return self.shown(Piece::Figure(figure), context, origin).map(Leaf::Solid);
+                return self.shown(Piece::Figure(figure), context, origin).map(Made::Solid);
             }
         };
-        self.put(shape, local, DVec3::ZERO, context, origin).map(|p| Leaf::Solid(Solid::Primitive(p)))
+        self.put(shape, local, DVec3::ZERO, context, origin).map(|p| Made::Solid(Solid::Primitive(p)))
     }
 
     /// The outlines of a figure.
@@ -126,14 +125,18 @@ impl Builder {
 
     /// The error of what would have too many corners.
     pub(super) fn too_many(&mut self, origin: Origin) -> Lost {
-        let error = Diagnostic::error(origin.name, format!("it would have more than {MOST_CORNERS:e} corners"));
+        let error =
+            Diagnostic::error(origin.name, format!("it would have more than {MOST_CORNERS:e} corners"));
         let error = error.help("make curves coarser, by $fn or $fs, or take fewer slices");
         super::arguments::refuse(origin.word, error, Lost::Missing, &mut self.sink)
     }
 
     /// The error of outlines that cross too often.
     pub(super) fn tangled(&mut self, origin: Origin) -> Lost {
-        let error = Diagnostic::error(origin.name, "its outlines cross each other too often to be sorted out");
+        let error = Diagnostic::error(
+            origin.name,
+            "its outlines are too dense, or cross too often, to be sorted out",
+        );
         let error = error.help("leave detail out, or split it");
         super::arguments::refuse(origin.word, error, Lost::Missing, &mut self.sink)
     }
@@ -191,7 +194,8 @@ impl Builder {
             }))),
         };
         placed.ok_or_else(|| {
-            let message = format!("`{}` is made flat by what stands above it, and left out", origin.word.name);
+            let message =
+                format!("`{}` is made flat by what stands above it, and left out", origin.word.name);
             self.sink.note(Diagnostic::note(origin.name, message));
             Lost::Empty
         })
@@ -212,7 +216,7 @@ impl Builder {
                 let shape = Shape::Mesh(Arc::new(mesh));
                 self.put(shape, DAffine3::IDENTITY, off, context, origin).map(Solid::Primitive)
             }
-            Piece::Solid(_) if matches!(context.space, Space::Extruded { .. }) => {
+            Piece::Solid(_) if matches!(context.space, FormSpace::Extruded { .. }) => {
                 Err(self.solid_in_drawing(origin))
             }
             Piece::Solid(solid) => {
@@ -281,11 +285,14 @@ fn chosen(
         let mut outline = Vec::with_capacity(indices.len());
         for index in indices {
             let point = match index.value {
-                Value::Number(number) if number >= 0.0 && number.fract() == 0.0 => points.get(number as usize),
+                Value::Number(number) if number >= 0.0 && number.fract() == 0.0 => {
+                    points.get(number as usize)
+                }
                 _ => None,
             };
             let Some(&point) = point else {
-                let message = format!("a path of `polygon` names one of its {} points by an index", points.len());
+                let message =
+                    format!("a path of `polygon` names one of its {} points by an index", points.len());
                 return Err(refuse(index, message, sink));
             };
             outline.push(point);

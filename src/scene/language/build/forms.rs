@@ -1,12 +1,13 @@
 //! The words that make something new of what their children are.
 
+use super::Builder;
 use super::arguments::{BoundArguments, refuse};
-use super::context::{Context, Space};
+use super::context::{Context, FormSpace};
+use super::form::Form;
 use super::frame::OpenCall;
 use super::lost::Lost;
-use super::pieces::{Leaf, Piece, corners, united};
-use super::solids::Origin;
-use super::Builder;
+use super::origin::Origin;
+use super::pieces::{Made, Piece, corners, united};
 use crate::math::{Bounds, DAffine3, DMat3, DVec2, DVec3};
 use crate::scene::diagnostic::Sink;
 use crate::scene::language::syntax::TextSpan;
@@ -16,21 +17,6 @@ use crate::scene::profile::{
     combined, grown, hull_of_figures, hull_of_solid, of_mesh, section, shadow, sum_of_figures, sum_of_solids,
 };
 use crate::scene::{Diagnostic, Solid};
-
-/// What is made of the children of a call.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Form {
-    Operator(OperatorWord),
-    Hull,
-    Minkowski,
-    Grown(f64, Join),
-    Fill,
-    Linear(LinearSweep, DAffine3),
-    Turned(Revolution),
-    Section,
-    Shadow,
-    Resize(DVec3, [bool; 3]),
-}
 
 /// The way along z of a `linear_extrude`.
 pub fn sweep(
@@ -66,7 +52,7 @@ impl Builder {
         above: &Context,
         place: TextSpan,
     ) -> Result<Option<Form>, Lost> {
-        let is_faceted = above.space == Space::Faceted;
+        let is_faceted = above.space == FormSpace::Faceted;
         let sink = &mut self.sink;
         let kind = match word.meaning {
             Meaning::Form(kind) => kind,
@@ -76,7 +62,7 @@ impl Builder {
         };
         let fragments = arguments.fragments(above.fragments);
         let is_solid = matches!(kind, FormWord::LinearExtrude | FormWord::RotateExtrude);
-        if is_solid && matches!(above.space, Space::Extruded { .. }) {
+        if is_solid && matches!(above.space, FormSpace::Extruded { .. }) {
             let message = format!("`{}` is a solid among figures, and left out", word.name);
             sink.note(Diagnostic::note(place, message));
             return Err(Lost::Empty);
@@ -92,7 +78,8 @@ impl Builder {
             FormWord::RotateExtrude => {
                 let angle = arguments.number("angle", sink)?.unwrap_or(360.0);
                 if angle == 0.0 {
-                    let error = Diagnostic::error(arguments.place_of("angle"), "an angle of 0 sweeps nothing");
+                    let error =
+                        Diagnostic::error(arguments.place_of("angle"), "an angle of 0 sweeps nothing");
                     return Err(arguments.refuse(error, Lost::Empty, sink));
                 }
                 Form::Turned(Revolution { angle, start: arguments.number("start", sink)?, fragments })
@@ -113,7 +100,11 @@ impl Builder {
                 }
             }
             FormWord::Projection => {
-                if arguments.flag("cut", sink)? { Form::Section } else { Form::Shadow }
+                if arguments.flag("cut", sink)? {
+                    Form::Section
+                } else {
+                    Form::Shadow
+                }
             }
             FormWord::Resize => {
                 let size = arguments.triple("newsize", 0.0, sink)?.unwrap_or(DVec3::ZERO);
@@ -130,11 +121,12 @@ impl Builder {
         frame: &OpenCall,
         above: &Context,
         origin: Origin,
-    ) -> Result<(Leaf, bool), Lost> {
+    ) -> Result<(Made, bool), Lost> {
         let pieces = self.pieces.split_off(frame.start);
         let any_left_out = frame.any_missing || frame.any_incomplete;
         let none = if any_left_out { Lost::Missing } else { Lost::Empty };
-        let is_union = matches!(form, Form::Operator(_) | Form::Grown(..) | Form::Linear(..) | Form::Turned(_));
+        let is_union =
+            matches!(form, Form::Operator(_) | Form::Grown(..) | Form::Linear(..) | Form::Turned(_));
         let lost = match form {
             Form::Operator(OperatorWord::Intersection) if frame.any_empty => Some(Lost::Empty),
             Form::Operator(OperatorWord::Intersection) if frame.any_missing => Some(Lost::Missing),
@@ -146,7 +138,8 @@ impl Builder {
             if lost == Lost::Missing && frame.present > 1 {
                 self.note_left_out(frame);
                 if !is_union && self.sink.is_clean() {
-                    let message = format!("`{}` is left out whole: a part of it is missing", origin.word.name);
+                    let message =
+                        format!("`{}` is left out whole: a part of it is missing", origin.word.name);
                     self.sink.note(Diagnostic::note(origin.name, message));
                 }
             }
@@ -164,9 +157,9 @@ impl Builder {
         }
         let leaf = match (above.space, form) {
             // The maps above an operator went down to its operands.
-            (Space::Faceted, Form::Operator(_)) => Leaf::Piece(piece),
-            (Space::Faceted, _) => Leaf::Piece(self.placed_piece(piece, above, origin)?),
-            _ => Leaf::Solid(self.shown(piece, above, origin)?),
+            (FormSpace::Faceted, Form::Operator(_)) => Made::Piece(piece),
+            (FormSpace::Faceted, _) => Made::Piece(self.placed_piece(piece, above, origin)?),
+            _ => Made::Solid(self.shown(piece, above, origin)?),
         };
         Ok((leaf, any_left_out))
     }
@@ -182,7 +175,8 @@ impl Builder {
         pieces.retain(|piece| piece.is_figure() == is_flat);
         if pieces.len() < count {
             let kind = if is_flat { "solids" } else { "figures" };
-            let message = format!("{kind} within `{}` are left out: it is of the other kind", origin.word.name);
+            let message =
+                format!("{kind} within `{}` are left out: it is of the other kind", origin.word.name);
             self.sink.note(Diagnostic::note(origin.name, message));
         }
         pieces
@@ -213,7 +207,7 @@ impl Builder {
                 OperatorWord::Difference => Solid::Difference(solids),
             })),
             Form::Hull if is_flat => Ok(Piece::Figure(hull_of_figures(&figures).unwrap_or_default())),
-            Form::Hull => self.hull(united(solids), origin),
+            Form::Hull => self.hull(&united(solids), origin),
             Form::Minkowski if is_flat => {
                 let mut figures = figures.into_iter();
                 let first = figures.next().unwrap_or_default();
@@ -240,7 +234,11 @@ impl Builder {
                     Join::Sharp | Join::Chamfered => 2.0,
                 };
                 self.check_corners(figure.count() as f64 * 2.0 + sides, origin)?;
-                if *by == 0.0 { Ok(Piece::Figure(figure)) } else { Ok(Piece::Figure(grown(&figure, *by, *join))) }
+                if *by == 0.0 {
+                    Ok(Piece::Figure(figure))
+                } else {
+                    Ok(Piece::Figure(grown(&figure, *by, *join)))
+                }
             }
             Form::Fill => {
                 let figure = self.figure_of(FigureOperator::Union, &figures, origin)?;
@@ -271,14 +269,12 @@ impl Builder {
                 let error = DVec3::splat(figure.error);
                 Ok(Piece::Solid(Solid::Primitive(of_mesh(mesh).with_map_error(error))))
             }
-            Form::Section => {
-                section(&united(solids)).map(Piece::Figure).map_err(|_| self.tangled(origin))
-            }
+            Form::Section => section(&united(solids)).map(Piece::Figure).map_err(|_| self.tangled(origin)),
             Form::Shadow => shadow(&united(solids)).map(Piece::Figure).map_err(|why| match why {
                 NoShadow::TooMany => self.too_many(origin),
                 NoShadow::Cut => self.not_yet("the shadow of what is cut is not worked out", origin),
             }),
-            Form::Resize(size, auto) => Ok(resized(figures, solids, *size, *auto)),
+            Form::Resize(size, auto) => Ok(resized(&figures, solids, *size, *auto)),
         }
     }
 
@@ -291,13 +287,13 @@ impl Builder {
         combined(operator, figures).map_err(|_| self.tangled(origin))
     }
 
-    fn hull(&mut self, solid: Solid, origin: Origin) -> Result<Piece, Lost> {
+    fn hull(&mut self, solid: &Solid, origin: Origin) -> Result<Piece, Lost> {
         let mut is_union = true;
         solid.fold(&mut |_| (), &mut |solid, _| is_union &= matches!(solid, Solid::Union(_)));
         if !is_union {
             return Err(self.not_yet("the hull of what is cut is not worked out", origin));
         }
-        Ok(Piece::Solid(match hull_of_solid(&solid) {
+        Ok(Piece::Solid(match hull_of_solid(solid) {
             Some(mesh) => Solid::Primitive(of_mesh(mesh)),
             None => Solid::Union(Vec::new()),
         }))
@@ -316,7 +312,7 @@ impl Builder {
 }
 
 /// Pieces scaled to a size.
-fn resized(figures: Vec<Figure>, solids: Vec<Solid>, size: DVec3, auto: [bool; 3]) -> Piece {
+fn resized(figures: &[Figure], solids: Vec<Solid>, size: DVec3, auto: [bool; 3]) -> Piece {
     let bounds = figures.iter().fold(Bounds::EMPTY, |all, figure| all.join(&figure.bounds()));
     let bounds = solids.iter().fold(bounds, |all, solid| all.join(&Bounds::around(corners(solid))));
     let own = bounds.half() * 2.0;
@@ -329,7 +325,7 @@ fn resized(figures: Vec<Figure>, solids: Vec<Solid>, size: DVec3, auto: [bool; 3
     }));
     let map = DAffine3::from_scale(factors);
     let scaled = if solids.is_empty() {
-        let figure = combined(FigureOperator::Union, &figures).unwrap_or_default();
+        let figure = combined(FigureOperator::Union, figures).unwrap_or_default();
         Piece::Figure(figure).mapped(&map)
     } else {
         Piece::Solid(united(solids)).mapped(&map)

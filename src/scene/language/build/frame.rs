@@ -3,9 +3,9 @@
 use std::rc::Rc;
 
 use super::context::Context;
-use super::forms::Form;
+use super::form::Form;
 use super::lost::Lost;
-use super::solids::Origin;
+use super::origin::Origin;
 use crate::scene::language::syntax::TextSpan;
 use crate::scene::language::vocabulary::OperatorWord;
 
@@ -89,8 +89,7 @@ impl OpenCall {
     pub fn operator(&self) -> Option<OperatorWord> {
         match self.role {
             Role::Operator(operator) | Role::Form(Form::Operator(operator), _) => Some(operator),
-            Role::Form(..) => Some(OperatorWord::Union),
-            Role::Object(_) => Some(OperatorWord::Union),
+            Role::Form(..) | Role::Object(_) => Some(OperatorWord::Union),
             Role::Objects | Role::Primitive(..) => None,
         }
     }

@@ -1,10 +1,10 @@
 //! The words that move their children, as affine maps.
 
 use super::arguments::{BoundArguments, numbers};
-use crate::scene::degrees;
 use super::lost::Lost;
 use crate::math::{DAffine3, DMat3, DVec3};
 use crate::scene::Diagnostic;
+use crate::scene::degrees;
 use crate::scene::diagnostic::Sink;
 use crate::scene::language::syntax::{Spanned, Value};
 use crate::scene::language::vocabulary::MapWord;

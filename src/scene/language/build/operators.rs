@@ -4,13 +4,13 @@ use std::rc::Rc;
 
 use super::arguments::BoundArguments;
 use super::chain::{Chain, Numbers};
-use super::context::{Context, Space};
-use super::forms::Form;
+use super::context::{Context, FormSpace};
+use super::form::Form;
 use super::frame::{BuiltCall, OpenCall, Role, Run};
 use super::lost::Lost;
 use super::materials::tinted;
-use super::pieces::Leaf;
-use super::solids::Origin;
+use super::origin::Origin;
+use super::pieces::Made;
 use super::{Builder, forms, maps};
 use crate::scene::diagnostic::Reported;
 use crate::scene::language::syntax::Call;
@@ -55,14 +55,14 @@ impl Builder {
             Meaning::Solid(_) | Meaning::Figure(_) => {
                 let built = match self.leaf(word, call, &context) {
                     // The most frequent of all: what is an object at once waits for nobody.
-                    Ok(Leaf::Solid(solid)) if is_object && call.is_ended => {
+                    Ok(Made::Solid(solid)) if is_object && call.is_ended => {
                         return self.scene.objects.push(Object { name: None, solid });
                     }
-                    Ok(Leaf::Solid(solid)) => {
+                    Ok(Made::Solid(solid)) => {
                         self.solids.push(solid);
                         BuiltCall::Solids(Run::One, false)
                     }
-                    Ok(Leaf::Piece(piece)) => {
+                    Ok(Made::Piece(piece)) => {
                         self.pieces.push(piece);
                         BuiltCall::Piece(false)
                     }
@@ -172,7 +172,7 @@ impl Builder {
                     MapWord::Translate | MapWord::Scale | MapWord::Multmatrix => Numbers::Written,
                 };
                 let map = maps::map_of(map, &arguments, sink)?;
-                let is_flat = matches!(above.space, Space::Extruded { .. });
+                let is_flat = matches!(above.space, FormSpace::Extruded { .. });
                 let map = if is_flat { maps::flattened(&map) } else { map };
                 let maps = above.maps.then(map, numbers, call.name.span);
                 inner.maps = maps.map_err(|error| arguments.refuse(error, Lost::Empty, sink))?;
@@ -185,14 +185,14 @@ impl Builder {
             // What is swept straight up is exact: each figure is a solid of its own.
             Meaning::Form(FormWord::LinearExtrude) if form.is_none() => {
                 let sweep = forms::sweep(&arguments, fragments, sink)?;
-                inner.space = Space::Extruded { bottom: sweep.bottom, top: sweep.top };
+                inner.space = FormSpace::Extruded { bottom: sweep.bottom, top: sweep.top };
                 let lean = forms::lean(&arguments, sink)?;
                 let maps = above.maps.then(lean, Numbers::Written, call.name.span);
                 inner.maps = maps.map_err(|error| arguments.refuse(error, Lost::Empty, sink))?;
             }
             // What something is made of is where that begins.
             Meaning::Form(_) => {
-                inner.space = Space::Faceted;
+                inner.space = FormSpace::Faceted;
                 inner.maps = Chain::default();
             }
             _ => {}
@@ -221,11 +221,11 @@ impl Builder {
                 let above = self.frames.last().map(|above| Rc::clone(&above.context)).unwrap_or_default();
                 let start = self.solids.len();
                 let built = match self.formed(&form, &frame, &above, origin) {
-                    Ok((Leaf::Solid(solid), is_incomplete)) => {
+                    Ok((Made::Solid(solid), is_incomplete)) => {
                         self.solids.push(solid);
                         BuiltCall::Solids(Run::One, is_incomplete)
                     }
-                    Ok((Leaf::Piece(piece), is_incomplete)) => {
+                    Ok((Made::Piece(piece), is_incomplete)) => {
                         self.pieces.push(piece);
                         BuiltCall::Piece(is_incomplete)
                     }

@@ -14,7 +14,7 @@ pub enum Piece {
 
 /// What a call without children, or one that makes something of them, is.
 #[derive(Clone, Debug)]
-pub enum Leaf {
+pub enum Made {
     Solid(Solid),
     Piece(Piece),
 }
@@ -48,14 +48,11 @@ pub fn carried(linear: &DMat3, error: DVec3) -> DVec3 {
 
 /// A solid with other primitives.
 pub fn rebuilt(solid: &Solid, mut leaf: impl FnMut(&Primitive) -> Primitive) -> Solid {
-    solid.fold(
-        &mut |primitive| Solid::Primitive(leaf(primitive)),
-        &mut |solid, parts| match solid {
-            Solid::Difference(_) => Solid::Difference(parts.collect()),
-            Solid::Intersection(_) => Solid::Intersection(parts.collect()),
-            Solid::Union(_) | Solid::Primitive(_) => united(parts.collect()),
-        },
-    )
+    solid.fold(&mut |primitive| Solid::Primitive(leaf(primitive)), &mut |solid, parts| match solid {
+        Solid::Difference(_) => Solid::Difference(parts.collect()),
+        Solid::Intersection(_) => Solid::Intersection(parts.collect()),
+        Solid::Union(_) | Solid::Primitive(_) => united(parts.collect()),
+    })
 }
 
 /// A union, of one alone that itself.

@@ -5,31 +5,16 @@ use super::chain::Numbers;
 use super::context::Context;
 use super::facets::Polygons;
 use super::lost::Lost;
+use super::origin::Origin;
 use super::pieces::carried;
 use super::{Builder, facets, polyhedron};
 use crate::math::{DAffine3, DMat3, DVec3, Placement};
 use crate::scene::diagnostic::Sink;
-use crate::scene::language::syntax::{Call, TextSpan};
+use crate::scene::language::syntax::Call;
 use crate::scene::language::vocabulary::{SolidWord, Word};
 use crate::scene::memory::{ASSEMBLED, ASSEMBLED_FACES, ASSEMBLED_TRIANGLE};
 use crate::scene::model::is_within_reach;
 use crate::scene::{Diagnostic, Object, Primitive, REACH, Shape, Solid};
-
-/// The call that something was made of: where its mistakes are.
-#[derive(Clone, Copy, Debug)]
-pub struct Origin {
-    pub word: &'static Word,
-    /// The place of its word.
-    pub name: TextSpan,
-    /// Where its arguments end.
-    pub end: u32,
-}
-
-impl Origin {
-    pub fn of(word: &'static Word, call: &Call<'_>) -> Self {
-        Self { word, name: call.name.span, end: call.parentheses.end }
-    }
-}
 
 impl Builder {
     /// The primitive of a call.

@@ -1,5 +1,5 @@
-//! A first reading of a text for what may stand below its uses: definitions, settings of the whole file, and a
-//! root (`!`).
+//! A first reading of a text for what may stand below its uses: definitions, settings of the whole file, and
+//! a root (`!`).
 //!
 //! Most long files have none of them, because a program wrote them: they are read once, and again only where
 //! the first of them turns up.

@@ -78,22 +78,22 @@ fn stops_after_twenty_errors() {
 #[test]
 fn unsupported_words_can_be_left_out() {
     let skipping = ReadOptions { skip_unsupported: true, ..ReadOptions::default() };
-    let text = b"cube(1);\nhull() { cube(1); nonsense(); }\ndifference() { cube(1); text(\"A\", size = 3); }";
+    let text = b"cube(1);\nroof() { cube(1); nonsense(); }\ndifference() { cube(1); text(\"A\", size = 3); }";
     let scene = read("test", text, &skipping).expect("the rest is a scene");
     assert_eq!(scene.objects.len(), 2);
     assert_eq!(
         scene.notes,
         [
-            "line 2: `hull` is left out: only OpenSCAD can work its shape out",
-            "line 3: `text` is left out: it is flat, and ray13 shows solids",
+            "line 2: `roof` is left out: only OpenSCAD can work its shape out",
+            "line 3: `text` is left out: letters are not drawn yet",
             "line 3: a hole of `difference` stays filled: what cuts it is left out"
         ]
     );
     // What is drilled into something unknown is not shown, and neither is what only meets something unknown.
     let text =
-        b"cube(9); difference() { hull() cube(1); cube(2); } intersection() { hull() cube(1); sphere(2); }";
+        b"cube(9); difference() { roof() cube(1); cube(2); } intersection() { roof() cube(1); sphere(2); }";
     let scene = read("test", text, &skipping).expect("a scene");
     assert_eq!(scene.objects.len(), 1);
-    let nothing = read("test", b"hull() cube(1);", &skipping).expect_err("nothing is left").to_string();
-    assert!(nothing.contains("the scene is empty") && nothing.contains("`hull` is left out"), "{nothing}");
+    let nothing = read("test", b"roof() cube(1);", &skipping).expect_err("nothing is left").to_string();
+    assert!(nothing.contains("the scene is empty") && nothing.contains("`roof` is left out"), "{nothing}");
 }

@@ -75,7 +75,7 @@ fn a_map_that_is_no_number_or_makes_flat() {
         "rotate([0, nan, 0])",
         "mirror([inf, 0, 0])",
     ] {
-        leaves_the_ball(&format!("{map} {{ cube(1); hull() cube(1); }}"), "holds is left out");
+        leaves_the_ball(&format!("{map} {{ cube(1); roof() cube(1); }}"), "holds is left out");
     }
     for row in ["[0, 0, 0, 0]", "[nan, nan, nan, nan]", "[1, 0, 0, 0]", "[0, 0, -inf, 0]"] {
         let map = format!("multmatrix([[1, 0, 0, 0], [0, 1, 0, 0], {row}, [0, 0, 0, 1]])");
@@ -154,7 +154,7 @@ fn an_operator_does_not_show_what_was_never_meant() {
         structured(&skipping("part.csg", text).unwrap_or_else(|errors| panic!("{text}\n{errors}")))
     };
     let notes = |text: &str| skipping("part.csg", text).expect("a scene").notes;
-    let unknown = "linear_extrude(height = 3) { circle(r = 5); }";
+    let unknown = "roof() { circle(r = 5); }";
     assert_eq!(shown(&format!("{BALL} intersection() {{ {unknown} cube(1); }}")), "a");
     assert_eq!(shown(&format!("{BALL} intersection() {{ group() {{ {unknown} }} cube(1); }}")), "a");
     assert_eq!(shown(&format!("{BALL} intersection() {{ cube(1); translate([1, 0, 0]) {unknown} }}")), "a");

@@ -179,8 +179,7 @@ impl Session {
         let pacing = look_ahead(terminal, inbox, &mut settings)?;
         let refinement = Refinement::new(settings.frame_time, settings.adaptive_at_rest);
         let model = Model::new(&*painter, settings, terminal::window());
-        let mut viewer =
-            Viewer::new(painter, model, Drawing { tracer, refinement }, terminal, inbox, pacing);
+        let mut viewer = Viewer::new(painter, model, Drawing { tracer, refinement }, terminal, inbox, pacing);
         let end = viewer.run();
         let painter = viewer.painter();
         drop(viewer);

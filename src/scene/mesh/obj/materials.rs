@@ -152,8 +152,8 @@ mod tests {
     #[test]
     fn only_what_lies_beside_is_read() {
         let mut library = MaterialLibrary::default();
-        let folder = Some(Path::new(env!("CARGO_MANIFEST_DIR")).join("src"));
-        let options = ReadOptions { folder, ..ReadOptions::default() };
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+        let options = ReadOptions { folder: Some(folder.clone()), ..ReadOptions::default() };
         for name in ["../README.md", "/etc/hostname", "scene/mod.rs", "", "scene", "no such file"] {
             library.notes.clear();
             library.load(name.as_bytes(), &options);

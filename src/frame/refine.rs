@@ -25,8 +25,8 @@ use super::workers::{PointScratch, Worker, Workers};
 
 /// Rays of a dot after each round: twice as many each, so that a dot which is decided has had half as many at
 /// least as it needed. None is decided by one: that an edge runs straight through its middle and past those
-/// of the dots around is a guess, by which one dot in a thousand came to be two levels off. With 2 first a
-/// few rays less are traced, for a few more wrong levels, in the same time.
+/// of the dots around is a guess, by which one dot in two thousand came to be two levels off. With 2 first a
+/// few rays less are traced, for a few more wrong levels.
 const ROUNDS: [u32; 7] = [4, 8, 16, 32, 64, 128, 256];
 
 /// How far the mean of smooth light over a dot is from that of its middle, as a share of how far the middle

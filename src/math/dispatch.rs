@@ -20,18 +20,16 @@ macro_rules! dispatch {
             simd
         }
         let level = $level;
-        #[cfg(not(test))]
-        let avx2 = level.as_avx2();
-        #[cfg(test)]
-        let avx2: Option<fearless_simd::x86::Sse2> = None;
-        if let Some(token) = avx2 {
-            let $simd = opaque_level(token);
-            fearless_simd::Simd::vectorize(
-                token,
-                #[inline(always)]
-                || $op,
-            )
-        } else {
+        'compiled: {
+            #[cfg(not(test))]
+            if let Some(token) = level.as_avx2() {
+                let $simd = opaque_level(token);
+                break 'compiled fearless_simd::Simd::vectorize(
+                    token,
+                    #[inline(always)]
+                    || $op,
+                );
+            }
             let Some(token) = level.as_sse2() else { unreachable!("every x86-64 has SSE2") };
             let $simd = opaque_level(token);
             fearless_simd::Simd::vectorize(

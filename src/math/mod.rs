@@ -12,6 +12,7 @@ mod packet;
 mod placement;
 mod ray;
 mod real;
+mod rows;
 mod vector;
 
 pub use bounds::Bounds;
@@ -24,4 +25,5 @@ pub use packet::{LaneVector, Lanes, REGISTERS, RayIndex, RayPacket, lanes, mask_
 pub use placement::{Placement, is_singular};
 pub use ray::Ray;
 pub use real::{Real, RealIds, RealMask, SimdIds, SimdReal, SimdRegister};
+pub use rows::{ROW, ROWS, row_of, splats};
 pub use vector::{Rays, Vector};

@@ -9,17 +9,11 @@
 
 use fearless_simd::{Select, Simd, SimdBase, SimdMask, f32x16, u32x16};
 
-use crate::math::{DVec3, Lanes, PACKET, RayPacket};
+use crate::math::{DVec3, Lanes, PACKET, ROW, ROWS, RayPacket, row_of, splats};
 
 use super::csg_query::Departures;
 use super::mesh::TriangleMesh;
 use super::ray_shear::STEEP;
-
-/// Rays in a register.
-const WIDTH: usize = 16;
-
-/// Registers of rays in a packet.
-const MESH_ROWS: usize = PACKET / WIDTH;
 
 /// Half an ulp of a number near 1, in single precision.
 const HALF_ULP: f64 = 1.0 / 16_777_216.0;
@@ -162,12 +156,12 @@ impl MeshPacket {
         self.spread = spread;
         self.lost = LOST_OF_START * spread + ONE_PLACE * mesh.place_error() + 4.0 * place_error;
         if spread > 0.0 {
-            for row in 0..MESH_ROWS {
+            for row in 0..ROWS {
                 let (o, d) = (rows(simd, &self.o, row), rows(simd, &self.d, row));
                 for axis in 0..3 {
                     let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
                     let moment = o[next] * d[last] - o[last] * d[next];
-                    moment.store_slice(&mut self.moment[axis][row * WIDTH..][..WIDTH]);
+                    moment.store_slice(&mut self.moment[axis][row * ROW..][..ROW]);
                 }
             }
         }
@@ -199,7 +193,7 @@ impl MeshPacket {
     #[inline(always)]
     pub fn farthest<S: Simd>(&self, simd: S) -> f32 {
         let mut most = f32x16::splat(simd, f32::NEG_INFINITY);
-        for row in 0..MESH_ROWS {
+        for row in 0..ROWS {
             most = most.max(row_of(simd, &self.t, row) + row_of(simd, &self.error, row));
         }
         most.reduce_max()
@@ -232,7 +226,7 @@ impl MeshPacket {
         let edges = [splats(simd, ab), splats(simd, bc), splats(simd, ca)];
         let normal = splats(simd, normal);
         let is_spread = self.spread > 0.0;
-        for row in 0..MESH_ROWS {
+        for row in 0..ROWS {
             let d = rows(simd, &self.d, row);
             let mut sides = [dot(&d, &moments[0]), dot(&d, &moments[1]), dot(&d, &moments[2])];
             if is_spread {
@@ -262,7 +256,7 @@ impl MeshPacket {
             let mut hit = certain & t.simd_gt(error) & maybe;
             let mut doubt = maybe & !(hit | (certain & t.simd_lt(-error)));
             if self.any_leaves {
-                let leaves = u32x16::from_slice(simd, &self.leaves.0[row * WIDTH..][..WIDTH]);
+                let leaves = u32x16::from_slice(simd, &self.leaves.0[row * ROW..][..ROW]);
                 let others = !leaves.simd_eq(u32x16::splat(simd, surface));
                 (hit, doubt) = (hit & others, doubt & others);
             }
@@ -273,11 +267,11 @@ impl MeshPacket {
             let second = row_of(simd, &self.second, row);
             let second = (hit & other.simd_lt(second)).select(other, second);
             let second = (doubt & !second.simd_lt(doubtful)).select(doubtful, second);
-            second.store_slice(&mut self.second[row * WIDTH..][..WIDTH]);
+            second.store_slice(&mut self.second[row * ROW..][..ROW]);
             if nearer.any_true() {
-                nearer.select(t, best).store_slice(&mut self.t[row * WIDTH..][..WIDTH]);
-                nearer.select(error, best_error).store_slice(&mut self.error[row * WIDTH..][..WIDTH]);
-                let surfaces = &mut self.surface.0[row * WIDTH..][..WIDTH];
+                nearer.select(t, best).store_slice(&mut self.t[row * ROW..][..ROW]);
+                nearer.select(error, best_error).store_slice(&mut self.error[row * ROW..][..ROW]);
+                let surfaces = &mut self.surface.0[row * ROW..][..ROW];
                 let known = u32x16::from_slice(simd, surfaces);
                 nearer.select(u32x16::splat(simd, surface), known).store_slice(surfaces);
             }
@@ -288,15 +282,15 @@ impl MeshPacket {
     #[inline(always)]
     pub fn answer<S: Simd>(&self, simd: S) -> MeshAnswer {
         let (mut hits, mut uncertain) = (0, 0);
-        for row in 0..MESH_ROWS {
+        for row in 0..ROWS {
             let t = row_of(simd, &self.t, row);
             let asked = t.simd_gt(f32x16::splat(simd, f32::NEG_INFINITY));
             let apart = row_of(simd, &self.second, row).simd_gt(t + row_of(simd, &self.error, row));
             let nothing = row_of(simd, &self.second, row).simd_ge(f32x16::splat(simd, f32::INFINITY));
-            let surface = u32x16::from_slice(simd, &self.surface.0[row * WIDTH..][..WIDTH]);
+            let surface = u32x16::from_slice(simd, &self.surface.0[row * ROW..][..ROW]);
             let none = surface.simd_eq(u32x16::splat(simd, NONE));
-            uncertain |= (asked & !(apart | nothing)).to_bitmask() << (row * WIDTH);
-            hits |= (asked & (apart | nothing) & !none).to_bitmask() << (row * WIDTH);
+            uncertain |= (asked & !(apart | nothing)).to_bitmask() << (row * ROW);
+            hits |= (asked & (apart | nothing) & !none).to_bitmask() << (row * ROW);
         }
         MeshAnswer { hits, uncertain }
     }
@@ -318,18 +312,6 @@ fn one_norm(v: DVec3) -> f64 {
 #[inline(always)]
 fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
-}
-
-/// A vector for sixteen.
-#[inline(always)]
-fn splats<S: Simd>(simd: S, v: DVec3) -> [f32x16<S>; 3] {
-    [f32x16::splat(simd, v.x as f32), f32x16::splat(simd, v.y as f32), f32x16::splat(simd, v.z as f32)]
-}
-
-/// Sixteen of a number of each ray.
-#[inline(always)]
-fn row_of<S: Simd>(simd: S, numbers: &[f32; PACKET], row: usize) -> f32x16<S> {
-    f32x16::from_slice(simd, &numbers[row * WIDTH..][..WIDTH])
 }
 
 /// Sixteen of a vector of each ray.

@@ -7,14 +7,8 @@
 use fearless_simd::{Select, Simd, SimdBase, SimdMask, f32x16};
 
 use crate::lattice::{BoundingSphere, ROOM};
-use crate::math::{DVec3, PACKET, RayPacket, lanes};
+use crate::math::{DVec3, PACKET, ROW, ROWS, RayPacket, lanes, row_of, splats};
 use crate::solid::Bar;
-
-/// Rays in a register.
-const WIDTH: usize = 16;
-
-/// Registers of rays in a packet.
-const CULLER_ROWS: usize = PACKET / WIDTH;
 
 /// Half an ulp of a number near 1.
 const HALF_ULP: f64 = 1.0 / 16_777_216.0;
@@ -149,7 +143,7 @@ impl PacketCuller {
                 self.o[axis][lane] = (packet.o[axis].0[lane] - base) as f32;
             }
             let mut most = f32x16::splat(simd, 0.0);
-            for row in 0..CULLER_ROWS {
+            for row in 0..ROWS {
                 let o = row_of(simd, &self.o[axis], row).abs();
                 most = o.simd_gt(most).select(o, most);
             }
@@ -201,13 +195,13 @@ impl PacketCuller {
         }
         let (one, still) = (f32x16::splat(simd, 1.0), f32x16::splat(simd, STILL));
         let within = f32x16::splat(simd, WITHIN);
-        for row in 0..CULLER_ROWS {
+        for row in 0..ROWS {
             for axis in 0..3 {
                 let (start, d) = (row_of(simd, &self.start[axis], row), row_of(simd, &self.d[axis], row));
                 let plain = start.abs().simd_lt(within) & d.abs().simd_lt(within);
-                self.odd |= (!plain).to_bitmask() << (row * WIDTH);
+                self.odd |= (!plain).to_bitmask() << (row * ROW);
                 let inverse = d.abs().simd_lt(still).select(one / still, one / d);
-                inverse.store_slice(&mut self.inverse[axis][row * WIDTH..][..WIDTH]);
+                inverse.store_slice(&mut self.inverse[axis][row * ROW..][..ROW]);
             }
         }
     }
@@ -219,7 +213,7 @@ impl PacketCuller {
             return;
         }
         self.set_points(simd, packet);
-        for row in 0..CULLER_ROWS {
+        for row in 0..ROWS {
             let [o, d] = [
                 [row_of(simd, &self.o[0], row), row_of(simd, &self.o[1], row), row_of(simd, &self.o[2], row)],
                 [row_of(simd, &self.d[0], row), row_of(simd, &self.d[1], row), row_of(simd, &self.d[2], row)],
@@ -227,7 +221,7 @@ impl PacketCuller {
             for axis in 0..3 {
                 let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
                 let moment = o[next] * d[last] - o[last] * d[next];
-                moment.store_slice(&mut self.moment[axis][row * WIDTH..][..WIDTH]);
+                moment.store_slice(&mut self.moment[axis][row * ROW..][..ROW]);
             }
         }
     }
@@ -250,8 +244,8 @@ impl PacketCuller {
         let shorter = f32x16::splat(simd, 1.0 - 8.0 * f32::EPSILON);
         let [cx, cy, cz] = splats(simd, from_base);
         let (mut near, mut inside) = (0, 0);
-        for row in 0..CULLER_ROWS {
-            if (wanted >> (row * WIDTH)) as u16 == 0 {
+        for row in 0..ROWS {
+            if (wanted >> (row * ROW)) as u16 == 0 {
                 continue;
             }
             let x = row_of(simd, &self.o[0], row) - cx;
@@ -267,8 +261,8 @@ impl PacketCuller {
             // What is not a number is neither certainly missed nor certainly met.
             let missed = square.simd_gt(limit) | t.simd_gt(reach) | (-t - reach).simd_gt(to);
             let met = square.simd_lt(deep) & (-t).simd_gt(reach) & (early - t).simd_lt(to * shorter);
-            near |= (!missed).to_bitmask() << (row * WIDTH);
-            inside |= met.to_bitmask() << (row * WIDTH);
+            near |= (!missed).to_bitmask() << (row * ROW);
+            inside |= met.to_bitmask() << (row * ROW);
         }
         (near & wanted, inside & wanted)
     }
@@ -278,10 +272,10 @@ impl PacketCuller {
     #[inline(always)]
     pub fn passing<S: Simd>(&self, simd: S, slabs: &Slabs<S>, wanted: u64) -> u64 {
         let mut rays = 0;
-        for row in 0..CULLER_ROWS {
-            if (wanted >> (row * WIDTH)) as u16 != 0 {
+        for row in 0..ROWS {
+            if (wanted >> (row * ROW)) as u16 != 0 {
                 let (near, end) = self.through(simd, slabs, row);
-                rays |= (!near.simd_gt(end)).to_bitmask() << (row * WIDTH);
+                rays |= (!near.simd_gt(end)).to_bitmask() << (row * ROW);
             }
         }
         (rays | self.odd) & wanted
@@ -294,7 +288,7 @@ impl PacketCuller {
             return (0.0, f64::INFINITY);
         }
         let (mut from, mut to) = (f32x16::splat(simd, f32::INFINITY), f32x16::splat(simd, 0.0));
-        for row in 0..CULLER_ROWS {
+        for row in 0..ROWS {
             let (near, end) = self.through(simd, slabs, row);
             let beside = near.simd_gt(end);
             (from, to) = (from.min(beside.select(from, near)), to.max(beside.select(to, end)));
@@ -345,8 +339,8 @@ impl PacketCuller {
             (f32x16::splat(simd, square as f32 * up), f32x16::splat(simd, least as f32 * up));
         let ([ax, ay, az], [mx, my, mz]) = (splats(simd, along), splats(simd, moment));
         let mut rays = 0;
-        for row in 0..CULLER_ROWS {
-            if (wanted >> (row * WIDTH)) as u16 == 0 {
+        for row in 0..ROWS {
+            if (wanted >> (row * ROW)) as u16 == 0 {
                 continue;
             }
             let dx = row_of(simd, &self.d[0], row);
@@ -358,22 +352,10 @@ impl PacketCuller {
                 + (row_of(simd, &self.moment[2], row) * az - mz * dz);
             let sine = f32x16::splat(simd, 1.0) - cosine * cosine;
             let beside = (product * product).simd_gt(square * sine + least);
-            rays |= (!beside).to_bitmask() << (row * WIDTH);
+            rays |= (!beside).to_bitmask() << (row * ROW);
         }
         (rays | self.odd) & wanted
     }
-}
-
-/// A vector for sixteen.
-#[inline(always)]
-fn splats<S: Simd>(simd: S, v: DVec3) -> [f32x16<S>; 3] {
-    [f32x16::splat(simd, v.x as f32), f32x16::splat(simd, v.y as f32), f32x16::splat(simd, v.z as f32)]
-}
-
-/// Sixteen of a number of each ray.
-#[inline(always)]
-fn row_of<S: Simd>(simd: S, numbers: &[f32; PACKET], row: usize) -> f32x16<S> {
-    f32x16::from_slice(simd, &numbers[row * WIDTH..][..WIDTH])
 }
 
 /// A corner of a box in double precision.

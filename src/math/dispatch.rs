@@ -20,23 +20,25 @@ macro_rules! dispatch {
             simd
         }
         let level = $level;
-        'compiled: {
+        match level.as_avx2() {
             #[cfg(not(test))]
-            if let Some(token) = level.as_avx2() {
+            Some(token) => {
                 let $simd = opaque_level(token);
-                break 'compiled fearless_simd::Simd::vectorize(
+                fearless_simd::Simd::vectorize(
                     token,
                     #[inline(always)]
                     || $op,
-                );
+                )
             }
-            let Some(token) = level.as_sse2() else { unreachable!("every x86-64 has SSE2") };
-            let $simd = opaque_level(token);
-            fearless_simd::Simd::vectorize(
-                token,
-                #[inline(always)]
-                || $op,
-            )
+            _ => {
+                let Some(token) = level.as_sse2() else { unreachable!("every x86-64 has SSE2") };
+                let $simd = opaque_level(token);
+                fearless_simd::Simd::vectorize(
+                    token,
+                    #[inline(always)]
+                    || $op,
+                )
+            }
         }
     }};
 }

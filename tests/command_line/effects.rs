@@ -77,7 +77,7 @@ fn every_option_has_one_or_says_that_it_has_none() {
     let (_, file) = scene("effects", SHINING);
     let mut said = 0;
     for format in FORMATS {
-        let plain = ["render", &file, "--dots", "96x64"];
+        let plain = ["render", &file, "--dots", "64x48"];
         let plain = [&plain[..], format].concat();
         let picture = run(&plain);
         assert!(picture.status.success(), "{format:?}: {}", text(&picture.stderr));

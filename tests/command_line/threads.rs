@@ -10,7 +10,10 @@ fn files_do_not_depend_on_threads() {
     for scene in ray13::scene::embedded() {
         let file = folder.join(format!("{}.scene", scene.name));
         fs::write(&file, scene.text).unwrap();
-        for format in ["txt", "ans", "levels", "png", "pfm"] {
+        // Threads share out the frame; what is written of it is made by one, and looked at once.
+        let formats =
+            if scene.name == "die" { &["txt", "ans", "levels", "png", "pfm"][..] } else { &["pfm"] };
+        for format in formats {
             let bytes = |threads: usize| {
                 let mut command = ray13();
                 command.arg("render").arg(&file);

@@ -10,8 +10,9 @@ use super::{done, fails, folder, ray13, run, text};
 
 /// The figures of a sweep of some small picture that all knobs are turned of.
 fn figures(options: &[&str]) -> Value {
-    let all = [&["trade", "hanyang", "--cells", "8x4", "--seconds", "3", "--rays", "16", "--json"], options]
-        .concat();
+    let all =
+        [&["trade", "hanyang", "--cells", "8x4", "--seconds", "1.5", "--rays", "16", "--json"], options]
+            .concat();
     serde_json::from_slice(&done(&run(&all))).expect("JSON")
 }
 
@@ -66,7 +67,7 @@ fn what_is_left_out_on_purpose_is_marked() {
 
 #[test]
 fn a_wish_is_answered_by_one_line() {
-    let small = ["trade", "die", "--cells", "8x4", "--seconds", "1", "--rays", "4"];
+    let small = ["trade", "die", "--cells", "8x4", "--seconds", "0", "--rays", "4"];
     for wish in [&["--within", "10s"][..], &["--wrong", "100%"], &["--within", "10s", "--wrong", "50%"]] {
         let output = run(&[&small[..], wish].concat());
         assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
@@ -81,7 +82,7 @@ fn a_wish_is_answered_by_one_line() {
 
 #[test]
 fn a_plot_is_a_picture() {
-    let small = ["trade", "die", "--cells", "8x4", "--seconds", "0.5", "--rays", "4"];
+    let small = ["trade", "die", "--cells", "8x4", "--seconds", "0", "--rays", "4"];
     let svg = done(&run(&[&small[..], &["--format", "svg"]].concat()));
     assert!(text(&svg).starts_with("<svg ") && text(&svg).ends_with("</svg>\n"));
     let file = folder("trade_plot").join("plot.png");

@@ -8,7 +8,7 @@ use ray13::math::{Bounds, DVec3, Size};
 use ray13::plan::{EngineChoice, StructureChoice};
 use ray13::scene::{Camera, FieldSpan, Scene, Solid};
 
-const DOTS: Size = Size::new(60, 45);
+const DOTS: Size = Size::new(40, 30);
 
 /// A box around a solid, whose faces are planes of the lattice wherever the solid stands along the axes.
 fn bounds(solid: &Solid) -> Bounds {

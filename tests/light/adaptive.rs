@@ -8,10 +8,10 @@ use ray13::tone::Tone;
 
 use crate::support::request::request;
 
-const DOTS: Size = Size::new(96, 64);
+const DOTS: Size = Size::new(72, 48);
 
 /// Rays of a dot of a reference: none of those that are compared with it.
-const REFERENCE: std::ops::Range<u32> = 1024..1152;
+const REFERENCE: std::ops::Range<u32> = 1024..1088;
 
 fn studio(text: &str) -> Studio {
     let scene = read("adaptive", text.as_bytes(), &ReadOptions::default());
@@ -57,7 +57,7 @@ fn adaptive_rays_are_as_good_as_sixteen_with_two_fifths_of_them() {
     let (mut wrong, mut wrong_of_16, mut rays) = (0, 0, 0.0);
     for scene in some_scenes() {
         let studio = studio(scene.text);
-        let plain = Request { dots: Size::new(192, 128), ..plain(&studio) };
+        let plain = Request { dots: Size::new(128, 84), ..plain(&studio) };
         let reference = studio.draw_samples(&plain, REFERENCE);
         let own = studio.draw(&adaptive(&plain));
         let sixteen = studio.draw(&with(&plain, |options| options.samples = 4));

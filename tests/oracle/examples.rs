@@ -11,7 +11,7 @@ use ray13::frame::Studio;
 use ray13::math::{DVec3, Size};
 use ray13::scene::{Camera, FieldSpan, ReadOptions, Scene, read_file};
 
-const DOTS: Size = Size::new(96, 64);
+const DOTS: Size = Size::new(66, 44);
 
 /// The scene's own framing and the same distance from other sides: along an axis, where faces are edge on and
 /// surfaces line up; from below; near; and from the middle of the scene outwards.

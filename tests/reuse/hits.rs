@@ -11,7 +11,7 @@ use crate::support::request::request;
 use crate::support::scenery::embedded_scenes;
 
 /// Several tiles, those at the rim cut, and their last blocks too.
-pub const DOTS: Size = Size::new(75, 43);
+pub const DOTS: Size = Size::new(43, 35);
 
 pub fn scene(name: &str, text: &str) -> Scene {
     read(name, text.as_bytes(), &ReadOptions::default()).unwrap_or_else(|e| panic!("{e}"))

@@ -11,7 +11,7 @@ use super::{given, inside, picture};
 /// Half a level, in twelfths of L*.
 const HALF: f64 = 0.5;
 
-const DOTS: Size = Size::new(96, 58);
+const DOTS: Size = Size::new(64, 39);
 
 fn drawn(studio: &Studio, options: Options) -> Frame {
     studio.draw(&Request { options, ..picture(studio, DOTS) })
@@ -45,11 +45,14 @@ fn cut_off_depth_and_precision_lose_less_than_half_a_level() {
 /// within a level.
 #[test]
 fn rays_a_dot_lose_less_than_half_a_level_in_the_mean_from_four_on() {
-    each_view(|view, drawn| {
+    for scene in embedded() {
+        let studio = inside(scene.name);
+        let base = picture(&studio, Size::new(96, 58));
+        let drawn = |options| studio.draw(&Request { options, ..base.clone() });
         let [one, four, many] = [1, 2, 4].map(|samples| drawn(Options { samples, ..Options::default() }));
         let [one, four] = [one, four].map(|frame| frame.compare(&many).unwrap());
-        assert!(four.light_rms < HALF && one.light_rms < 2.0 * HALF, "{view}: {one}; {four}");
-    });
+        assert!(four.light_rms < HALF && one.light_rms < 2.0 * HALF, "{}: {one}; {four}", scene.name);
+    }
 }
 
 /// Whatever `auto` takes of engines and structures, the picture is the same to the bit.

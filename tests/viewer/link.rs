@@ -150,7 +150,7 @@ fn over_a_thin_link_nothing_shown_is_old_and_the_end_is_near() {
     pty.wait_for("the first picture", Reading::drawn);
 
     let long = env::var_os("RAY13_LONG").is_some();
-    let held = hold_an_arrow(&mut pty, Duration::from_secs(if long { 10 } else { 4 }));
+    let held = hold_an_arrow(&mut pty, Duration::from_secs(if long { 10 } else { 3 }));
     eprintln!("{} pictures, still after {:?}, at most {:?} old", held.pictures, held.still, held.oldest);
     assert!(held.still < Duration::from_secs(1), "still {:?} after the last key", held.still);
     assert!(held.oldest < Duration::from_millis(1_500), "{:?} old", held.oldest);
@@ -195,7 +195,7 @@ fn pictures_a_second_through(relay: &str, needs: &str) -> Option<f64> {
         bytes.windows(BEGIN_UPDATE.len()).filter(|window| *window == BEGIN_UPDATE.as_bytes()).count()
     };
     let (before, begin) = (count(), Instant::now());
-    hold_an_arrow(&mut pty, Duration::from_secs(3));
+    hold_an_arrow(&mut pty, Duration::from_secs(2));
     let (pictures, seconds) = (count() - before, begin.elapsed().as_secs_f64());
     pty.send("q");
     pty.wait_for("the end", |pty| pty.text().contains("code=0 modes=same left=[]"));

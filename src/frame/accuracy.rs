@@ -5,7 +5,7 @@ use crate::tone::{Level, Tone};
 
 /// So many standard deviations the mean of a dot is taken to be off at most. With 1.5 a dot that is called
 /// decided has another level in one case of fifteen at the border; of 1, 1.5 and 2 it takes the fewest rays
-/// for as many wrong levels as 16 rays for each dot leave (`benches/antialiasing.rs`, on hanyang, temple,
+/// for as many wrong levels as 16 rays for each dot leave (`benches/antialiasing`, on hanyang, temple,
 /// glass and SPD tree; measured when a dot's light was the plain mean of its rays).
 const DEVIATIONS: f64 = 1.5;
 

@@ -80,6 +80,8 @@ pub mod frame;
 
 pub mod trade;
 
+pub mod follow;
+
 #[cfg(feature = "widget")]
 pub mod widget;
 

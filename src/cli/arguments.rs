@@ -58,6 +58,8 @@ pub enum Command {
     /// Say what a picture requires, stage by stage, what that is expected to cost, and why the rest is left
     /// out
     Plan(PlanArguments),
+    /// Follow the ray through one dot, stage by stage, with all numbers that make its light
+    Follow(FollowArguments),
     /// Compare two pictures: exit code 0 where they are the same, 1 where they differ
     Diff(DiffArguments),
     /// Keep the picture of each view of a scene beside it, or compare it with what was kept
@@ -248,6 +250,21 @@ pub enum PlotFormat {
 }
 
 #[derive(Clone, Debug, Args)]
+pub struct FollowArguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// The dot's column, from 0 at the left
+    pub column: u32,
+    /// The dot's row, from 0 at the top
+    pub row: u32,
+    #[command(flatten)]
+    pub picture: PictureArguments,
+    /// One line of JSON in place of the text
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Clone, Debug, Args)]
 pub struct PlanArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
@@ -343,6 +360,7 @@ impl Arguments {
             Some(Command::Render(a)) => (&mut a.scene.reading, &mut a.picture.camera),
             Some(Command::Bench(a)) => (&mut a.scene.reading, &mut a.picture.camera),
             Some(Command::Plan(a)) => (&mut a.scene.reading, &mut a.picture.camera),
+            Some(Command::Follow(a)) => (&mut a.scene.reading, &mut a.picture.camera),
             Some(Command::Trade(a)) => (&mut a.scene.reading, &mut a.picture.camera),
             Some(Command::Diff(a)) => (&mut a.comparison.reading, &mut a.comparison.picture.camera),
             Some(Command::Snapshot(a)) => (&mut a.comparison.reading, &mut a.comparison.picture.camera),

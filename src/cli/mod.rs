@@ -7,6 +7,7 @@ mod diagnostics;
 mod diff;
 mod effects;
 mod error;
+mod follow;
 mod input;
 mod interrupts;
 mod levels;
@@ -70,6 +71,7 @@ fn command(arguments: Arguments) -> Result<(), CliError> {
         Some(Command::Bench(bench)) => bench::run(&bench),
         Some(Command::Trade(trade)) => trade::run(&trade),
         Some(Command::Plan(plan)) => plan::run(&plan),
+        Some(Command::Follow(follow)) => follow::run(&follow),
         Some(Command::Diff(diff)) => diff::run(&diff).map_err(CliError::apart_from_differences),
         Some(Command::Snapshot(snapshot)) => {
             snapshot::run(&snapshot).map_err(CliError::apart_from_differences)

@@ -8,6 +8,7 @@ mod draw;
 mod edges;
 mod explain;
 mod finished_tile;
+mod followed;
 mod frame_cache;
 mod nothing;
 pub mod pcat;
@@ -23,6 +24,7 @@ mod studio;
 mod workers;
 
 pub use compare::{Comparison, OtherDots};
+pub use followed::FollowedRay;
 pub use nothing::NothingInView;
 pub use request::{Frame, Request, Space, Wants};
 pub use studio::{Built, Studio};

@@ -100,6 +100,6 @@ impl Prepared<'_> {
 }
 
 /// The distance from a point to the farthest point of a box.
-fn farthest(p: DVec3, b: &Bounds) -> f64 {
+pub(super) fn farthest(p: DVec3, b: &Bounds) -> f64 {
     (p - b.lo).abs().max((p - b.hi).abs()).length()
 }

@@ -48,7 +48,10 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
     ) -> Option<SurfaceInteraction> {
         meter.counts.primary_rays += 1;
         meter.record(|| RayEvent::Sent { kind: RayKind::Eye, ray: *ray, weight: 1.0 });
-        let hit = self.engine.first(ray, &mut memory.engine, meter)?;
+        let Some(hit) = self.engine.first(ray, &mut memory.engine, meter) else {
+            meter.record(|| RayEvent::Missed);
+            return None;
+        };
         meter.counts.primary_hits += 1;
         meter.at(Stage::Shade);
         let met = self.met(ray, hit, memory);
@@ -123,10 +126,18 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
             }
         }
         let (gathering, path_length) = (illumination.gathering(material), sent.travelled + met.hit.t);
+        let lamps = C::from_parts(sum);
         for part in 0..C::PARTS {
             sum[part] = gathering.part(part, sum[part], path_length);
         }
-        C::from_parts(sum)
+        let light = C::from_parts(sum);
+        meter.record(|| RayEvent::Gathered {
+            ambient: (illumination.ambient * material.color).gray(),
+            lamps: lamps.gray(),
+            path_length,
+            light: light.gray(),
+        });
+        light
     }
 
     /// Of a glass surface and opaque solids that begin in the same place, the opaque shows: behind the glass
@@ -198,9 +209,10 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
             meter.record(|| RayEvent::Sent { kind, ray: next.ray, weight: next.weight });
             let departure = self.illumination.departure(&met.hit, met.p, side);
             let before = memory.history;
-            let light = self.arriving(&next, departure, memory, meter) * onward.share;
+            let arrived = self.arriving(&next, departure, memory, meter);
+            meter.record(|| RayEvent::Arrived { light: arrived.gray(), share: onward.share });
             memory.history = before.sent_on(memory.history);
-            light
+            arrived * onward.share
         };
         if let Some(mirror) = rays.mirror {
             light = (light + arriving(RayKind::Mirror, mirror, met.normal, &sent.inside)).limited();
@@ -231,6 +243,7 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
         let hit = self.engine.next(&sent.ray, departure, &mut memory.engine, meter);
         meter.at(Stage::Shade);
         let Some(hit) = hit else {
+            meter.record(|| RayEvent::Missed);
             memory.history = History::MISS;
             return self.illumination.background;
         };

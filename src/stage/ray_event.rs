@@ -32,8 +32,20 @@ pub enum RayEvent {
     },
     /// The mirror or Snell ray that was sent last is not followed, for its small weight or its depth.
     Truncated,
+    /// Beyond which faces of the world's box an eye ray starts, after it was moved nearer.
+    Coded {
+        /// Bit `2·axis` below the lower face, `2·axis + 1` above the upper; 0 inside.
+        outcode: u8,
+        /// So far it was moved.
+        moved: f64,
+    },
     /// The ray misses the world.
     Clipped,
+    /// The ray comes into the world's box.
+    Entered {
+        /// Where, from where it was moved to.
+        t: f64,
+    },
     /// The ray comes into a cell, or a box.
     Cell {
         /// Where it does, or before.
@@ -80,6 +92,8 @@ pub enum RayEvent {
         /// Where; from where the ray was sent.
         t: f64,
     },
+    /// An eye ray, a mirror or a Snell ray meets nothing.
+    Missed,
     /// A lamp that shines on a surface, and the terms of its light there.
     Lit {
         /// The lamp, by its place among those that the plan requires.
@@ -91,6 +105,25 @@ pub enum RayEvent {
         /// The share of the lamp's light that arrives, 0 to 1; absent where shadows are not asked for.
         visible: Option<f64>,
     },
+    /// The light of a surface by itself, `ambient + lamps / (R + k)`, as luminance.
+    Gathered {
+        /// `Ia·C`.
+        ambient: f64,
+        /// `Σ Ip · V · (kd·C·(L·N) + ks·cosⁿθ)`.
+        lamps: f64,
+        /// `R`: the way from the eye to the surface.
+        path_length: f64,
+        /// All of it.
+        light: f64,
+    },
+    /// What comes of a mirror or Snell ray, and of all that were sent on from where it ended: the last that was
+    /// sent and has not arrived yet.
+    Arrived {
+        /// The light along it, as luminance.
+        light: f64,
+        /// `kr`, or `kt` of what went on: the share of it that is added.
+        share: f64,
+    },
 }
 
 impl RayEvent {
@@ -98,11 +131,11 @@ impl RayEvent {
     pub const fn stage(&self) -> Stage {
         match self {
             Self::Sent { .. } => Stage::Ray,
-            Self::Clipped => Stage::Clip,
+            Self::Coded { .. } | Self::Clipped | Self::Entered { .. } => Stage::Clip,
             Self::Cell { .. } => Stage::Cell,
             Self::Tested { .. } => Stage::Solid,
-            Self::Evaluated { .. } | Self::Crossed { .. } | Self::Hit { .. } => Stage::Csg,
-            Self::Lit { .. } | Self::Truncated => Stage::Shade,
+            Self::Evaluated { .. } | Self::Crossed { .. } | Self::Hit { .. } | Self::Missed => Stage::Csg,
+            Self::Lit { .. } | Self::Gathered { .. } | Self::Arrived { .. } | Self::Truncated => Stage::Shade,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use crate::lattice::{self, BoxVisitor, CellsVisitor, SLACK, Structure, slack};
+use crate::lattice::{self, BoxVisitor, CellsVisitor, Outcode, SLACK, Structure, slack};
 use crate::math::{Bounds, DVec3, Mask, Number, Ray, Rays, Vector};
 use crate::solid::{
     self, Assembly, Body, Crossing, Departure, ExprView, LIMIT, TRange, WorldPrimitive, first_of_expression,
@@ -345,12 +345,17 @@ impl RayEngine for Exact<'_> {
     fn first(&self, ray: &Ray, memory: &mut RayMemory, meter: &mut Meter<impl Probe>) -> Option<Hit> {
         meter.at(Stage::Clip);
         let (near, [far, left]) = moved_nearer(ray);
+        meter.record(|| RayEvent::Coded {
+            outcode: Outcode::of(near.o, &self.limit).0,
+            moved: far + left,
+        });
         let Some(entry) = lattice::entry(&near, &self.limit) else {
             meter.counts.clipped_rays += 1;
             meter.record(|| RayEvent::Clipped);
             memory.nearest.clear();
             return None;
         };
+        meter.record(|| RayEvent::Entered { t: entry });
         let hit = self.closest(&near, entry, None, memory, meter)?;
         // Of a long path each part is rounded once.
         Some(Hit { t: far + (left + hit.t), error: hit.error + 0.5 * f64::EPSILON * far, ..hit })

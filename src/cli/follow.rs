@@ -1,0 +1,56 @@
+//! One ray through the stages, as text or as JSON.
+
+use serde_json::{Value, json};
+
+use crate::follow::{Story, StoryLine};
+use crate::frame::{FollowedRay, Request, Wants};
+use crate::math::Size;
+use crate::shade::Channel;
+
+use super::arguments::FollowArguments;
+use super::error::CliError;
+use super::picture::Unsized;
+use super::write::print;
+use super::{effects, input};
+
+/// Follows the ray of a dot.
+pub fn run(arguments: &FollowArguments) -> Result<(), CliError> {
+    input::say(&effects::check(&arguments.picture, effects::Presentation::Cells)?);
+    let scene = input::read(&arguments.scene.file, &arguments.scene.reading)?;
+    input::say(&scene.notes);
+    let studio = input::studio(scene)?;
+    let request =
+        arguments.picture.request(&studio, arguments.picture.look(None), Wants::CELLS, Unsized::Screen)?;
+    let FollowArguments { column, row, .. } = *arguments;
+    let Some(followed) = studio.follow(&request, [column, row]) else {
+        let Size { width, height } = request.dots;
+        return Err(CliError::Input(format!(
+            "there is no dot {column}, {row}: the picture has {width} × {height}, the last is {}, {}",
+            width - 1,
+            height - 1
+        )));
+    };
+    let story = Story::new(&followed, &request, studio.scene());
+    let text = if arguments.json {
+        format!("{}\n", value(&followed, &request, &story))
+    } else {
+        let Size { width, height } = request.dots;
+        format!("dot {column}, {row} of {width} × {height}, by the exact engine\n\n{story}")
+    };
+    print(text.as_bytes())
+}
+
+fn value(followed: &FollowedRay, request: &Request, story: &Story) -> Value {
+    let line = |line: &StoryLine| {
+        json!({
+            "number": line.stage.number(), "stage": line.stage.name().to_lowercase(), "depth": line.depth,
+            "text": line.text,
+        })
+    };
+    json!({
+        "dot": followed.dot, "dots": [request.dots.width, request.dots.height],
+        "ray": { "origin": followed.ray.o.to_array(), "direction": followed.ray.d.to_array() },
+        "light": followed.light.gray(), "level": followed.level.get(),
+        "steps": story.lines.iter().map(line).collect::<Vec<_>>(),
+    })
+}

@@ -1,0 +1,64 @@
+//! What objects and primitives are called.
+
+use crate::glyph::Paint;
+use crate::scene::{Scene, Shape};
+
+/// The names of all that a ray can meet, by the numbers of the assembly: of both, those of the file.
+pub struct Names {
+    objects: Vec<String>,
+    primitives: Vec<String>,
+}
+
+impl Names {
+    /// Those of a scene; `numbers` has those in the file by those in the assembly.
+    pub fn of(scene: &Scene, numbers: &[u32]) -> Self {
+        let named = |&number: &u32| match &scene.objects[number as usize].name {
+            Some(name) => format!("\"{name}\""),
+            None => format!("object {}", number + 1),
+        };
+        let objects = numbers.iter().map(named).collect();
+        let mut primitives = Vec::new();
+        for object in &scene.objects {
+            object.solid.visit(&mut |primitive| {
+                primitives.push(format!("{} {}", shape_name(&primitive.shape), primitives.len() + 1));
+            });
+        }
+        Self { objects, primitives }
+    }
+
+    pub fn object(&self, number: u32) -> &str {
+        &self.objects[number as usize]
+    }
+
+    pub fn primitive(&self, number: u32) -> &str {
+        &self.primitives[number as usize]
+    }
+}
+
+fn shape_name(shape: &Shape) -> &'static str {
+    match shape {
+        Shape::Sphere => "sphere",
+        Shape::Cube => "cube",
+        Shape::Cone { bottom, top } if bottom == top => "cylinder",
+        Shape::Cone { bottom: 0.0, .. } | Shape::Cone { top: 0.0, .. } => "cone",
+        Shape::Cone { .. } => "truncated cone",
+        Shape::Facets(_) => "polyhedron",
+        Shape::Mesh(_) => "mesh",
+        Shape::Face(_) => "polygon",
+        Shape::Patch(_) => "patch",
+        Shape::Tube { .. } => "tube",
+    }
+}
+
+/// A colour in words.
+pub fn paint_name(paint: Paint) -> String {
+    match paint {
+        Paint::Terminal => "the terminal's own colour".to_owned(),
+        Paint::Black => "black".to_owned(),
+        Paint::DarkGray => "dark gray".to_owned(),
+        Paint::LightGray => "light gray".to_owned(),
+        Paint::White => "white".to_owned(),
+        Paint::Indexed(number) => format!("colour {number}"),
+        Paint::Rgb([r, g, b]) => format!("#{r:02x}{g:02x}{b:02x}"),
+    }
+}

@@ -1,0 +1,92 @@
+//! One dot's ray, followed through all stages.
+
+use crate::integrate::{RayIntegrator, View};
+use crate::math::{DVec3, Ray, Size};
+use crate::plan::{Channels, EngineChoice, Options, Plan, PrecisionChoice};
+use crate::shade::Channel;
+use crate::solid::SceneFrame;
+use crate::stage::{Counts, GiveUp, Meter, RayEvent, Recorder};
+use crate::tone::Level;
+use crate::trace::Exact;
+use crate::view::settled;
+
+use super::prepare::farthest;
+use super::{Frame, Request, Space, Studio};
+
+/// What happens to the ray through the middle of a dot, as the exact engine records it.
+#[derive(Clone, Debug)]
+pub struct FollowedRay {
+    /// The dot: column and row, from 0.
+    pub dot: [u32; 2],
+    /// The ray, in the scene's coordinates.
+    pub ray: Ray,
+    /// What happens to it and to all rays that are sent on, in order.
+    pub events: Vec<RayEvent>,
+    /// By the numbers of objects in the events: those in the file, from 0.
+    pub objects: Vec<u32>,
+    /// From the coordinates and the unit of the events to the scene's.
+    pub scene_frame: SceneFrame,
+    /// How space is cut.
+    pub space: Space,
+    /// What was counted.
+    pub counts: Counts,
+    /// What the picture requires.
+    pub plan: Plan,
+    /// The light along the ray, by its three linear primaries, 0 or more.
+    pub light: DVec3,
+    /// The level of its luminance.
+    pub level: Level,
+    /// The picture that the dot is in, by the same engine.
+    pub frame: Frame,
+}
+
+impl Studio {
+    /// Follows the ray through the middle of a dot, by the exact engine whatever the request has; `None` where
+    /// the picture has no such dot.
+    pub fn follow(&self, request: &Request, dot: [u32; 2]) -> Option<FollowedRay> {
+        let Size { width, height } = request.dots;
+        if dot[0] >= width || dot[1] >= height {
+            return None;
+        }
+        let options =
+            Options { engine: EngineChoice::Exact, precision: PrecisionChoice::Auto, ..request.options };
+        let request = Request { options, ..request.clone() };
+        let never = GiveUp::never();
+        let prepared = self.prepare(&request, None, &never);
+        let ray = prepared.pinhole.ray(f64::from(dot[0]) + 0.5, f64::from(dot[1]) + 0.5);
+        let engine = Exact::new(&self.assembly, prepared.structure);
+        let mut meter = Meter::new(Recorder::default());
+        // As every ray from the eye.
+        let eye = self.assembly.scene_frame.inward_near(prepared.pinhole.eye);
+        let ray = Ray::new(ray.o, settled(ray.d, farthest(eye, &self.assembly.limit)));
+        let light = match prepared.plan.channels {
+            Channels::Gray => self.seen::<f64>(&engine, &prepared.plan, &ray, &mut meter),
+            Channels::Three => self.seen::<DVec3>(&engine, &prepared.plan, &ray, &mut meter),
+        };
+        Some(FollowedRay {
+            dot,
+            ray,
+            events: meter.probe.events,
+            objects: self.assembly.objects.iter().map(|object| object.number).collect(),
+            scene_frame: self.assembly.scene_frame,
+            space: Space::of(&prepared.structure),
+            counts: meter.counts,
+            level: request.tone.level(light.gray()),
+            light,
+            frame: self.draw(&request),
+            plan: prepared.plan,
+        })
+    }
+
+    fn seen<C: Channel>(
+        &self,
+        engine: &Exact,
+        plan: &Plan,
+        ray: &Ray,
+        meter: &mut Meter<Recorder>,
+    ) -> DVec3 {
+        let integrator = RayIntegrator::<_, C>::new(self.scene(), &self.assembly, plan, engine);
+        let View { light, .. } = integrator.view(&self.assembly.ray(ray), &mut integrator.memory(), meter);
+        light.rgb()
+    }
+}

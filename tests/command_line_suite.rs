@@ -8,6 +8,7 @@ mod command_line {
     mod bad_output;
     mod effects;
     mod engines;
+    mod follow;
     mod kept;
     mod plan;
     mod plans;

@@ -15,6 +15,7 @@ mod support {
 
 mod engines {
     mod events;
+    mod follow;
     mod glass;
     mod lamps;
     mod large_csg;

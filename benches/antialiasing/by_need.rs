@@ -47,7 +47,8 @@ pub fn measure(name: &str, studio: &Studio) {
             println!("| {name} | {rays} | {:.2} % | {} | | | | |", 100.0 * bound, written(time));
             continue;
         }
-        // The largest error of which a quarter of its next leaves as few wrong: halves, and then fifths of one.
+        // The largest error of which a quarter of its next leaves as few wrong: halves, and then fifths of
+        // one.
         let found = HALVINGS
             .map(|halving| libm::exp2(-f64::from(halving)))
             .find(|&error| wrong(&studio.draw_anew(&adaptive(error))) <= bound);

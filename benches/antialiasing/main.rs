@@ -1,7 +1,7 @@
 //! Measures what anti-aliasing costs and brings, and prints the tables of `docs/performance.md`:
 //! `cargo run --release --example antialiasing`, or of other scenes:
-//! `… --example antialiasing -- glass ../shared/scenes/spd/balls.nff`. A file of POV-Ray among them is traced by
-//! the program `povray`, beside its own reference.
+//! `… --example antialiasing -- glass ../shared/scenes/spd/balls.nff`. A file of POV-Ray among them is traced
+//! by the program `povray`, beside its own reference.
 
 mod by_need;
 mod picture;

@@ -13,7 +13,8 @@ use super::picture::{level, wrong_levels};
 const SIDE: &str = "320";
 
 /// What is measured, and what it is called with: `+A` takes so many rays more of a dot where it differs from
-/// one beside it by more than that (`+AM1`: `+R` by `+R` of them; `+AM2`: as deep as `+R`, where they differ).
+/// one beside it by more than that (`+AM1`: `+R` by `+R` of them; `+AM2`: as deep as `+R`, where they
+/// differ).
 const SETTINGS: [(&str, &[&str]); 3] =
     [("-A", &["-A"]), ("+A0.3", &["+A0.3"]), ("+A0.3 +AM2 +R3", &["+A0.3", "+AM2", "+R3"])];
 

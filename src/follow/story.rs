@@ -214,7 +214,9 @@ impl Teller<'_> {
             (1, true) => format!("a {what} from t = {last}"),
             (1, false) => format!("a {what} from t = {last}, with nothing new in it"),
             (_, true) => format!("{}, nothing new in all but the last, from t = {last}", many(count, what)),
-            (_, false) => format!("{}, the last from t = {last}, with nothing new in them", many(count, what)),
+            (_, false) => {
+                format!("{}, the last from t = {last}, with nothing new in them", many(count, what))
+            }
         };
         self.say(Stage::Cell, text);
         count
@@ -227,7 +229,8 @@ impl Teller<'_> {
                 if visible.is_some() {
                     self.depth -= 1;
                 }
-                let visible = visible.map_or_else(String::new, |v| format!(", of which V = {} arrives", figure(v)));
+                let visible =
+                    visible.map_or_else(String::new, |v| format!(", of which V = {} arrives", figure(v)));
                 let text = format!(
                     "lamp {}: kd · (L·N) = {}, ks · cosⁿθ = {}{visible}",
                     lamp + 1,
@@ -252,8 +255,12 @@ impl Teller<'_> {
             }
             RayEvent::Arrived { light, share } => {
                 self.depth = self.rays.pop().unwrap_or_default();
-                let text =
-                    format!("{} · {} = {} arrives of it", figure(share), figure(light), figure(share * light));
+                let text = format!(
+                    "{} · {} = {} arrives of it",
+                    figure(share),
+                    figure(light),
+                    figure(share * light)
+                );
                 self.say(Stage::Shade, text);
             }
             _ => {}
@@ -275,7 +282,8 @@ impl Teller<'_> {
             Tone::Even => "even steps of 1/12".to_owned(),
         };
         let level = if rays > 1.0 { request.tone.level(gray) } else { *level };
-        self.say(Stage::Dither, format!("{by}: level {} of 12", level.get()));
+        let own = figure(lightness(level.light()));
+        self.say(Stage::Dither, format!("{by}: level {} of 12, whose own L* is {own}", level.get()));
         let Some(cells) = &frame.cells else { return };
         let per_cell = request.glyphs.dots_per_cell();
         let cell = (column / per_cell.width, row / per_cell.height);

@@ -41,8 +41,8 @@ pub struct FollowedRay {
 }
 
 impl Studio {
-    /// Follows the ray through the middle of a dot, by the exact engine whatever the request has; `None` where
-    /// the picture has no such dot.
+    /// Follows the ray through the middle of a dot, by the exact engine whatever the request has; `None`
+    /// where the picture has no such dot.
     pub fn follow(&self, request: &Request, dot: [u32; 2]) -> Option<FollowedRay> {
         let Size { width, height } = request.dots;
         if dot[0] >= width || dot[1] >= height {
@@ -78,13 +78,7 @@ impl Studio {
         })
     }
 
-    fn seen<C: Channel>(
-        &self,
-        engine: &Exact,
-        plan: &Plan,
-        ray: &Ray,
-        meter: &mut Meter<Recorder>,
-    ) -> DVec3 {
+    fn seen<C: Channel>(&self, engine: &Exact, plan: &Plan, ray: &Ray, meter: &mut Meter<Recorder>) -> DVec3 {
         let integrator = RayIntegrator::<_, C>::new(self.scene(), &self.assembly, plan, engine);
         let View { light, .. } = integrator.view(&self.assembly.ray(ray), &mut integrator.memory(), meter);
         light.rgb()

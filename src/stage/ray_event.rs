@@ -116,8 +116,8 @@ pub enum RayEvent {
         /// All of it.
         light: f64,
     },
-    /// What comes of a mirror or Snell ray, and of all that were sent on from where it ended: the last that was
-    /// sent and has not arrived yet.
+    /// What comes of a mirror or Snell ray, and of all that were sent on from where it ended: the last that
+    /// was sent and has not arrived yet.
     Arrived {
         /// The light along it, as luminance.
         light: f64,

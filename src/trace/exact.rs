@@ -345,10 +345,7 @@ impl RayEngine for Exact<'_> {
     fn first(&self, ray: &Ray, memory: &mut RayMemory, meter: &mut Meter<impl Probe>) -> Option<Hit> {
         meter.at(Stage::Clip);
         let (near, [far, left]) = moved_nearer(ray);
-        meter.record(|| RayEvent::Coded {
-            outcode: Outcode::of(near.o, &self.limit).0,
-            moved: far + left,
-        });
+        meter.record(|| RayEvent::Coded { outcode: Outcode::of(near.o, &self.limit).0, moved: far + left });
         let Some(entry) = lattice::entry(&near, &self.limit) else {
             meter.counts.clipped_rays += 1;
             meter.record(|| RayEvent::Clipped);

@@ -180,18 +180,21 @@ fn one_ray_is_told_step_by_step() {
     let steps: Vec<String> = events.iter().map(|event| told(event, unit)).collect();
     let expected = [
         "Eye ray along -z",
+        "outcode 100000",
+        "comes into the world",
         "tested 0: 2 to 4",
         "crosses 0 at 2, inward",
         "hits 0 at 2",
         "Shadow ray along z",
         "tested 0: nothing",
         "lamp 0: 0.5 + 0, visible 1",
+        "has 0.09 + 0.45",
     ];
     assert_eq!(steps, expected);
     assert!(light > 0.5, "{light}");
     let aside = Ray::new(ray.o, DVec3::X);
     let (_, _, events) = prepared.follow(Structure::None, &aside);
-    assert_eq!(events[1..], [RayEvent::Clipped]);
+    assert_eq!(events[2..], [RayEvent::Clipped, RayEvent::Missed]);
 }
 
 /// An event in words, lengths in the scene's unit.
@@ -212,6 +215,9 @@ fn told(event: &RayEvent, unit: f64) -> String {
         RayEvent::Lit { lamp, diffuse, highlight, visible } => {
             format!("lamp {lamp}: {diffuse} + {highlight}, visible {}", visible.unwrap_or(f64::NAN))
         }
+        RayEvent::Coded { outcode, .. } => format!("outcode {outcode:06b}"),
+        RayEvent::Entered { .. } => "comes into the world".to_owned(),
+        RayEvent::Gathered { ambient, lamps, .. } => format!("has {ambient:.2} + {lamps:.2}"),
         _ => format!("{event:?}"),
     }
 }

@@ -222,7 +222,8 @@ fn with_up_nearly_along_the_sight() {
 fn at_every_size_and_distance() {
     for size in [1e-300, 1e-150, 1e-9, 1.0, 1e9, 1e150, 1e300] {
         for material in ["color(\"red\")", "material(kr = 0.4, kt = 0.6, index = 1.5)"] {
-            // Brighter, and no cut-off ends the rays that split in glass; bright lights have a test of their own.
+            // Brighter, and no cut-off ends the rays that split in glass; bright lights have a test of their
+            // own.
             let intensity = f64::min(size, 1.0);
             let text = format!(
                 "world(k = {size:e}); light(at = [{size:e}, 0, 0]); light(at = [-1e300, 1e-300, 1e300], intensity = {intensity:e});

@@ -99,6 +99,22 @@ fn an_arrow_moves_the_eye_and_changes_the_picture() {
 }
 
 #[test]
+fn a_ray_is_followed_and_left_again() {
+    let mut pty = viewer(SMALLEST);
+    let (eye, picture) = (pty.eye(), pty.picture());
+    pty.send("\x1bOS");
+    pty.wait_for("the story of a ray", |pty| {
+        pty.text().contains("┌ RAY of cell") && pty.text().contains("P(t) = ")
+    });
+    let story = pty.text();
+    pty.send("\x1b[D");
+    pty.wait_for("another ray", |pty| pty.text().contains("┌ RAY of cell") && pty.text() != story);
+    pty.send("\x1b[6~\x1b[6~");
+    pty.send("\x1b");
+    pty.wait_for("the picture as it was", |pty| pty.eye() == eye && pty.picture() == picture);
+}
+
+#[test]
 fn the_screen_follows_the_size_of_the_terminal() {
     let mut pty = viewer(SMALLEST);
     pty.resize(Size { columns: 120, rows: 40 });

@@ -132,9 +132,10 @@ mod tests {
     #[test]
     fn keys_go_from_the_left_but_help_and_quit_stay() {
         let labels = |columns| keys_that_fit(columns).into_iter().map(|(_, label)| label).collect::<Vec<_>>();
-        assert_eq!(labels(80), ["Help", "View", "Glyphs", "Quit"]);
-        assert_eq!(labels(27), ["Help", "View", "Glyphs", "Quit"]);
-        assert_eq!(labels(26), ["Help", "Glyphs", "Quit"]);
+        assert_eq!(labels(80), ["Help", "View", "Follow", "Glyphs", "Quit"]);
+        assert_eq!(labels(35), ["Help", "View", "Follow", "Glyphs", "Quit"]);
+        assert_eq!(labels(34), ["Help", "Follow", "Glyphs", "Quit"]);
+        assert_eq!(labels(28), ["Help", "Glyphs", "Quit"]);
         assert_eq!(labels(20), ["Help", "Quit"]);
         assert_eq!(labels(1), ["Help", "Quit"]);
     }

@@ -43,6 +43,12 @@ pub enum Action {
     ShadingUp,
     /// The next set of characters.
     NextGlyphs,
+    /// Follows one ray, or leaves it.
+    Follow,
+    /// The step before, of the ray that is followed.
+    StepBack,
+    /// The next step of the ray that is followed.
+    StepOn,
     /// Shows or hides the keys.
     Help,
     /// Closes what is open over the picture.
@@ -123,6 +129,16 @@ pub const KEYMAP: &[Line] = &[
             (key(KeyCode::Tab), Action::NextView),
             (key(KeyCode::BackTab), Action::PreviousView),
         ],
+    },
+    Line {
+        does: "follow one ray; arrows take another",
+        label: Some("Follow"),
+        keys: &[(key(KeyCode::F(4)), Action::Follow)],
+    },
+    Line {
+        does: "its steps: the one before, the next",
+        label: None,
+        keys: &[(key(KeyCode::PageUp), Action::StepBack), (key(KeyCode::PageDown), Action::StepOn)],
     },
     Line { does: "back to the view", label: None, keys: &[(key(KeyCode::Home), Action::Home)] },
     Line {
@@ -232,7 +248,7 @@ mod tests {
                 line.keys.iter().filter(|(chord, _)| chord.function_number().is_some()).count();
             assert_eq!(function_keys, usize::from(line.label.is_some()), "{}", line.does);
         }
-        assert_eq!(function_keys(), [(1, "Help"), (3, "View"), (7, "Glyphs"), (10, "Quit")]);
+        assert_eq!(function_keys(), [(1, "Help"), (3, "View"), (4, "Follow"), (7, "Glyphs"), (10, "Quit")]);
     }
 
     #[test]

@@ -87,6 +87,16 @@ impl Layout {
     }
 }
 
+impl Layout {
+    /// The rows that what is opened may stand over: title, figures and function keys stay.
+    pub fn body(&self) -> Rect {
+        match &self.around {
+            Around::Panels(panels) => panels.chart.union(panels.picture),
+            Around::Rows(_) | Around::Nothing => self.picture,
+        }
+    }
+}
+
 impl Panels {
     /// All of them, on a screen that has the room.
     fn on(screen: Rect) -> Self {

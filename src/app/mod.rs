@@ -15,6 +15,7 @@ mod encoder;
 mod error;
 mod events;
 mod fence;
+mod following;
 mod help;
 mod identity;
 mod input;

@@ -2,6 +2,7 @@
 
 use ratatui::layout::Size;
 
+use super::following::Following;
 use super::keys::Action;
 use super::layout::Layout;
 use super::motion::{self, FLY_STEP, ORBIT_STEP, ZOOM_STEP};
@@ -29,6 +30,8 @@ pub struct Model {
     pub moved: bool,
     /// Whether the keys are shown.
     pub help: bool,
+    /// The ray that is followed, where one is.
+    pub following: Option<Following>,
     /// What the reader left out, for the person who looks.
     pub notes: Vec<String>,
     /// Why the scene's file is no scene now, where it is none: what is shown is what it was before.
@@ -86,6 +89,7 @@ impl Model {
             settings,
             moved: false,
             help: false,
+            following: None,
             notes: painter.scene().notes.clone(),
             mistake: None,
             layout,
@@ -103,6 +107,7 @@ impl Model {
         if !self.moved {
             self.go_home(painter);
         }
+        self.follow_again(painter);
     }
 
     /// Shows another scene, from where the one before is seen. Only a view that the scene itself gives, and
@@ -118,6 +123,18 @@ impl Model {
         if !self.moved && self.views > 0 {
             self.go_home(painter);
         }
+        self.follow_again(painter);
+    }
+
+    /// Follows the ray that is in the same place of a picture that has changed.
+    fn follow_again(&mut self, painter: &dyn Painter) {
+        match (self.following.take(), self.request()) {
+            (Some(mut following), Some(request)) => {
+                following.again(painter, &request);
+                self.following = Some(following);
+            }
+            (following, _) => self.following = following,
+        }
     }
 
     /// Does what a key asks for. While the keys are shown, any key hides them and does nothing else, but the
@@ -127,6 +144,21 @@ impl Model {
             return Effect::None;
         }
         let Some(action) = action else { return Effect::None };
+        if let (Some(mut following), Some(request)) = (self.following.clone(), self.request())
+            && following.takes(painter, &request, action)
+        {
+            self.following = Some(following);
+            return Effect::None;
+        }
+        let before = self.request();
+        let effect = self.act(painter, action);
+        if self.request() != before {
+            self.follow_again(painter);
+        }
+        effect
+    }
+
+    fn act(&mut self, painter: &dyn Painter, action: Action) -> Effect {
         let camera = &self.camera;
         match action {
             Action::OrbitLeft => self.look(motion::orbit(camera, -ORBIT_STEP, 0.0)),
@@ -147,9 +179,15 @@ impl Model {
             Action::ShadingDown => self.settings.options.shading = self.shading(usize::checked_sub),
             Action::ShadingUp => self.settings.options.shading = self.shading(usize::checked_add),
             Action::NextGlyphs => self.settings.glyphs = self.next_glyphs(),
+            Action::Follow => {
+                let request = self.request().filter(|_| self.following.is_none());
+                self.following = request.map(|request| Following::middle(painter, &request));
+            }
+            // There is no ray whose steps these are.
+            Action::StepBack | Action::StepOn => {}
             Action::Help => self.help = true,
-            // What was open has been closed above.
-            Action::Close => {}
+            // The keys have been closed above.
+            Action::Close => self.following = None,
             Action::Suspend => return Effect::Suspend,
             Action::Quit => return Effect::Quit,
         }

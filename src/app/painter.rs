@@ -1,6 +1,6 @@
 //! Who makes the pictures: a [`Studio`], or something in its place.
 
-use crate::frame::{Frame, Request, Studio};
+use crate::frame::{FollowedRay, Frame, Request, Studio};
 use crate::scene::{Camera, Scene};
 use crate::stage::{GiveUp, Progress};
 
@@ -19,6 +19,11 @@ pub trait Painter: Send + Sync {
     /// Draws one picture, unless it is given up. Keys wait for a painter that can not give up.
     fn draw_unless(&self, request: &Request, _give_up: &GiveUp) -> Option<Frame> {
         Some(self.draw(request))
+    }
+
+    /// Follows the ray through the middle of a dot; `None` where that can not be had.
+    fn follow(&self, _request: &Request, _dot: [u32; 2]) -> Option<FollowedRay> {
+        None
     }
 
     /// Where it can be read how far a picture is that is being drawn.
@@ -42,6 +47,10 @@ impl Painter for Studio {
 
     fn draw_unless(&self, request: &Request, give_up: &GiveUp) -> Option<Frame> {
         self.draw_unless(request, give_up)
+    }
+
+    fn follow(&self, request: &Request, dot: [u32; 2]) -> Option<FollowedRay> {
+        self.follow(request, dot)
     }
 
     fn progress(&self) -> Progress {

@@ -54,6 +54,11 @@ pub fn draw(model: &Model, shown: Option<&Shown>, working: Option<WorkStep>, buf
         let place = mistake::draw(mistake, &theme, picture, buffer);
         charset::fit(buffer, place, terminal);
     }
+    if let Some(following) = &model.following {
+        for place in following.draw(&theme, picture, model.layout.body(), buffer) {
+            charset::fit(buffer, place, terminal);
+        }
+    }
     if model.help {
         let place = help::draw(&theme, model.layout.screen, buffer);
         charset::fit(buffer, place, terminal);
@@ -332,6 +337,34 @@ mod tests {
         let mut model = model(80, 25);
         model.update(&still(), Some(Action::Help));
         insta::assert_snapshot!(text(&drawn(&model, Some(&shown(&model)))));
+    }
+
+    /// With its picture below or above, wherever the dot is not.
+    #[test]
+    fn a_followed_ray_over_the_screen() {
+        let text = include_str!("../../tests/files/follow.scene");
+        let scene =
+            crate::scene::read("follow.scene", text.as_bytes(), &crate::scene::ReadOptions::default());
+        let studio = Studio::new(scene.unwrap()).unwrap();
+        for (width, height, steps) in [(80, 24, 0), (80, 25, 9), (200, 60, 30)] {
+            let window = Window { cells: Size::new(width, height), ..Window::default() };
+            let settings = Settings { title: "follow.scene".to_owned(), ..Settings::default() };
+            let mut model = Model::new(&studio, settings, window);
+            let down = if height == 25 { 5 } else { 0 };
+            let actions = [vec![Action::Follow], vec![Action::OrbitDown; down], vec![Action::StepOn; steps]];
+            for action in actions.concat() {
+                model.update(&studio, Some(action));
+            }
+            let frame = studio.draw(&model.request().unwrap());
+            let shown = Shown {
+                frame: Frame { times: StageTimes::default(), total: Duration::ZERO, ..frame },
+                ..shown(&model)
+            };
+            insta::assert_snapshot!(
+                format!("a_followed_ray_at_{width}_by_{height}"),
+                self::text(&drawn(&model, Some(&shown)))
+            );
+        }
     }
 
     #[test]

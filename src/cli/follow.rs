@@ -30,7 +30,8 @@ pub fn run(arguments: &FollowArguments) -> Result<(), CliError> {
             height - 1
         )));
     };
-    let story = Story::new(&followed, &request, studio.scene());
+    let frame = studio.draw(&request);
+    let story = Story::new(&followed, &request, studio.scene(), Some(&frame));
     let text = if arguments.json {
         format!("{}\n", value(&followed, &request, &story))
     } else {

@@ -4,7 +4,10 @@
 //! that are sent on stand deeper. Nothing is computed a second time: all numbers are the exact engine's own.
 
 mod figure;
+mod line;
 mod names;
 mod story;
+mod teller;
 
-pub use story::{Story, StoryLine};
+pub use line::StoryLine;
+pub use story::{Story, StoryRow};

@@ -1,16 +1,13 @@
-//! The events of a ray, told in order.
+//! The events of a ray, as lines and in rows.
 
 use std::fmt;
 
-use crate::frame::{FollowedRay, Request, Space};
-use crate::math::DVec3;
+use crate::frame::{FollowedRay, Frame, Request};
 use crate::scene::Scene;
-use crate::shade::Channel;
-use crate::stage::{RayEvent, RayKind, Stage};
-use crate::tone::{Tone, lightness};
+use crate::stage::Stage;
 
-use super::figure::{figure, triple};
-use super::names::{Names, paint_name};
+use super::line::StoryLine;
+use super::teller::told;
 
 /// What each stage makes of one ray.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,309 +16,82 @@ pub struct Story {
     pub lines: Vec<StoryLine>,
 }
 
-/// One step of the story.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StoryLine {
-    /// The stage of the flow chart that does it.
-    pub stage: Stage,
-    /// How many rays stand between this one and that from the eye, each with a step for its terms.
-    pub depth: usize,
-    /// What is done.
-    pub text: String,
-    /// The event that it tells, by its number; of cells without anything in them, the first. Absent for the
-    /// stages that deal with the dot and not with a ray.
-    pub event: Option<usize>,
-}
-
 impl Story {
-    /// Tells what happened to a ray of a picture of `scene`.
-    pub fn new(followed: &FollowedRay, request: &Request, scene: &Scene) -> Self {
-        let mut teller = Teller {
-            followed,
-            names: Names::of(scene, &followed.objects),
-            lines: Vec::new(),
-            depth: 0,
-            event: None,
-            moved: 0.0,
-            rays: Vec::new(),
-        };
-        teller.beginning(request);
-        let mut number = 0;
-        while number < followed.events.len() {
-            teller.event = Some(number);
-            number += teller.tell(number);
-        }
-        teller.event = None;
-        teller.end(request);
-        Self { lines: teller.lines }
+    /// Tells what happened to a ray of a picture of `scene`; and what its dot became in that picture, where
+    /// it is there.
+    pub fn new(followed: &FollowedRay, request: &Request, scene: &Scene, frame: Option<&Frame>) -> Self {
+        Self { lines: told(followed, request, scene, frame) }
     }
 }
 
 impl fmt::Display for Story {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        self.rows(usize::MAX).iter().try_for_each(|row| writeln!(f, "{row}"))
+    }
+}
+
+/// A row of a story that is laid out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StoryRow {
+    /// The line that it belongs to, by its number.
+    pub line: usize,
+    /// The number and the name of the stage where that begins.
+    pub stage: Option<Stage>,
+    /// What is done, or more of it, behind blanks by its depth.
+    pub text: String,
+}
+
+/// Columns of a stage's number and name, with a blank behind them.
+const STAGE_COLUMNS: usize = 11;
+
+/// Columns by which a ray that is sent on stands deeper.
+const DEEPER: usize = 2;
+
+/// The fewest columns in which words are put side by side.
+const LEAST: usize = 24;
+
+impl Story {
+    /// All lines in rows of so many columns, but for words that are longer; what is too long for one goes on
+    /// in the next, a little deeper.
+    pub fn rows(&self, columns: usize) -> Vec<StoryRow> {
+        let mut rows: Vec<StoryRow> = Vec::new();
         let mut last = None;
-        for StoryLine { stage, depth, text, .. } in &self.lines {
+        for (number, StoryLine { stage, depth, text, .. }) in self.lines.iter().enumerate() {
             // A stage is named where it begins.
-            if last == Some((*stage, *depth)) {
-                write!(f, "{:11}", "")?;
-            } else {
-                write!(f, "{:>2} {:8}", stage.number(), stage.name())?;
-            }
-            writeln!(f, "{:1$}{text}", "", 2 * depth)?;
+            let named = (last != Some((*stage, *depth))).then_some(*stage);
             last = Some((*stage, *depth));
+            let indent = DEEPER * depth;
+            let room = columns.saturating_sub(STAGE_COLUMNS + indent).max(LEAST);
+            for (part, words) in wrapped(text, room).into_iter().enumerate() {
+                let more = if part > 0 { DEEPER } else { 0 };
+                let stage = named.filter(|_| part == 0);
+                rows.push(StoryRow { line: number, stage, text: " ".repeat(indent + more) + &words });
+            }
         }
-        Ok(())
+        rows
     }
 }
 
-struct Teller<'a> {
-    followed: &'a FollowedRay,
-    names: Names,
-    lines: Vec<StoryLine>,
-    depth: usize,
-    event: Option<usize>,
-    /// How far the start of the ray in hand was moved nearer, in the assembly's unit.
-    moved: f64,
-    /// Mirror and Snell rays that have not arrived yet: the depth of what sent each.
-    rays: Vec<usize>,
-}
-
-impl Teller<'_> {
-    fn say(&mut self, stage: Stage, text: String) {
-        let Self { depth, event, .. } = *self;
-        self.lines.push(StoryLine { stage, depth, text, event });
-    }
-
-    /// A distance of the assembly, along the ray in hand, from where that was sent.
-    fn along(&self, t: f64) -> f64 {
-        (self.moved + t) * self.followed.scene_frame.unit
-    }
-
-    fn beginning(&mut self, request: &Request) {
-        let camera = &request.camera;
-        let cut = match self.followed.space {
-            Space::Whole => "space is not cut: every object is tested".to_owned(),
-            Space::Lattice([x, y, z]) => format!("a lattice of {x} × {y} × {z} cells"),
-            Space::Tree(nodes) => format!("lattices within lattices: {}", many(nodes, "node")),
-            Space::Boxes(nodes) => format!("boxes within boxes: {}", many(nodes, "node")),
-        };
-        self.say(Stage::Lattice, cut);
-        let looks = format!("the eye at {} looks to {}", triple(camera.eye), triple(camera.target));
-        self.say(Stage::View, looks);
-    }
-
-    /// Tells the event of this number, and says how many were told: cells without anything in them are told
-    /// at once.
-    fn tell(&mut self, number: usize) -> usize {
-        let event = &self.followed.events[number];
-        let stage = event.stage();
-        match *event {
-            RayEvent::Sent { kind, ray, weight } => self.sent(kind, ray.o, ray.d, weight),
-            RayEvent::Coded { outcode, moved } => {
-                self.moved = moved;
-                let place = match outcode {
-                    0 => "0: the eye is in the world's box".to_owned(),
-                    code => format!("{code:06b}: the eye is {}", beyond(code)),
-                };
-                self.say(stage, format!("outcode {place}"));
-            }
-            RayEvent::Clipped => self.say(stage, "it misses the world".to_owned()),
-            RayEvent::Entered { t } => {
-                // An eye in the world enters nothing.
-                if self.along(t) > 0.0 {
-                    self.say(stage, format!("it comes into the world at t = {}", figure(self.along(t))));
-                }
-            }
-            RayEvent::Cell { .. } => return self.cells(number),
-            RayEvent::Tested { primitive, span } => {
-                let within = match span {
-                    None => "not met".to_owned(),
-                    Some([first, last]) => {
-                        format!("t = {} to {}", figure(self.along(first)), figure(self.along(last)))
-                    }
-                };
-                self.say(stage, format!("{}: {within}", self.names.primitive(primitive)));
-            }
-            RayEvent::Evaluated { leaves, crossings } => {
-                let text = format!("of {}, {}", many(leaves, "primitive"), many(crossings, "crossing"));
-                self.say(stage, text);
-            }
-            RayEvent::Crossed { object, primitive, t, error, entering, .. } => {
-                let text = format!(
-                    "it {} {} through {} at t = {}, give or take {}",
-                    if entering { "enters" } else { "leaves" },
-                    self.names.object(object),
-                    self.names.primitive(primitive),
-                    figure(self.along(t)),
-                    figure(error * self.followed.scene_frame.unit)
-                );
-                self.say(stage, text);
-            }
-            RayEvent::Hit { object, primitive, t, .. } => {
-                // From where the ray was sent.
-                let text = format!(
-                    "first of all it meets {}: {}, at t = {}",
-                    self.names.object(object),
-                    self.names.primitive(primitive),
-                    figure(t * self.followed.scene_frame.unit)
-                );
-                self.say(stage, text);
-                self.depth += 1;
-            }
-            RayEvent::Missed => self.say(stage, "it meets nothing: the background".to_owned()),
-            RayEvent::Truncated => {
-                self.say(stage, "it is not followed, and counts as ambient light".to_owned());
-            }
-            RayEvent::Lit { .. } | RayEvent::Gathered { .. } | RayEvent::Arrived { .. } => self.lit(event),
-        }
-        1
-    }
-
-    fn sent(&mut self, kind: RayKind, o: DVec3, d: DVec3, weight: f64) {
-        self.moved = 0.0;
-        let from = self.followed.scene_frame.outward(o);
-        let (name, from) = match kind {
-            RayKind::Eye => ("", self.followed.ray.o),
-            RayKind::Mirror => ("a mirror ray ", from),
-            RayKind::Snell => ("a Snell ray ", from),
-            RayKind::Shadow => ("a shadow ray ", from),
-        };
-        let weight = match kind {
-            RayKind::Mirror | RayKind::Snell => format!(", of which {} reaches the eye", share(weight)),
-            RayKind::Eye | RayKind::Shadow => String::new(),
-        };
-        if matches!(kind, RayKind::Mirror | RayKind::Snell) {
-            self.rays.push(self.depth);
-        }
-        self.say(Stage::Ray, format!("{name}P(t) = {} + t · {}{weight}", triple(from), triple(d)));
-        if kind != RayKind::Eye {
-            self.depth += 1;
-        }
-    }
-
-    /// Cells from that of this number on, up to one in which anything is tested; and how many.
-    fn cells(&mut self, number: usize) -> usize {
-        let events = &self.followed.events[number..];
-        let count = events.iter().take_while(|event| matches!(event, RayEvent::Cell { .. })).count();
-        let RayEvent::Cell { from } = events[count - 1] else { return 1 };
-        let last = figure(self.along(from).max(0.0));
-        let is_tested = matches!(events.get(count), Some(RayEvent::Tested { .. }));
-        let what = match self.followed.space {
-            Space::Boxes(_) => "box",
-            _ => "cell",
-        };
-        let text = match (count, is_tested) {
-            (1, true) => format!("a {what} from t = {last}"),
-            (1, false) => format!("a {what} from t = {last}, with nothing new in it"),
-            (_, true) => format!("{}, nothing new in all but the last, from t = {last}", many(count, what)),
-            (_, false) => {
-                format!("{}, the last from t = {last}, with nothing new in them", many(count, what))
-            }
-        };
-        self.say(Stage::Cell, text);
-        count
-    }
-
-    fn lit(&mut self, event: &RayEvent) {
-        match *event {
-            RayEvent::Lit { lamp, diffuse, highlight, visible } => {
-                // Behind the shadow ray, where there was one.
-                if visible.is_some() {
-                    self.depth -= 1;
-                }
-                let visible =
-                    visible.map_or_else(String::new, |v| format!(", of which V = {} arrives", figure(v)));
-                let text = format!(
-                    "lamp {}: kd · (L·N) = {}, ks · cosⁿθ = {}{visible}",
-                    lamp + 1,
-                    figure(diffuse),
-                    figure(highlight)
-                );
-                self.say(Stage::Shade, text);
-            }
-            RayEvent::Gathered { ambient, lamps, path_length, light } => {
-                let unit = self.followed.scene_frame.unit;
-                let (own, far) = (figure(light), figure(path_length * unit));
-                let text = match self.followed.plan.depth {
-                    Some(k) => format!(
-                        "I = Ia·C + Σ / (R + k) = {} + {} / ({far} + {}) = {own}",
-                        figure(ambient),
-                        figure(lamps),
-                        figure(k)
-                    ),
-                    None => format!("I = Ia·C + Σ = {} + {} = {own}", figure(ambient), figure(lamps)),
-                };
-                self.say(Stage::Shade, text);
-            }
-            RayEvent::Arrived { light, share } => {
-                self.depth = self.rays.pop().unwrap_or_default();
-                let text = format!(
-                    "{} · {} = {} arrives of it",
-                    figure(share),
-                    figure(light),
-                    figure(share * light)
-                );
-                self.say(Stage::Shade, text);
-            }
-            _ => {}
-        }
-    }
-
-    fn end(&mut self, request: &Request) {
-        self.depth = 0;
-        let FollowedRay { light, level, frame, dot: [column, row], .. } = self.followed;
-        let gray = frame.light[(*column, *row)];
-        let rays = frame.counts.primary_rays as f64 / request.dots.area() as f64;
-        let own = light.gray();
-        self.say(Stage::Shade, format!("the light of the dot: {}", figure(own)));
-        if rays > 1.0 {
-            self.say(Stage::Shade, format!("with the dot's other rays: {}", figure(gray)));
-        }
-        let by = match request.tone {
-            Tone::Lightness => format!("L* = {}", figure(lightness(gray.clamp(0.0, 1.0)))),
-            Tone::Even => "even steps of 1/12".to_owned(),
-        };
-        let level = if rays > 1.0 { request.tone.level(gray) } else { *level };
-        let own = figure(lightness(level.light()));
-        self.say(Stage::Dither, format!("{by}: level {} of 12, whose own L* is {own}", level.get()));
-        let Some(cells) = &frame.cells else { return };
-        let per_cell = request.glyphs.dots_per_cell();
-        let cell = (column / per_cell.width, row / per_cell.height);
-        if cell.0 >= cells.size().width || cell.1 >= cells.size().height {
-            self.say(Stage::Display, "the dot is in no whole cell".to_owned());
-            return;
-        }
-        let shown = cells[cell];
-        let text = format!(
-            "cell {}, {} is '{}' in {} on {}; the dot is {} of {} in it",
-            cell.0,
-            cell.1,
-            shown.glyph,
-            paint_name(shown.ink),
-            paint_name(shown.paper),
-            1 + column % per_cell.width + per_cell.width * (row % per_cell.height),
-            per_cell.area()
-        );
-        self.say(Stage::Display, text);
+impl fmt::Display for StoryRow {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let name =
+            self.stage.map_or_else(String::new, |stage| format!("{:>2} {}", stage.number(), stage.name()));
+        write!(f, "{name:STAGE_COLUMNS$}{}", self.text)
     }
 }
 
-/// Beyond which faces of a box an outcode says that a point lies.
-fn beyond(code: u8) -> String {
-    const FACES: [&str; 6] = ["below x", "above x", "below y", "above y", "below z", "above z"];
-    let faces = FACES.into_iter().enumerate().filter(|(bit, _)| code >> bit & 1 == 1);
-    faces.map(|(_, face)| face).collect::<Vec<_>>().join(", ")
-}
-
-fn many(count: usize, of: &str) -> String {
-    match (count, of) {
-        (1, _) => format!("1 {of}"),
-        (_, "box") => format!("{count} boxes"),
-        _ => format!("{count} {of}s"),
+/// The words in lines of up to so many columns, those behind the first by [`DEEPER`] fewer.
+fn wrapped(text: &str, columns: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split(' ') {
+        let room = if lines.len() > 1 { columns.saturating_sub(DEEPER) } else { columns };
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= room => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
     }
-}
-
-/// A share in percent.
-fn share(weight: f64) -> String {
-    format!("{} %", figure(100.0 * weight))
+    lines
 }

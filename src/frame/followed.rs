@@ -11,7 +11,7 @@ use crate::trace::Exact;
 use crate::view::settled;
 
 use super::prepare::farthest;
-use super::{Frame, Request, Space, Studio};
+use super::{Request, Space, Studio};
 
 /// What happens to the ray through the middle of a dot, as the exact engine records it.
 #[derive(Clone, Debug)]
@@ -36,8 +36,6 @@ pub struct FollowedRay {
     pub light: DVec3,
     /// The level of its luminance.
     pub level: Level,
-    /// The picture that the dot is in, by the same engine.
-    pub frame: Frame,
 }
 
 impl Studio {
@@ -73,7 +71,6 @@ impl Studio {
             counts: meter.counts,
             level: request.tone.level(light.gray()),
             light,
-            frame: self.draw(&request),
             plan: prepared.plan,
         })
     }

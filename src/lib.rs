@@ -80,7 +80,7 @@ pub mod frame;
 
 pub mod trade;
 
-pub mod follow;
+pub mod tell;
 
 #[cfg(feature = "widget")]
 pub mod widget;

@@ -6,6 +6,7 @@ mod command_line {
     mod bad_arguments;
     mod bad_input;
     mod bad_output;
+    mod describe;
     mod effects;
     mod engines;
     mod follow;

@@ -8,9 +8,9 @@ use ratatui::widgets::{Block, Clear, Widget};
 use super::Painter;
 use super::keys::Action;
 use super::theme::Theme;
-use crate::follow::Story;
 use crate::frame::Request;
 use crate::math::Size;
+use crate::tell::Story;
 
 /// A dot of the picture, and the story of its ray.
 #[derive(Clone, Debug)]

@@ -60,6 +60,9 @@ pub enum Command {
     Plan(PlanArguments),
     /// Follow the ray through one dot, stage by stage, with all numbers that make its light
     Follow(FollowArguments),
+    /// Say in words what a view shows: each object with its place in the picture, its size, its distance, and
+    /// what it stands before
+    Describe(DescribeArguments),
     /// Compare two pictures: exit code 0 where they are the same, 1 where they differ
     Diff(DiffArguments),
     /// Keep the picture of each view of a scene beside it, or compare it with what was kept
@@ -250,6 +253,17 @@ pub enum PlotFormat {
 }
 
 #[derive(Clone, Debug, Args)]
+pub struct DescribeArguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    #[command(flatten)]
+    pub picture: PictureArguments,
+    /// One line of JSON in place of the text
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Clone, Debug, Args)]
 pub struct FollowArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
@@ -360,6 +374,7 @@ impl Arguments {
             Some(Command::Render(a)) => (&mut a.scene.reading, &mut a.picture.camera),
             Some(Command::Bench(a)) => (&mut a.scene.reading, &mut a.picture.camera),
             Some(Command::Plan(a)) => (&mut a.scene.reading, &mut a.picture.camera),
+            Some(Command::Describe(a)) => (&mut a.scene.reading, &mut a.picture.camera),
             Some(Command::Follow(a)) => (&mut a.scene.reading, &mut a.picture.camera),
             Some(Command::Trade(a)) => (&mut a.scene.reading, &mut a.picture.camera),
             Some(Command::Diff(a)) => (&mut a.comparison.reading, &mut a.comparison.picture.camera),

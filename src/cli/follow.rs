@@ -2,13 +2,13 @@
 
 use serde_json::{Value, json};
 
-use crate::follow::{Story, StoryLine};
 use crate::frame::{FollowedRay, Request, Wants};
 use crate::math::Size;
 use crate::shade::Channel;
+use crate::tell::{Story, StoryLine};
 
 use super::arguments::FollowArguments;
-use super::error::CliError;
+use super::error::{CliError, visible};
 use super::picture::Unsized;
 use super::write::print;
 use super::{effects, input};
@@ -36,7 +36,7 @@ pub fn run(arguments: &FollowArguments) -> Result<(), CliError> {
         format!("{}\n", value(&followed, &request, &story))
     } else {
         let Size { width, height } = request.dots;
-        format!("dot {column}, {row} of {width} × {height}, by the exact engine\n\n{story}")
+        visible(&format!("dot {column}, {row} of {width} × {height}, by the exact engine\n\n{story}"))
     };
     print(text.as_bytes())
 }

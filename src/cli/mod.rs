@@ -3,6 +3,7 @@
 mod arguments;
 mod bench;
 mod changes;
+mod describe;
 mod diagnostics;
 mod diff;
 mod effects;
@@ -71,6 +72,7 @@ fn command(arguments: Arguments) -> Result<(), CliError> {
         Some(Command::Bench(bench)) => bench::run(&bench),
         Some(Command::Trade(trade)) => trade::run(&trade),
         Some(Command::Plan(plan)) => plan::run(&plan),
+        Some(Command::Describe(describe)) => describe::run(&describe),
         Some(Command::Follow(follow)) => follow::run(&follow),
         Some(Command::Diff(diff)) => diff::run(&diff).map_err(CliError::apart_from_differences),
         Some(Command::Snapshot(snapshot)) => {

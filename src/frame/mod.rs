@@ -10,6 +10,7 @@ mod explain;
 mod finished_tile;
 mod followed;
 mod frame_cache;
+mod inventory;
 mod nothing;
 pub mod pcat;
 mod prepare;
@@ -25,6 +26,7 @@ mod workers;
 
 pub use compare::{Comparison, OtherDots};
 pub use followed::FollowedRay;
+pub use inventory::{Inventory, SeenObject, UnseenObject};
 pub use nothing::NothingInView;
 pub use request::{Frame, Request, Space, Wants};
 pub use studio::{Built, Studio};

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::math::DVec3;
+use crate::math::{Bounds, DVec3};
 use crate::solid::Assembly;
 use crate::view::PinholeCamera;
 
@@ -30,10 +30,14 @@ pub enum NothingInView {
 impl NothingInView {
     /// Finds the cause for a picture in which nothing is seen.
     pub(super) fn cause(assembly: &Assembly, pinhole: &PinholeCamera) -> Self {
-        let limit = &assembly.limit;
-        if assembly.objects.is_empty() || limit.is_empty() {
+        if assembly.objects.is_empty() || assembly.limit.is_empty() {
             return Self::NoObjects;
         }
+        Self::of_box(&assembly.limit, assembly, pinhole)
+    }
+
+    /// The same for what is in a box of the assembly that is not empty.
+    pub(super) fn of_box(limit: &Bounds, assembly: &Assembly, pinhole: &PinholeCamera) -> Self {
         let eye = assembly.scene_frame.inward_near(pinhole.eye);
         let size = (limit.hi - limit.lo).max_element();
         let away = (limit.center() - eye).length();

@@ -12,11 +12,7 @@ pub struct Names {
 impl Names {
     /// Those of a scene; `numbers` has those in the file by those in the assembly.
     pub fn of(scene: &Scene, numbers: &[u32]) -> Self {
-        let named = |&number: &u32| match &scene.objects[number as usize].name {
-            Some(name) => format!("\"{name}\""),
-            None => format!("object {}", number + 1),
-        };
-        let objects = numbers.iter().map(named).collect();
+        let objects = numbers.iter().map(|&number| object_name(scene, number)).collect();
         let mut primitives = Vec::new();
         for object in &scene.objects {
             object.solid.visit(&mut |primitive| {
@@ -32,6 +28,14 @@ impl Names {
 
     pub fn primitive(&self, number: u32) -> &str {
         &self.primitives[number as usize]
+    }
+}
+
+/// What an object is called: its name in quotes, or its number, from 1 in the order of the file.
+pub fn object_name(scene: &Scene, object: u32) -> String {
+    match scene.objects.get(object as usize).and_then(|object| object.name.as_ref()) {
+        Some(name) => format!("\"{name}\""),
+        None => format!("object {}", object + 1),
     }
 }
 

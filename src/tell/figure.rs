@@ -7,7 +7,12 @@ const DIGITS: usize = 6;
 
 /// A number rounded to [`DIGITS`] digits, without zeros at its end.
 pub fn figure(value: f64) -> String {
-    let rounded: f64 = format!("{value:.*e}", DIGITS - 1).parse().unwrap_or(value);
+    rounded(value, DIGITS)
+}
+
+/// A number rounded to so many digits, one at least, without zeros at its end.
+pub fn rounded(value: f64, digits: usize) -> String {
+    let rounded: f64 = format!("{value:.*e}", digits - 1).parse().unwrap_or(value);
     // −0 is no other place than 0.
     let rounded = rounded + 0.0;
     if rounded == 0.0 || (1e-4..1e9).contains(&rounded.abs()) {

@@ -1,0 +1,50 @@
+//! What a view shows, in words: for who does not see it, and for scripts.
+
+use serde_json::{Value, json};
+
+use crate::frame::{Inventory, Request, SeenObject, Wants};
+use crate::scene::Scene;
+use crate::tell::{described, object_name};
+
+use super::arguments::DescribeArguments;
+use super::error::{CliError, visible};
+use super::picture::Unsized;
+use super::write::print;
+use super::{effects, input};
+
+/// Describes a view.
+pub fn run(arguments: &DescribeArguments) -> Result<(), CliError> {
+    input::say(&effects::check(&arguments.picture, effects::Presentation::Cells)?);
+    let scene = input::read(&arguments.scene.file, &arguments.scene.reading)?;
+    input::say(&scene.notes);
+    let studio = input::studio(scene)?;
+    let request =
+        arguments.picture.request(&studio, arguments.picture.look(None), Wants::CELLS, Unsized::Screen)?;
+    let inventory = studio.inventory(&request);
+    let text = if arguments.json {
+        format!("{}\n", value(&inventory, &request, studio.scene()))
+    } else {
+        visible(&described(&inventory, &request.camera, studio.scene()))
+    };
+    print(text.as_bytes())
+}
+
+fn value(inventory: &Inventory, request: &Request, scene: &Scene) -> Value {
+    let objects = |numbers: &[u32]| numbers.iter().map(|number| number + 1).collect::<Vec<_>>();
+    let seen = |object: &SeenObject| {
+        json!({
+            "object": object.object + 1, "name": object_name(scene, object.object), "share": object.share,
+            "middle": object.middle, "extent": object.extent, "distance": object.distance,
+            "before": objects(&object.before),
+        })
+    };
+    json!({
+        "view": request.camera.name, "dots": [request.dots.width, request.dots.height],
+        "eye": request.camera.eye.to_array(), "target": request.camera.target.to_array(),
+        "background": inventory.background,
+        "seen": inventory.seen.iter().map(seen).collect::<Vec<_>>(),
+        "unseen": inventory.unseen.iter().map(|unseen| json!({
+            "object": unseen.object + 1, "name": object_name(scene, unseen.object), "why": unseen.why.to_string(),
+        })).collect::<Vec<_>>(),
+    })
+}

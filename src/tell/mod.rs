@@ -2,7 +2,7 @@
 //!
 //! [`Story`] tells what each stage of the flow chart makes of one ray, line by line, from the events of a
 //! [`FollowedRay`](crate::frame::FollowedRay): those of rays that are sent on stand deeper. Nothing is
-//! computed a second time: all numbers are the exact engine's own. [`described`] says what a whole view shows.
+//! computed a second time: all numbers are the exact engine's own. [`described`] says what a view shows.
 
 mod description;
 mod figure;

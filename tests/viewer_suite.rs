@@ -104,11 +104,11 @@ fn a_ray_is_followed_and_left_again() {
     let (eye, picture) = (pty.eye(), pty.picture());
     pty.send("\x1bOS");
     pty.wait_for("the story of a ray", |pty| {
-        pty.text().contains("┌ RAY of cell") && pty.text().contains("P(t) = ")
+        pty.text().contains("┌ RAY of dot") && pty.text().contains("P(t) = ")
     });
     let story = pty.text();
     pty.send("\x1b[D");
-    pty.wait_for("another ray", |pty| pty.text().contains("┌ RAY of cell") && pty.text() != story);
+    pty.wait_for("another ray", |pty| pty.text().contains("┌ RAY of dot") && pty.text() != story);
     pty.send("\x1b[6~\x1b[6~");
     pty.send("\x1b");
     pty.wait_for("the picture as it was", |pty| pty.eye() == eye && pty.picture() == picture);

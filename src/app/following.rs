@@ -17,6 +17,8 @@ use crate::tell::Story;
 pub struct Following {
     /// The cell of the picture whose first dot is followed.
     cell: [u32; 2],
+    /// That dot.
+    dot: [u32; 2],
     /// Absent where there is nothing to follow.
     story: Option<Story>,
     /// The step in hand, by its line.
@@ -27,7 +29,7 @@ impl Following {
     /// The dot in the middle of a picture.
     pub fn middle(painter: &dyn Painter, request: &Request) -> Self {
         let Size { width, height } = cells(request);
-        let mut following = Self { cell: [width / 2, height / 2], story: None, step: 0 };
+        let mut following = Self { cell: [width / 2, height / 2], dot: [0; 2], story: None, step: 0 };
         following.again(painter, request);
         following
     }
@@ -38,8 +40,8 @@ impl Following {
         let last = [width, height].map(|cells| cells.saturating_sub(1));
         self.cell = std::array::from_fn(|axis| self.cell[axis].min(last[axis]));
         let per_cell = request.glyphs.dots_per_cell();
-        let dot = [self.cell[0] * per_cell.width, self.cell[1] * per_cell.height];
-        let followed = painter.follow(request, dot);
+        self.dot = [self.cell[0] * per_cell.width, self.cell[1] * per_cell.height];
+        let followed = painter.follow(request, self.dot);
         self.story = followed.map(|followed| Story::new(&followed, request, painter.scene(), None));
         self.step = 0;
     }
@@ -85,10 +87,10 @@ impl Following {
         let y = if is_below { screen.bottom() - height } else { screen.y };
         let place = Rect { y, height, ..screen };
         Clear.render(place, buffer);
-        let title = format!(" RAY of cell {column}, {row} ");
+        let title = format!(" RAY of dot {}, {} ", self.dot[0], self.dot[1]);
         let block = Block::bordered()
             .title(Span::styled(title, theme.bright))
-            .title_bottom(Line::from(" arrows: another ray   PgUp PgDn: step   Esc: back ").right_aligned())
+            .title_bottom(Line::from(" arrows: ray  PgUp PgDn: step  Esc ").right_aligned())
             .style(theme.text);
         let inside = block.inner(place);
         block.render(place, buffer);

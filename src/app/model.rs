@@ -144,11 +144,12 @@ impl Model {
             return Effect::None;
         }
         let Some(action) = action else { return Effect::None };
-        if let (Some(mut following), Some(request)) = (self.following.clone(), self.request())
-            && following.takes(painter, &request, action)
-        {
+        if let (Some(request), Some(mut following)) = (self.request(), self.following.take()) {
+            let is_taken = following.takes(painter, &request, action);
             self.following = Some(following);
-            return Effect::None;
+            if is_taken {
+                return Effect::None;
+            }
         }
         let before = self.request();
         let effect = self.act(painter, action);

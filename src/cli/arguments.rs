@@ -58,7 +58,7 @@ pub enum Command {
     /// Say what a picture requires, stage by stage, what that is expected to cost, and why the rest is left
     /// out
     Plan(PlanArguments),
-    /// Follow the ray through one dot, stage by stage, with all numbers that make its light
+    /// Follow the ray through one dot, stage by stage, with the numbers that make its light
     Follow(FollowArguments),
     /// Say in words what a view shows: each object with its place in the picture, its size, its distance, and
     /// what it stands before
@@ -268,8 +268,10 @@ pub struct FollowArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
     /// The dot's column, from 0 at the left
+    #[arg(allow_negative_numbers = true)]
     pub column: u32,
     /// The dot's row, from 0 at the top
+    #[arg(allow_negative_numbers = true)]
     pub row: u32,
     #[command(flatten)]
     pub picture: PictureArguments,

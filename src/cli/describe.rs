@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use crate::frame::{Inventory, Request, SeenObject, Wants};
 use crate::scene::Scene;
-use crate::tell::{described, object_name};
+use crate::tell::{described, why_unseen};
 
 use super::arguments::DescribeArguments;
 use super::error::{CliError, visible};
@@ -30,10 +30,11 @@ pub fn run(arguments: &DescribeArguments) -> Result<(), CliError> {
 }
 
 fn value(inventory: &Inventory, request: &Request, scene: &Scene) -> Value {
+    let name = |object: u32| scene.objects.get(object as usize).and_then(|object| object.name.as_deref());
     let objects = |numbers: &[u32]| numbers.iter().map(|number| number + 1).collect::<Vec<_>>();
     let seen = |object: &SeenObject| {
         json!({
-            "object": object.object + 1, "name": object_name(scene, object.object), "share": object.share,
+            "object": object.object + 1, "name": name(object.object), "share": object.share,
             "middle": object.middle, "extent": object.extent, "distance": object.distance,
             "before": objects(&object.before),
         })
@@ -44,7 +45,7 @@ fn value(inventory: &Inventory, request: &Request, scene: &Scene) -> Value {
         "background": inventory.background,
         "seen": inventory.seen.iter().map(seen).collect::<Vec<_>>(),
         "unseen": inventory.unseen.iter().map(|unseen| json!({
-            "object": unseen.object + 1, "name": object_name(scene, unseen.object), "why": unseen.why.to_string(),
+            "object": unseen.object + 1, "name": name(unseen.object), "why": why_unseen(unseen.why),
         })).collect::<Vec<_>>(),
     })
 }

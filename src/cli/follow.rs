@@ -51,7 +51,7 @@ fn value(followed: &FollowedRay, request: &Request, story: &Story) -> Value {
     json!({
         "dot": followed.dot, "dots": [request.dots.width, request.dots.height],
         "ray": { "origin": followed.ray.o.to_array(), "direction": followed.ray.d.to_array() },
-        "light": followed.light.gray(), "level": followed.level.get(),
+        "light": followed.light.gray(), "left_out": followed.left_out,
         "steps": story.lines.iter().map(line).collect::<Vec<_>>(),
     })
 }

@@ -5,13 +5,16 @@ use crate::math::{DVec3, Ray, Size};
 use crate::plan::{Channels, EngineChoice, Options, Plan, PrecisionChoice};
 use crate::shade::Channel;
 use crate::solid::SceneFrame;
-use crate::stage::{Counts, GiveUp, Meter, RayEvent, Recorder};
-use crate::tone::Level;
+use crate::stage::{GiveUp, Meter, RayEvent, Recorder};
 use crate::trace::Exact;
 use crate::view::settled;
 
 use super::prepare::farthest;
 use super::{Request, Space, Studio};
+
+/// So many events are told: of rays that split at every surface there may be millions. At some twenty for each
+/// ray they are those of five hundred.
+const MOST_EVENTS: usize = 10_000;
 
 /// What happens to the ray through the middle of a dot, as the exact engine records it.
 #[derive(Clone, Debug)]
@@ -28,14 +31,12 @@ pub struct FollowedRay {
     pub scene_frame: SceneFrame,
     /// How space is cut.
     pub space: Space,
-    /// What was counted.
-    pub counts: Counts,
+    /// How many more events there were, which are not told.
+    pub left_out: u64,
     /// What the picture requires.
     pub plan: Plan,
     /// The light along the ray, by its three linear primaries, 0 or more.
     pub light: DVec3,
-    /// The level of its luminance.
-    pub level: Level,
 }
 
 impl Studio {
@@ -53,13 +54,13 @@ impl Studio {
         let prepared = self.prepare(&request, None, &never);
         let ray = prepared.pinhole.ray(f64::from(dot[0]) + 0.5, f64::from(dot[1]) + 0.5);
         let engine = Exact::new(&self.assembly, prepared.structure);
-        let mut meter = Meter::new(Recorder::default());
+        let mut meter = Meter::new(Recorder::of_the_first(MOST_EVENTS));
         // As every ray from the eye.
         let eye = self.assembly.scene_frame.inward_near(prepared.pinhole.eye);
         let ray = Ray::new(ray.o, settled(ray.d, farthest(eye, &self.assembly.limit)));
         let light = match prepared.plan.channels {
-            Channels::Gray => self.seen::<f64>(&engine, &prepared.plan, &ray, &mut meter),
-            Channels::Three => self.seen::<DVec3>(&engine, &prepared.plan, &ray, &mut meter),
+            Channels::Gray => self.traced_light::<f64>(&engine, &prepared.plan, &ray, &mut meter),
+            Channels::Three => self.traced_light::<DVec3>(&engine, &prepared.plan, &ray, &mut meter),
         };
         Some(FollowedRay {
             dot,
@@ -68,14 +69,19 @@ impl Studio {
             objects: self.assembly.objects.iter().map(|object| object.number).collect(),
             scene_frame: self.assembly.scene_frame,
             space: Space::of(&prepared.structure),
-            counts: meter.counts,
-            level: request.tone.level(light.gray()),
+            left_out: meter.probe.left_out,
             light,
             plan: prepared.plan,
         })
     }
 
-    fn seen<C: Channel>(&self, engine: &Exact, plan: &Plan, ray: &Ray, meter: &mut Meter<Recorder>) -> DVec3 {
+    fn traced_light<C: Channel>(
+        &self,
+        engine: &Exact,
+        plan: &Plan,
+        ray: &Ray,
+        meter: &mut Meter<Recorder>,
+    ) -> DVec3 {
         let integrator = RayIntegrator::<_, C>::new(self.scene(), &self.assembly, plan, engine);
         let View { light, .. } = integrator.view(&self.assembly.ray(ray), &mut integrator.memory(), meter);
         light.rgb()

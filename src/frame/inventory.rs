@@ -1,8 +1,9 @@
 //! What a picture has of each object: how much of it, where, how far away, and what stands before what.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use crate::math::{Bounds, Size};
+use crate::math::{Bounds, Grid, Size};
+use crate::plan::{Options, Shading};
 use crate::stage::GiveUp;
 
 use super::{Frame, NothingInView, Request, Studio, Wants};
@@ -12,7 +13,8 @@ use super::{Frame, NothingInView, Request, Studio, Wants};
 const STEEPEST: f64 = 3.0;
 
 /// So many times as far as the nearer surface goes on by itself from dot to dot, as a floor does that is seen
-/// from low above it: it touches what is no farther.
+/// from low above it, it may go on to the next dot: what is no farther touches it. Twice, since a floor's
+/// steps grow, but not to the double unless it is seen within two dots of its horizon.
 const GOING_ON: f64 = 2.0;
 
 /// All objects of a scene, as a picture has them.
@@ -52,8 +54,16 @@ pub struct UnseenObject {
     pub why: NothingInView,
 }
 
-/// What is gathered of an object, dot by dot.
-struct Gathered {
+/// What a dot sees.
+#[derive(Clone, Copy)]
+struct SeenByDot {
+    /// The number of the object, from 1; 0 where nothing is seen.
+    object: u32,
+    depth: f64,
+}
+
+/// What the dots of an object come to.
+struct Extents {
     dots: u32,
     sums: [f64; 2],
     least: [u32; 2],
@@ -62,22 +72,23 @@ struct Gathered {
 }
 
 impl Studio {
-    /// Draws a picture by the middles of its dots, and says what it has of each object.
+    /// Traces the middles of a picture's dots, without light, and says what they see of each object.
     pub fn inventory(&self, request: &Request) -> Inventory {
         let wants = Wants { cells: false, ..Wants::ALL };
-        let frame = self.draw(&Request { wants, ..request.clone() });
+        let (shading, samples) = (Shading::Lambert, 1);
+        let options = Options { shading, samples, shadows: false, adaptive: None, ..request.options };
+        let frame = self.draw(&Request { wants, options, ..request.clone() });
         let never = GiveUp::never();
         let pinhole = self.prepare(request, None, &never).pinhole;
-        let dot = pinhole.least_dot();
-        let seen = seen(&frame, dot);
-        let is_seen = |number: u32| seen.iter().any(|object| object.object == number);
+        let seen = seen(&frame, pinhole.least_dot());
+        let numbers: BTreeSet<u32> = seen.iter().map(|object| object.object).collect();
         let boxes: BTreeMap<u32, Bounds> =
             self.assembly.objects.iter().map(|object| (object.number, object.bounds)).collect();
-        let unseen =
-            (0..self.scene().objects.len() as u32).filter(|&number| !is_seen(number)).map(|object| {
-                let of_box = |bounds| NothingInView::of_box(bounds, &self.assembly, &pinhole);
-                UnseenObject { object, why: boxes.get(&object).map_or(NothingInView::NoObjects, of_box) }
-            });
+        let all = 0..self.scene().objects.len() as u32;
+        let unseen = all.filter(|number| !numbers.contains(number)).map(|object| {
+            let of_box = |bounds| NothingInView::of_box(bounds, &self.assembly, &pinhole);
+            UnseenObject { object, why: boxes.get(&object).map_or(NothingInView::NoObjects, of_box) }
+        });
         let all: f64 = seen.iter().map(|object| object.share).sum();
         Inventory { background: (1.0 - all).max(0.0), unseen: unseen.collect(), seen }
     }
@@ -86,47 +97,41 @@ impl Studio {
 /// The objects that are seen; `dot` is how wide a dot is at the distance 1.
 fn seen(frame: &Frame, dot: f64) -> Vec<SeenObject> {
     let (Some(objects), Some(depths)) = (&frame.object, &frame.depth) else { return Vec::new() };
-    let Size { width, height } = objects.size();
-    let mut gathered: BTreeMap<u32, Gathered> = BTreeMap::new();
-    // How often one is seen before the other.
-    let mut before: BTreeMap<[u32; 2], i64> = BTreeMap::new();
-    for row in 0..height {
-        for column in 0..width {
-            let at = (column, row);
-            let (object, depth) = (objects[at], depths[at]);
-            for [across, down] in [[1, 0], [0, 1]] {
-                let beside = (column + across, row + down);
-                if beside.0 == width || beside.1 == height {
-                    continue;
-                }
-                let [one, other] = [(object, depth), (objects[beside], depths[beside])];
-                let is_first = one.1 <= other.1;
-                let (near, far) = if is_first { (one, other) } else { (other, one) };
-                if near.0 == 0 || far.0 == 0 || near.0 == far.0 {
-                    continue;
-                }
-                // The dot beyond the nearer, away from the farther.
-                let beyond = if is_first {
-                    (column.wrapping_sub(across), row.wrapping_sub(down))
-                } else {
-                    (beside.0 + across, beside.1 + down)
-                };
-                let is_inside = beyond.0 < width && beyond.1 < height;
-                let step = if is_inside && objects[beyond] == near.0 {
-                    (depths[beyond] - near.1).abs()
-                } else {
-                    0.0
-                };
-                if far.1 - near.1 > f64::max(STEEPEST * dot * near.1, GOING_ON * step) {
-                    *before.entry([near.0, far.0]).or_default() += 1;
-                    *before.entry([far.0, near.0]).or_default() -= 1;
-                }
-            }
+    let dots = Grid::from_fn(objects.size(), |column, row| SeenByDot {
+        object: objects[(column, row)],
+        depth: depths[(column, row)],
+    });
+    let before = occlusions(&dots, dot);
+    let size = [dots.size().width, dots.size().height].map(f64::from);
+    let object = |(number, own): (u32, Extents)| SeenObject {
+        object: number - 1,
+        share: f64::from(own.dots) / (size[0] * size[1]),
+        middle: std::array::from_fn(|axis| own.sums[axis] / f64::from(own.dots) / size[axis]),
+        extent: std::array::from_fn(|axis| f64::from(own.most[axis] - own.least[axis] + 1) / size[axis]),
+        distance: own.distance,
+        before: before
+            .range([number, 0]..=[number, u32::MAX])
+            .filter(|(_, times)| **times > 0)
+            .map(|([_, far], _)| far - 1)
+            .collect(),
+    };
+    let mut all: Vec<SeenObject> = extents(&dots).into_iter().map(object).collect();
+    // Of two that are as large the first in the file comes first.
+    all.sort_by(|one, other| other.share.total_cmp(&one.share));
+    all
+}
+
+/// Where the dots of each object are, by its number from 1.
+fn extents(dots: &Grid<SeenByDot>) -> BTreeMap<u32, Extents> {
+    let mut all: BTreeMap<u32, Extents> = BTreeMap::new();
+    for row in 0..dots.size().height {
+        for column in 0..dots.size().width {
+            let SeenByDot { object, depth } = dots[(column, row)];
             if object == 0 {
                 continue;
             }
             let place = [column, row];
-            let own = gathered.entry(object).or_insert(Gathered {
+            let own = all.entry(object).or_insert(Extents {
                 dots: 0,
                 sums: [0.0; 2],
                 least: place,
@@ -142,24 +147,42 @@ fn seen(frame: &Frame, dot: f64) -> Vec<SeenObject> {
             }
         }
     }
-    let size = [width, height].map(f64::from);
-    let mut all: Vec<SeenObject> = gathered
-        .into_iter()
-        .map(|(number, own)| SeenObject {
-            object: number - 1,
-            share: f64::from(own.dots) / (size[0] * size[1]),
-            middle: std::array::from_fn(|axis| own.sums[axis] / f64::from(own.dots) / size[axis]),
-            extent: std::array::from_fn(|axis| f64::from(own.most[axis] - own.least[axis] + 1) / size[axis]),
-            distance: own.distance,
-            before: before
-                .iter()
-                .filter(|([near, _], times)| *near == number && **times > 0)
-                .map(|([_, far], _)| far - 1)
-                .collect(),
-        })
-        .collect();
-    // Of two that are as large the first in the file comes first.
-    all.sort_by(|one, other| other.share.total_cmp(&one.share));
+    all
+}
+
+/// By the numbers of two objects, from 1: how many more pairs of neighbours see the first before the second
+/// than the other way round.
+fn occlusions(dots: &Grid<SeenByDot>, dot: f64) -> BTreeMap<[u32; 2], i64> {
+    let Size { width, height } = dots.size();
+    let mut all = BTreeMap::new();
+    for row in 0..height {
+        for column in 0..width {
+            for [across, down] in [[1, 0], [0, 1]] {
+                let (at, beside) = ((column, row), (column + across, row + down));
+                if beside.0 == width || beside.1 == height {
+                    continue;
+                }
+                let [one, other] = [dots[at], dots[beside]];
+                let is_first = one.depth <= other.depth;
+                let (near, far) = if is_first { (one, other) } else { (other, one) };
+                if near.object == 0 || far.object == 0 || near.object == far.object {
+                    continue;
+                }
+                // The dot beyond the nearer, away from the farther.
+                let beyond = if is_first {
+                    (column.wrapping_sub(across), row.wrapping_sub(down))
+                } else {
+                    (beside.0 + across, beside.1 + down)
+                };
+                let is_own = beyond.0 < width && beyond.1 < height && dots[beyond].object == near.object;
+                let step = if is_own { (dots[beyond].depth - near.depth).abs() } else { 0.0 };
+                if far.depth - near.depth > f64::max(STEEPEST * dot * near.depth, GOING_ON * step) {
+                    *all.entry([near.object, far.object]).or_default() += 1;
+                    *all.entry([far.object, near.object]).or_default() -= 1;
+                }
+            }
+        }
+    }
     all
 }
 
@@ -168,7 +191,6 @@ mod tests {
     use super::*;
     use crate::glyph::{GlyphMode, Palette};
     use crate::math::DVec3;
-    use crate::plan::Options;
     use crate::scene::{Camera, ReadOptions, read};
     use crate::tone::Tone;
 

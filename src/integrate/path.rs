@@ -117,12 +117,17 @@ impl<R: RayEngine, C: Channel> RayIntegrator<'_, R, C> {
                 memory.history = memory.history.lit(if material.is_lit() { 1.0 } else { 0.0 });
             }
             let Reflected { visible, .. } = reflected;
-            meter.record(|| RayEvent::Lit { lamp: number, diffuse, highlight, visible });
+            let add = |sum, part| reflected.add_to(sum, material.color.part(part), lamp.light.part(part));
+            meter.record(|| {
+                let own = std::array::from_fn(|part| if part < C::PARTS { add(0.0, part) } else { 0.0 });
+                let adds = if visible == Some(0.0) { 0.0 } else { C::from_parts(own).gray() };
+                RayEvent::Lit { lamp: number, diffuse, highlight, visible, adds }
+            });
             if visible == Some(0.0) {
                 continue;
             }
             for part in 0..C::PARTS {
-                sum[part] = reflected.add_to(sum[part], material.color.part(part), lamp.light.part(part));
+                sum[part] = add(sum[part], part);
             }
         }
         let (gathering, path_length) = (illumination.gathering(material), sent.travelled + met.hit.t);

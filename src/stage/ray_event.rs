@@ -104,6 +104,8 @@ pub enum RayEvent {
         highlight: f64,
         /// The share of the lamp's light that arrives, 0 to 1; absent where shadows are not asked for.
         visible: Option<f64>,
+        /// `Ip · V · (kd·C·(L·N) + ks·cosⁿθ)`, as luminance.
+        adds: f64,
     },
     /// The light of a surface by itself, `ambient + lamps / (R + k)`, as luminance.
     Gathered {

@@ -7,11 +7,9 @@ use crate::stage::Stage;
 pub struct StoryLine {
     /// The stage of the flow chart that does it.
     pub stage: Stage,
-    /// How many rays stand between this one and that from the eye, each with a step for its terms.
+    /// How deep it stands: what a surface sends on and is lit by stands deeper than the ray that met it, and
+    /// what comes of such a ray deeper than that.
     pub depth: usize,
     /// What is done.
     pub text: String,
-    /// The event that it tells, by its number; of cells without anything in them, the first. Absent for the
-    /// stages that deal with the dot and not with a ray.
-    pub event: Option<usize>,
 }

@@ -11,7 +11,7 @@ mod names;
 mod story;
 mod teller;
 
-pub use description::described;
+pub use description::{described, why_unseen};
 pub use line::StoryLine;
 pub use names::object_name;
 pub use story::{Story, StoryRow};

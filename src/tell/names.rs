@@ -34,7 +34,8 @@ impl Names {
 /// What an object is called: its name in quotes, or its number, from 1 in the order of the file.
 pub fn object_name(scene: &Scene, object: u32) -> String {
     match scene.objects.get(object as usize).and_then(|object| object.name.as_ref()) {
-        Some(name) => format!("\"{name}\""),
+        // A line break or a quote in a name would look like what stands around it.
+        Some(name) => format!("\"{}\"", name.escape_debug()),
         None => format!("object {}", object + 1),
     }
 }
@@ -54,10 +55,10 @@ fn shape_name(shape: &Shape) -> &'static str {
     }
 }
 
-/// A colour in words.
-pub fn paint_name(paint: Paint) -> String {
+/// A colour in words; `part` is what the terminal has a colour of its own for.
+pub fn paint_name(paint: Paint, part: &str) -> String {
     match paint {
-        Paint::Terminal => "the terminal's own colour".to_owned(),
+        Paint::Terminal => format!("the terminal's {part}"),
         Paint::Black => "black".to_owned(),
         Paint::DarkGray => "dark gray".to_owned(),
         Paint::LightGray => "light gray".to_owned(),

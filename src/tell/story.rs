@@ -47,12 +47,10 @@ const STAGE_COLUMNS: usize = 11;
 /// Columns by which a ray that is sent on stands deeper.
 const DEEPER: usize = 2;
 
-/// The fewest columns in which words are put side by side.
-const LEAST: usize = 24;
-
 impl Story {
-    /// All lines in rows of so many columns, but for words that are longer; what is too long for one goes on
-    /// in the next, a little deeper.
+    /// All lines in rows of up to so many columns, of which there are twice as many as a stage's name takes at
+    /// least; what is too long for one goes on in the next, a little deeper. No line stands deeper than half of
+    /// the room.
     pub fn rows(&self, columns: usize) -> Vec<StoryRow> {
         let mut rows: Vec<StoryRow> = Vec::new();
         let mut last = None;
@@ -60,8 +58,9 @@ impl Story {
             // A stage is named where it begins.
             let named = (last != Some((*stage, *depth))).then_some(*stage);
             last = Some((*stage, *depth));
-            let indent = DEEPER * depth;
-            let room = columns.saturating_sub(STAGE_COLUMNS + indent).max(LEAST);
+            let room = columns.max(2 * STAGE_COLUMNS) - STAGE_COLUMNS;
+            let indent = (DEEPER * depth).min(room / 2);
+            let room = room - indent;
             for (part, words) in wrapped(text, room).into_iter().enumerate() {
                 let more = if part > 0 { DEEPER } else { 0 };
                 let stage = named.filter(|_| part == 0);
@@ -80,18 +79,49 @@ impl fmt::Display for StoryRow {
     }
 }
 
-/// The words in lines of up to so many columns, those behind the first by [`DEEPER`] fewer.
+/// The words in lines of up to so many columns, those behind the first by [`DEEPER`] fewer; a word that is
+/// longer is cut.
 fn wrapped(text: &str, columns: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split(' ') {
-        let room = if lines.len() > 1 { columns.saturating_sub(DEEPER) } else { columns };
-        match lines.last_mut() {
-            Some(line) if line.chars().count() + 1 + word.chars().count() <= room => {
-                line.push(' ');
-                line.push_str(word);
+        let mut rest = word.to_owned();
+        while !rest.is_empty() {
+            let room = if lines.len() > 1 { columns - DEEPER } else { columns };
+            let length = rest.chars().count();
+            match lines.last_mut() {
+                Some(line) if line.chars().count() + 1 + length <= room => {
+                    line.push(' ');
+                    line.push_str(&rest);
+                    rest.clear();
+                }
+                _ => {
+                    let room = if lines.is_empty() { columns } else { columns - DEEPER };
+                    let end = rest.char_indices().nth(room).map_or(rest.len(), |(end, _)| end);
+                    let behind = rest.split_off(end);
+                    lines.push(std::mem::replace(&mut rest, behind));
+                }
             }
-            _ => lines.push(word.to_owned()),
         }
     }
     lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_row_is_wider_than_it_may_be_and_no_letter_is_lost() {
+        let lines =
+            [(0, "it enters \"floor\" through cube 1 at t = 0.123456789012345678901234567890"), (9, "a b")]
+                .map(|(depth, text)| StoryLine { stage: Stage::Csg, depth, text: text.to_owned() });
+        let story = Story { lines: lines.to_vec() };
+        let letters = |text: &str| text.chars().filter(|c| *c != ' ').collect::<String>();
+        for columns in [22, 30, 40, 78, usize::MAX] {
+            let rows = story.rows(columns);
+            assert!(rows.iter().all(|row| row.to_string().chars().count() <= columns), "{columns}: {rows:?}");
+            let told: String = rows.iter().map(|row| letters(&row.text)).collect();
+            assert_eq!(told, story.lines.iter().map(|line| letters(&line.text)).collect::<String>());
+        }
+    }
 }

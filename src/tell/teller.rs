@@ -1,6 +1,7 @@
 //! Each event in words.
 
 use crate::frame::{FollowedRay, Frame, Request, Space};
+use crate::glyph::GlyphMode;
 use crate::math::DVec3;
 use crate::scene::Scene;
 use crate::shade::Channel;
@@ -23,17 +24,14 @@ pub fn told(
         names: Names::of(scene, &followed.objects),
         lines: Vec::new(),
         depth: 0,
-        event: None,
         moved: 0.0,
         rays: Vec::new(),
     };
     teller.beginning(request);
     let mut number = 0;
     while number < followed.events.len() {
-        teller.event = Some(number);
         number += teller.tell(number);
     }
-    teller.event = None;
     teller.end(request, frame);
     teller.lines
 }
@@ -43,7 +41,6 @@ struct Teller<'a> {
     names: Names,
     lines: Vec<StoryLine>,
     depth: usize,
-    event: Option<usize>,
     /// How far the start of the ray in hand was moved nearer, in the assembly's unit.
     moved: f64,
     /// Mirror and Snell rays that have not arrived yet: the depth of what sent each.
@@ -52,8 +49,7 @@ struct Teller<'a> {
 
 impl Teller<'_> {
     fn say(&mut self, stage: Stage, text: String) {
-        let Self { depth, event, .. } = *self;
-        self.lines.push(StoryLine { stage, depth, text, event });
+        self.lines.push(StoryLine { stage, depth: self.depth, text });
     }
 
     /// A distance of the assembly, along the ray in hand, from where that was sent.
@@ -67,7 +63,7 @@ impl Teller<'_> {
             Space::Whole => "space is not cut: every object is tested".to_owned(),
             Space::Lattice([x, y, z]) => format!("a lattice of {x} × {y} × {z} cells"),
             Space::Tree(nodes) => format!("lattices within lattices: {}", many(nodes, "node")),
-            Space::Boxes(nodes) => format!("boxes within boxes: {}", many(nodes, "node")),
+            Space::Boxes(nodes) => format!("boxes around boxes: {}", many(nodes, "node")),
         };
         self.say(Stage::Lattice, cut);
         let looks = format!("the eye at {} looks to {}", triple(camera.eye), triple(camera.target));
@@ -84,8 +80,16 @@ impl Teller<'_> {
             RayEvent::Coded { outcode, moved } => {
                 self.moved = moved;
                 let place = match outcode {
-                    0 => "0: the eye is in the world's box".to_owned(),
-                    code => format!("{code:06b}: the eye is {}", beyond(code)),
+                    0 => "0: it begins in the world's box".to_owned(),
+                    code if moved > 0.0 => {
+                        let unit = self.followed.scene_frame.unit;
+                        format!(
+                            "{code:06b}: moved nearer by {}, it begins {}",
+                            figure(moved * unit),
+                            beyond(code)
+                        )
+                    }
+                    code => format!("{code:06b}: it begins {}", beyond(code)),
                 };
                 self.say(stage, format!("outcode {place}"));
             }
@@ -188,7 +192,7 @@ impl Teller<'_> {
 
     fn lit(&mut self, event: &RayEvent) {
         match *event {
-            RayEvent::Lit { lamp, diffuse, highlight, visible } => {
+            RayEvent::Lit { lamp, diffuse, highlight, visible, adds } => {
                 // Behind the shadow ray, where there was one.
                 if visible.is_some() {
                     self.depth -= 1;
@@ -196,10 +200,11 @@ impl Teller<'_> {
                 let visible =
                     visible.map_or_else(String::new, |v| format!(", of which V = {} arrives", figure(v)));
                 let text = format!(
-                    "lamp {}: kd · (L·N) = {}, ks · cosⁿθ = {}{visible}",
+                    "lamp {}: kd · (L·N) = {}, ks · cosⁿθ = {}{visible}; it adds {}",
                     lamp + 1,
                     figure(diffuse),
-                    figure(highlight)
+                    figure(highlight),
+                    figure(adds)
                 );
                 self.say(Stage::Shade, text);
             }
@@ -233,21 +238,28 @@ impl Teller<'_> {
 
     fn end(&mut self, request: &Request, frame: Option<&Frame>) {
         self.depth = 0;
-        let FollowedRay { light, level, dot: [column, row], .. } = self.followed;
+        let FollowedRay { light, left_out, dot: [column, row], .. } = self.followed;
+        if *left_out > 0 {
+            self.say(Stage::Shade, format!("and so on: {left_out} more events are not told"));
+        }
         let own = light.gray();
+        self.say(Stage::Shade, format!("the light along the ray: {}", figure(own)));
         let gray = frame.map_or(own, |frame| frame.light[(*column, *row)]);
-        let rays = frame.map_or(0, |frame| frame.counts.primary_rays) as f64 / request.dots.area() as f64;
-        self.say(Stage::Shade, format!("the light of the dot: {}", figure(own)));
-        if rays > 1.0 {
+        if request.options.samples > 1 || (request.options.adaptive.is_some() && gray != own) {
             self.say(Stage::Shade, format!("with the dot's other rays: {}", figure(gray)));
         }
-        let by = match request.tone {
-            Tone::Lightness => format!("L* = {}", figure(lightness(gray.clamp(0.0, 1.0)))),
-            Tone::Even => "even steps of 1/12".to_owned(),
-        };
-        let level = if rays > 1.0 { request.tone.level(gray) } else { *level };
-        let own = figure(lightness(level.light()));
-        self.say(Stage::Dither, format!("{by}: level {} of 12, whose own L* is {own}", level.get()));
+        let by_ink = matches!(request.glyphs, GlyphMode::Braille | GlyphMode::Ascii);
+        if request.palette.is_color() && !by_ink {
+            self.say(Stage::Dither, "the terminal shows the colour itself: no level".to_owned());
+        } else {
+            let by = match request.tone {
+                Tone::Lightness => format!("L* = {}", figure(lightness(gray.clamp(0.0, 1.0)))),
+                Tone::Even => "even steps of 1/12".to_owned(),
+            };
+            let level = request.tone.level(gray);
+            let nearest = figure(lightness(level.light()));
+            self.say(Stage::Dither, format!("{by}: level {} of 12, whose own L* is {nearest}", level.get()));
+        }
         let Some(cells) = frame.and_then(|frame| frame.cells.as_ref()) else { return };
         let per_cell = request.glyphs.dots_per_cell();
         let cell = (column / per_cell.width, row / per_cell.height);
@@ -261,8 +273,8 @@ impl Teller<'_> {
             cell.0,
             cell.1,
             shown.glyph,
-            paint_name(shown.ink),
-            paint_name(shown.paper),
+            paint_name(shown.ink, "ink"),
+            paint_name(shown.paper, "paper"),
             1 + column % per_cell.width + per_cell.width * (row % per_cell.height),
             per_cell.area()
         );

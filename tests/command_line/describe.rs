@@ -20,7 +20,7 @@ fn json_has_the_same_objects() {
     assert!(shares.is_sorted_by(|one, other| one >= other), "{shares:?}");
     let all = shares.iter().sum::<f64>() + value["background"].as_f64().unwrap();
     assert!((all - 1.0).abs() < 1e-12);
-    assert_eq!(seen[0]["name"], "\"floor\"");
+    assert_eq!(seen[0]["name"], "floor");
     // What stands on the floor is nowhere behind it.
     assert!(seen[0]["before"].as_array().unwrap().is_empty(), "{}", seen[0]);
 }

@@ -212,7 +212,7 @@ fn told(event: &RayEvent, unit: f64) -> String {
             format!("crosses {primitive} at {}, {}", t * unit, if entering { "inward" } else { "outward" })
         }
         RayEvent::Hit { object, t, .. } => format!("hits {object} at {}", t * unit),
-        RayEvent::Lit { lamp, diffuse, highlight, visible } => {
+        RayEvent::Lit { lamp, diffuse, highlight, visible, .. } => {
             format!("lamp {lamp}: {diffuse} + {highlight}, visible {}", visible.unwrap_or(f64::NAN))
         }
         RayEvent::Coded { outcode, .. } => format!("outcode {outcode:06b}"),

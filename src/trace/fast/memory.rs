@@ -3,7 +3,7 @@
 use crate::lattice::{FRUSTA, Frustum, FrustumSoa};
 use crate::math::{RayPacket, Real};
 use crate::solid::{
-    MeshPacket, PacketCrossings, PacketRange, PacketScratch, PacketShear, PrunedExpr, Pruning,
+    MeshLists, MeshPacket, PacketCrossings, PacketRange, PacketScratch, PacketShear, PrunedExpr, Pruning,
 };
 use crate::stage::Counts;
 
@@ -41,6 +41,10 @@ pub struct TileMemory {
     /// The rays that are intersected with a mesh, and its nodes to be walked.
     pub(super) mesh: Box<MeshPacket>,
     pub(super) mesh_stack: Vec<MeshItem>,
+    /// What they cross of a mesh that is an operand.
+    pub(super) mesh_lists: Box<MeshLists>,
+    /// Whether the frustums end at a light.
+    pub(super) ends_at_light: bool,
     /// Where rays to a mesh started last, if that is known.
     pub(super) mesh_start: Option<KnownStart>,
     /// What rays meet of one object.
@@ -130,6 +134,8 @@ impl Default for TileMemory {
             in_cells: Vec::new(),
             mesh: Box::new(MeshPacket::EMPTY),
             mesh_stack: Vec::new(),
+            mesh_lists: Box::new(MeshLists::EMPTY),
+            ends_at_light: false,
             mesh_start: None,
             met: Box::default(),
             pruning: Pruning::default(),

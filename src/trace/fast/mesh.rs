@@ -4,11 +4,11 @@
 use fearless_simd::Simd;
 
 use crate::math::{DVec3, Lanes, Ray, lanes};
-use crate::solid::{MeshAnswer, MeshQuery};
+use crate::solid::{ExprView, MeshAnswer, MeshLearning, MeshQuery, WorldShape};
 
 use super::Fast;
 use super::memory::TileMemory;
-use super::mesh_walk::{KnownStart, MeshObject, walk_mesh};
+use super::mesh_walk::{KnownStart, MeshLister, MeshObject, walk_mesh};
 use super::object::PacketTest;
 use super::precision::Precision;
 use super::sink::{HitSink, offer_crossings};
@@ -72,16 +72,101 @@ impl Fast<'_> {
                     primitive: of.primitive,
                     limits: &cullers[k].limits(),
                     place_error: self.assembly.place_error,
+                    neighbour_error: of.mesh.place_error(),
                 };
-                if !rays.set(simd, of.mesh, &query) {
+                if !rays.set(simd, &query) {
                     return nothing_known;
                 }
-                let [nodes, triangles] = walk_mesh(simd, of.mesh, frustum, rays, mesh_stack);
+                let [nodes, triangles] = walk_mesh(simd, of.mesh, frustum, &mut **rays, mesh_stack);
                 counts.cells_visited += nodes;
                 counts.primitive_tests += triangles;
                 rays.answer(simd)
             },
         )
+    }
+
+    /// Computes the spans of a packet's rays in the meshes of an expression, where they are not known yet.
+    pub(super) fn know_meshes<S: Simd>(
+        &self,
+        simd: S,
+        expression: ExprView,
+        source: PacketSource,
+        (k, wanted): (usize, u64),
+        memory: &mut TileMemory,
+    ) {
+        for leaf in expression.leaves {
+            let form = &self.assembly.primitives[leaf.primitive as usize].form;
+            if let WorldShape::Mesh(mesh) = form
+                && !memory.doubles.csg.knows_mesh(leaf.primitive)
+            {
+                let of = MeshObject { object: 0, primitive: leaf.primitive, mesh };
+                self.know_mesh(simd, &of, source, (k, wanted), memory);
+            }
+        }
+    }
+
+    fn know_mesh<S: Simd>(
+        &self,
+        simd: S,
+        of: &MeshObject,
+        source: PacketSource,
+        (k, wanted): (usize, u64),
+        memory: &mut TileMemory,
+    ) {
+        let PacketSource { rays: packet, departures, .. } = source;
+        let Some(Some(frustum)) = memory.frustums.get(k) else { return };
+        let mut limits = memory.cullers[k].limits();
+        let b = of.mesh.bounds().padded(DVec3::splat(self.slack));
+        let (mut boxed, mut complete) = (0, 0);
+        for lane in lanes(wanted) {
+            let ray: Ray = packet.ray(lane);
+            if !b.contains(ray.o) {
+                continue;
+            }
+            boxed |= 1 << lane;
+            if !memory.ends_at_light {
+                limits[lane] = f32::INFINITY;
+            }
+            let limit = f64::from(limits[lane]);
+            complete |= u64::from(limit == f64::INFINITY || !b.contains(ray.at(limit))) << lane;
+        }
+        let TileMemory { mesh: rays, mesh_lists: lists, mesh_stack, counts, doubles, .. } = memory;
+        let is_listed = simd.vectorize(
+            #[inline(always)]
+            || {
+                let query = MeshQuery {
+                    packet,
+                    wanted,
+                    departures,
+                    primitive: of.primitive,
+                    limits: &limits,
+                    place_error: self.assembly.place_error,
+                    neighbour_error: self.assembly.place_error,
+                };
+                if !rays.set(simd, &query) {
+                    return false;
+                }
+                lists.clear();
+                let [nodes, triangles] =
+                    walk_mesh(simd, of.mesh, frustum, &mut MeshLister { rays, lists }, mesh_stack);
+                counts.cells_visited += nodes;
+                counts.primitive_tests += triangles;
+                true
+            },
+        );
+        if !is_listed {
+            return;
+        }
+        let learning = MeshLearning {
+            mesh: of.mesh,
+            primitive: of.primitive,
+            packet,
+            departures,
+            wanted,
+            boxed,
+            complete,
+        };
+        doubles.csg.learn_mesh(simd, &learning, lists);
     }
 
     /// Whether a ray goes into a mesh where it first crosses it, at `t`: whether it starts outside. `start`

@@ -1,6 +1,9 @@
 //! Which triangles the rays of a packet cross, as single precision lists them.
 
-use crate::math::PACKET;
+use crate::math::{PACKET, Ray};
+
+use super::mesh::TriangleMesh;
+use super::mesh_ray::AheadQuery;
 
 /// So many crossings of a ray are listed at most.
 pub(super) const MOST: usize = 24;
@@ -48,6 +51,20 @@ impl MeshLists {
     pub(super) fn doubt(&mut self, lane: usize, from: f32) {
         let known = self.doubt_from[lane];
         self.doubt_from[lane] = if from.is_nan() { f32::NEG_INFINITY } else { known.min(from) };
+    }
+
+    /// Lists what a ray crosses by the exact predicate.
+    pub fn list_ray(&mut self, lane: usize, mesh: &TriangleMesh, ray: &Ray, asked: &AheadQuery) {
+        let all_known = mesh.all_ahead(ray, asked, |surface| {
+            if asked.leaves == Some(surface) {
+                self.left |= 1 << lane;
+            } else {
+                self.push(lane, surface);
+            }
+        });
+        if !all_known {
+            self.doubt(lane, f32::NEG_INFINITY);
+        }
     }
 
     /// The triangles of one ray.

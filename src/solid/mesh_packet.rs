@@ -44,7 +44,7 @@ const LOST_OF_START: f64 = 8.0 * HALF_ULP;
 
 /// So many times its error may a crossing lie from another of the same place
 /// ([`super::crossing`]: slopes of one place differ by a factor of 256), and a little more.
-const ONE_PLACE: f64 = 300.0;
+pub(super) const ONE_PLACE: f64 = 300.0;
 
 /// A triangle lower than this share of its longest edge is never certain: its normal is mostly rounding.
 const FLAT: f64 = 1.0 / 65_536.0;
@@ -387,6 +387,18 @@ impl MeshPacket {
             hits |= (asked & (apart | nothing) & !none).to_bitmask() << (row * ROW);
         }
         MeshAnswer { hits, uncertain }
+    }
+
+    /// How far one of the rays matters, and how far that may be off.
+    #[inline]
+    pub fn limit_of(&self, lane: usize) -> [f64; 2] {
+        [f64::from(self.t[lane]), f64::from(self.error[lane])]
+    }
+
+    /// Sets which triangle one of the rays crosses.
+    #[inline]
+    pub fn put(&mut self, lane: usize, surface: u32) {
+        self.surface.0[lane] = surface;
     }
 
     /// The triangles that rays with a hit cross.

@@ -3,16 +3,20 @@
 
 use fearless_simd::Simd;
 
-use crate::math::{DVec3, Lanes, Ray, lanes};
-use crate::solid::{ExprView, MeshAnswer, MeshLearning, MeshQuery, WorldShape};
+use crate::math::{DVec3, Lanes, PACKET, Ray, lanes};
+use crate::solid::{AheadQuery, ExprView, FirstAhead, MeshAnswer, MeshLearning, MeshQuery, WorldShape};
 
 use super::Fast;
 use super::memory::TileMemory;
-use super::mesh_walk::{KnownStart, MeshLister, MeshObject, walk_mesh};
+use super::mesh_walk::{KnownStart, MeshLister, MeshObject, TRIANGLES_PER_RAY, walk_mesh};
 use super::object::PacketTest;
+use super::packet_culler::Slabs;
 use super::precision::Precision;
 use super::sink::{HitSink, offer_crossings};
 use super::source::PacketSource;
+
+/// From so many rays of a packet is told how the other packets of a tile fare with a mesh.
+const MANY_RAYS: u32 = 32;
 
 impl Fast<'_> {
     /// What a packet's rays cross first of a mesh. Answers whether any ray may have met it.
@@ -59,30 +63,54 @@ impl Fast<'_> {
         wanted: u64,
         memory: &mut TileMemory,
     ) -> MeshAnswer {
-        let TileMemory { mesh: rays, mesh_stack, frustums, cullers, counts, .. } = memory;
         let nothing_known = MeshAnswer { hits: 0, uncertain: wanted };
-        let Some(Some(frustum)) = frustums.get(k) else { return nothing_known };
-        simd.vectorize(
+        let limits = memory.cullers[k].limits();
+        let query = self.mesh_query(of, source, wanted, &limits, of.mesh.place_error());
+        let is_set = simd.vectorize(
             #[inline(always)]
-            || {
-                let query = MeshQuery {
-                    packet: source.rays,
-                    wanted,
-                    departures: source.departures,
-                    primitive: of.primitive,
-                    limits: &cullers[k].limits(),
-                    place_error: self.assembly.place_error,
-                    neighbour_error: of.mesh.place_error(),
-                };
-                if !rays.set(simd, &query) {
-                    return nothing_known;
+            || memory.mesh.set(simd, &query),
+        );
+        if !is_set {
+            return nothing_known;
+        }
+        let TileMemory { mesh: rays, mesh_stack, frustums, counts, mesh_by_rays, .. } = memory;
+        let Some(Some(frustum)) = frustums.get(k) else { return nothing_known };
+        if !mesh_by_rays.contains(&of.primitive) {
+            let budget = TRIANGLES_PER_RAY * u64::from(wanted.count_ones());
+            let [nodes, triangles] = simd.vectorize(
+                #[inline(always)]
+                || walk_mesh(simd, of.mesh, frustum, &mut **rays, mesh_stack, budget),
+            );
+            counts.cells_visited += nodes;
+            counts.primitive_tests += triangles;
+            if triangles <= budget {
+                return simd.vectorize(
+                    #[inline(always)]
+                    || rays.answer(simd),
+                );
+            }
+            if wanted.count_ones() >= MANY_RAYS {
+                mesh_by_rays.push(of.primitive);
+            }
+            simd.vectorize(
+                #[inline(always)]
+                || rays.set(simd, &query),
+            );
+        }
+        let mut answer = MeshAnswer { hits: 0, uncertain: 0 };
+        for lane in lanes(wanted) {
+            let asked = ahead_query(&query, lane, rays.limit_of(lane));
+            match of.mesh.first_ahead(&source.rays.ray(lane), &asked) {
+                FirstAhead::Nothing => {}
+                FirstAhead::Triangle(surface) => {
+                    rays.put(lane, surface);
+                    answer.hits |= 1 << lane;
                 }
-                let [nodes, triangles] = walk_mesh(simd, of.mesh, frustum, &mut **rays, mesh_stack);
-                counts.cells_visited += nodes;
-                counts.primitive_tests += triangles;
-                rays.answer(simd)
-            },
-        )
+                FirstAhead::Uncertain => answer.uncertain |= 1 << lane,
+            }
+        }
+        counts.primitive_tests += u64::from(wanted.count_ones());
+        answer
     }
 
     /// Computes the spans of a packet's rays in the meshes of an expression, where they are not known yet.
@@ -114,9 +142,13 @@ impl Fast<'_> {
         memory: &mut TileMemory,
     ) {
         let PacketSource { rays: packet, departures, .. } = source;
-        let Some(Some(frustum)) = memory.frustums.get(k) else { return };
         let mut limits = memory.cullers[k].limits();
         let b = of.mesh.bounds().padded(DVec3::splat(self.slack));
+        let culler = &memory.cullers[k];
+        let wanted = simd.vectorize(
+            #[inline(always)]
+            || culler.passing(simd, &Slabs::around(simd, b.lo, b.hi, 0.0), wanted),
+        );
         let (mut boxed, mut complete) = (0, 0);
         for lane in lanes(wanted) {
             let ray: Ray = packet.ray(lane);
@@ -130,32 +162,47 @@ impl Fast<'_> {
             let limit = f64::from(limits[lane]);
             complete |= u64::from(limit == f64::INFINITY || !b.contains(ray.at(limit))) << lane;
         }
-        let TileMemory { mesh: rays, mesh_lists: lists, mesh_stack, counts, doubles, .. } = memory;
-        let is_listed = simd.vectorize(
+        let query = self.mesh_query(of, source, wanted, &limits, self.assembly.place_error);
+        let TileMemory {
+            mesh: rays,
+            mesh_lists: lists,
+            mesh_stack,
+            frustums,
+            counts,
+            doubles,
+            mesh_by_rays,
+            ..
+        } = memory;
+        let is_set = simd.vectorize(
             #[inline(always)]
-            || {
-                let query = MeshQuery {
-                    packet,
-                    wanted,
-                    departures,
-                    primitive: of.primitive,
-                    limits: &limits,
-                    place_error: self.assembly.place_error,
-                    neighbour_error: self.assembly.place_error,
-                };
-                if !rays.set(simd, &query) {
-                    return false;
-                }
-                lists.clear();
-                let [nodes, triangles] =
-                    walk_mesh(simd, of.mesh, frustum, &mut MeshLister { rays, lists }, mesh_stack);
-                counts.cells_visited += nodes;
-                counts.primitive_tests += triangles;
-                true
-            },
+            || rays.set(simd, &query),
         );
-        if !is_listed {
-            return;
+        let Some(Some(frustum)) = frustums.get(k).filter(|_| is_set) else { return };
+        lists.clear();
+        let mut by_rays = mesh_by_rays.contains(&of.primitive);
+        if !by_rays {
+            let budget = TRIANGLES_PER_RAY * u64::from(wanted.count_ones());
+            let lister = &mut MeshLister { rays, lists };
+            let [nodes, triangles] = simd.vectorize(
+                #[inline(always)]
+                || walk_mesh(simd, of.mesh, frustum, lister, mesh_stack, budget),
+            );
+            counts.cells_visited += nodes;
+            counts.primitive_tests += triangles;
+            by_rays = triangles > budget;
+            if by_rays {
+                lists.clear();
+                if wanted.count_ones() >= MANY_RAYS {
+                    mesh_by_rays.push(of.primitive);
+                }
+            }
+        }
+        if by_rays {
+            for lane in lanes(wanted) {
+                let asked = ahead_query(&query, lane, rays.limit_of(lane));
+                lists.list_ray(lane, of.mesh, &packet.ray(lane), &asked);
+            }
+            counts.primitive_tests += u64::from(wanted.count_ones());
         }
         let learning = MeshLearning {
             mesh: of.mesh,
@@ -167,6 +214,27 @@ impl Fast<'_> {
             complete,
         };
         doubles.csg.learn_mesh(simd, &learning, lists);
+    }
+
+    /// What some rays of a packet ask of a mesh; whose surface may be one place with the mesh's is off its
+    /// place by `neighbour_error` at most.
+    fn mesh_query<'q>(
+        &self,
+        of: &MeshObject,
+        source: PacketSource<'q>,
+        wanted: u64,
+        limits: &'q [f32; PACKET],
+        neighbour_error: f64,
+    ) -> MeshQuery<'q> {
+        MeshQuery {
+            packet: source.rays,
+            wanted,
+            departures: source.departures,
+            primitive: of.primitive,
+            limits,
+            place_error: self.assembly.place_error,
+            neighbour_error,
+        }
     }
 
     /// Whether a ray goes into a mesh where it first crosses it, at `t`: whether it starts outside. `start`
@@ -191,4 +259,10 @@ impl Fast<'_> {
         }
         !inside
     }
+}
+
+/// What one ray of a packet asks of a mesh.
+fn ahead_query(query: &MeshQuery, lane: usize, limit: [f64; 2]) -> AheadQuery {
+    let own = query.departures.filter(|all| all.primitive.0[lane] == query.primitive);
+    AheadQuery { leaves: own.map(|all| all.surface.0[lane]), limit, neighbour_error: query.place_error }
 }

@@ -73,7 +73,11 @@ impl<S: Simd> MeshVisitor<S> for MeshLister<'_> {
     }
 }
 
-/// Walks the boxes of a mesh with a packet's frustum. Answers how many nodes and triangles were looked at.
+/// More triangles than this for each of a packet's rays take longer than the rays do one by one.
+pub(super) const TRIANGLES_PER_RAY: u64 = 8;
+
+/// Walks the boxes of a mesh with a packet's frustum, until more than `budget` triangles were looked at.
+/// Answers how many nodes and triangles were.
 #[inline(always)]
 pub(super) fn walk_mesh<S: Simd>(
     simd: S,
@@ -81,6 +85,7 @@ pub(super) fn walk_mesh<S: Simd>(
     frustum: &Frustum,
     rays: &mut impl MeshVisitor<S>,
     stack: &mut Vec<MeshItem>,
+    budget: u64,
 ) -> [u64; 2] {
     let nodes = mesh.boxes().nodes();
     let (mut visited, mut tested) = (0, 0);
@@ -90,6 +95,9 @@ pub(super) fn walk_mesh<S: Simd>(
     while let Some(MeshItem { near, node }) = stack.pop() {
         if near > farthest {
             continue;
+        }
+        if tested > budget {
+            break;
         }
         visited += 1;
         let node = &nodes[node as usize];

@@ -49,6 +49,11 @@ impl<T: Real> PacketScratch<T> {
 }
 
 impl PacketScratch<f64> {
+    /// Makes room for the spans in so many more meshes, where that takes forgetting all.
+    pub fn make_room_for_meshes(&mut self, more: usize) {
+        self.meshes.make_room(more);
+    }
+
     /// Computes the spans in a mesh of those rays that will ask for them.
     pub fn learn_mesh<S: Simd>(&mut self, simd: S, of: &MeshLearning, lists: &MeshLists) {
         self.meshes.learn(simd, of, lists);

@@ -58,7 +58,9 @@ impl TriangleMesh {
                 return ControlFlow::Continue(to(first));
             };
             let own = room * end.error;
-            if !(end.t.abs() > own) {
+            // What is not a number is not known to be apart.
+            let is_apart = end.t.abs() > own;
+            if !is_apart {
                 return ControlFlow::Break(());
             }
             if end.t > 0.0 {
@@ -92,7 +94,8 @@ impl TriangleMesh {
         let end = self.boxes().walk(ray, asked.from(), to, &mut |surface: u32, _: f64| {
             let Some(end) = crossed(surface) else { return ControlFlow::Continue(to) };
             let is_left = asked.leaves == Some(surface);
-            if !is_left && !(end.t.abs() > room * end.error && self.is_steep(&end)) {
+            let is_certain = end.t.abs() > room * end.error && self.is_steep(&end);
+            if !is_left && !is_certain {
                 return ControlFlow::Break(());
             }
             if is_left || end.t > 0.0 {

@@ -15,6 +15,9 @@ use super::mesh_lists::{MOST, MeshLists};
 use super::span::End;
 use super::span_cache::CachedSpans;
 
+/// So many meshes are known at most, but for those of one expression.
+const MANY: usize = 64;
+
 /// A mesh, and what is known of the rays that ask for their spans in it.
 #[derive(Clone, Copy, Debug)]
 pub struct MeshLearning<'a> {
@@ -68,6 +71,13 @@ impl<T: Real> MeshSpans<T> {
     pub fn clear(&mut self) {
         self.used = 0;
         self.known.clear();
+    }
+
+    /// Makes room for so many more, where that takes forgetting all: each takes a few times 3 KB.
+    pub fn make_room(&mut self, more: usize) {
+        if self.known.len() + more > MANY {
+            self.clear();
+        }
     }
 
     /// What is known of a mesh.

@@ -41,6 +41,11 @@ fn packets_find_of_cut_meshes_what_single_rays_find() {
                 let ball = put(Shape::Sphere, middle + DVec3::new(0.3, -0.2, 0.3) * size, 0.4 * size);
                 Solid::Difference(vec![mesh(own), ball, mesh(off)])
             }
+            // Half of these are small beside what cuts them, which reaches out of the world then.
+            1 if number % 2 == 0 => {
+                let cube = put(Shape::Cube, nasty.mesh.points[0], 0.08 * size);
+                Solid::Difference(vec![cube, mesh(own)])
+            }
             1 => {
                 let cube = put(Shape::Cube, middle + DVec3::Z * 0.25 * size, 0.5 * size);
                 Solid::Difference(vec![cube, mesh(own)])

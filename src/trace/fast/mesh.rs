@@ -4,7 +4,7 @@
 use fearless_simd::Simd;
 
 use crate::math::{DVec3, Lanes, PACKET, Ray, lanes};
-use crate::solid::{AheadQuery, ExprView, FirstAhead, MeshAnswer, MeshLearning, MeshQuery, WorldShape};
+use crate::solid::{AheadQuery, ExprView, FirstAhead, Leaf, MeshAnswer, MeshLearning, MeshQuery, WorldShape};
 
 use super::Fast;
 use super::memory::TileMemory;
@@ -14,6 +14,9 @@ use super::packet_culler::Slabs;
 use super::precision::Precision;
 use super::sink::{HitSink, offer_crossings};
 use super::source::PacketSource;
+
+/// What is seen is no farther than this from the origin along each axis, with room for rounding.
+const WITHIN: f64 = 2.01;
 
 /// From so many rays of a packet is told how the other packets of a tile fare with a mesh.
 const MANY_RAYS: u32 = 32;
@@ -122,10 +125,16 @@ impl Fast<'_> {
         (k, wanted): (usize, u64),
         memory: &mut TileMemory,
     ) {
-        for leaf in expression.leaves {
-            let form = &self.assembly.primitives[leaf.primitive as usize].form;
-            if let WorldShape::Mesh(mesh) = form
+        let is_unknown = |leaf: &Leaf, memory: &TileMemory| {
+            matches!(self.assembly.primitives[leaf.primitive as usize].form, WorldShape::Mesh(_))
                 && !memory.doubles.csg.knows_mesh(leaf.primitive)
+        };
+        if expression.leaves.iter().any(|leaf| is_unknown(leaf, memory)) {
+            memory.doubles.csg.make_room_for_meshes(expression.leaves.len());
+        }
+        for leaf in expression.leaves {
+            if is_unknown(leaf, memory)
+                && let WorldShape::Mesh(mesh) = &self.assembly.primitives[leaf.primitive as usize].form
             {
                 let of = MeshObject { object: 0, primitive: leaf.primitive, mesh };
                 self.know_mesh(simd, &of, source, (k, wanted), memory);
@@ -179,7 +188,9 @@ impl Fast<'_> {
         );
         let Some(Some(frustum)) = frustums.get(k).filter(|_| is_set) else { return };
         lists.clear();
-        let mut by_rays = mesh_by_rays.contains(&of.primitive);
+        // A cutter may reach out of the world, which frustums end with.
+        let is_within = b.farthest().max_element() <= WITHIN;
+        let mut by_rays = !is_within || mesh_by_rays.contains(&of.primitive);
         if !by_rays {
             let budget = TRIANGLES_PER_RAY * u64::from(wanted.count_ones());
             let lister = &mut MeshLister { rays, lists };

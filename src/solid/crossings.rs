@@ -70,7 +70,8 @@ struct SpanPlace {
 
 /// The first crossings of an expression of solids.
 ///
-/// Rays whose expression has a mesh that is not [known](PacketScratch::knows_mesh) are uncertain, all of them.
+/// Rays whose expression has a mesh that is not [known](PacketScratch::knows_mesh) are uncertain, all of
+/// them.
 pub fn first_of_expressions<S: Simd, T: Real>(
     simd: S,
     asked: &CsgQuery<T>,

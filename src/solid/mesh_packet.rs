@@ -13,7 +13,7 @@ use crate::math::{DVec3, Lanes, PACKET, ROW, ROWS, RayPacket, lanes, row_of, spl
 
 use super::csg_query::Departures;
 use super::mesh_lists::MeshLists;
-use super::ray_shear::STEEP;
+use super::ray_shear::{ONE_PLACE, STEEP};
 
 /// Half an ulp of a number near 1, in single precision.
 const HALF_ULP: f64 = 1.0 / 16_777_216.0;
@@ -41,10 +41,6 @@ const LOST_OF_DISTANCE: f64 = 10.0 * HALF_ULP;
 /// The same as a share of how far starts lie from the first: 2 roundings, the product and three sums are 6,
 /// and one of the height; rounded up to 8.
 const LOST_OF_START: f64 = 8.0 * HALF_ULP;
-
-/// So many times its error may a crossing lie from another of the same place
-/// ([`super::crossing`]: slopes of one place differ by a factor of 256), and a little more.
-pub(super) const ONE_PLACE: f64 = 300.0;
 
 /// A triangle lower than this share of its longest edge is never certain: its normal is mostly rounding.
 const FLAT: f64 = 1.0 / 65_536.0;

@@ -1,13 +1,12 @@
-//! One ray of a packet against a mesh, where triangles are so small that a packet has too many of them between
-//! its rays: the triangles ahead of its start, the nearest first, by the exact predicate.
+//! One ray of a packet against a mesh, where triangles are so small that a packet has too many of them
+//! between its rays: the triangles ahead of its start, the nearest first, by the exact predicate.
 
 use std::ops::ControlFlow;
 
 use crate::math::Ray;
 
 use super::mesh::TriangleMesh;
-use super::mesh_packet::ONE_PLACE;
-use super::ray_shear::STEEP;
+use super::ray_shear::{ONE_PLACE, STEEP};
 use super::span::End;
 
 /// What one ray crosses first of a mesh.
@@ -85,8 +84,8 @@ impl TriangleMesh {
         2.0 * STEEP * end.error <= self.place_error()
     }
 
-    /// The triangles that a ray crosses ahead of its start, in no order, and the one that it leaves, where its
-    /// line passes that. False where one may lie at the start itself, or is seen edge on.
+    /// The triangles that a ray crosses ahead of its start, in no order, and the one that it leaves, where
+    /// its line passes that. False where one may lie at the start itself, or is seen edge on.
     pub fn all_ahead(&self, ray: &Ray, asked: &AheadQuery, mut found: impl FnMut(u32)) -> bool {
         let ([limit, limit_error], room) = (asked.limit, asked.room(self));
         let to = limit + limit_error;

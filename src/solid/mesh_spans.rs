@@ -1,9 +1,9 @@
 //! The spans of a packet's rays in meshes that are operands of CSG.
 //!
-//! Single precision lists which triangles a ray crosses ([`super::mesh_lists`]); where, is computed here by the
-//! exact engine's own formula, eight at a time. In the order of their distances every two crossings are a
-//! span. Whether a ray starts inside is a matter of parity: outside the box of a mesh it is outside, elsewhere
-//! as many crossings as lie ahead of it say so, if all are known.
+//! Single precision lists which triangles a ray crosses ([`super::mesh_lists`]); where, is computed here by
+//! the exact engine's own formula, eight at a time. In the order of their distances every two crossings are
+//! a span. Whether a ray starts inside is a matter of parity: outside the box of a mesh it is outside,
+//! elsewhere the number of crossings ahead says so, if all are known.
 
 use fearless_simd::Simd;
 

@@ -129,6 +129,10 @@ fn exact_side(p: Coord<f64>, q: Coord<f64>) -> Option<bool> {
 /// coordinate's error at most, and the corners of an outline can not say more.
 pub(super) const STEEP: f64 = 1e-3;
 
+/// So many times its error may a crossing lie from another of the same place
+/// ([`super::crossing`]: slopes of one place differ by a factor of 256), and a little more.
+pub(super) const ONE_PLACE: f64 = 300.0;
+
 /// Where lines meet a plane.
 pub(super) struct OnPlane<N> {
     /// The sine of the angle between each and the plane, below 0 where the line comes against the normal.

@@ -1,8 +1,8 @@
 //! The tracer against the oracle's calculation on meshes that are hard on both.
 //!
 //! The rule at edges. Of the triangles around an edge or a corner a ray meets exactly as many as the rays
-//! beside it: none slips between two, and none meets an edge alone. Which of them it meets, where it passes an
-//! edge so near that rounding decides, or runs along a face, is not known: what is shown then must be what
+//! beside it: none slips between two, and none meets an edge alone. Which of them it meets, where it passes
+//! an edge so near that rounding decides, or runs along a face, is not known: what is shown then must be what
 //! the oracle sees along the ray or along one beside it, no farther off than rounding could have moved it.
 
 use crate::support::nasty_meshes::{Extent, Nasty, nasty};
@@ -94,7 +94,9 @@ fn look(nasty: &Nasty, count: &mut Count) {
 #[test]
 fn no_dot_of_a_nasty_mesh_is_wrong() {
     let mut count = Count::default();
-    nasty().iter().for_each(|nasty| look(nasty, &mut count));
+    for nasty in nasty() {
+        look(&nasty, &mut count);
+    }
     assert!(count.wrong.is_empty(), "{} of them:\n{}", count.wrong.len(), count.wrong.join("\n"));
     // The middle dot of a view looks at a corner, or along an edge or a face: seldom another does.
     assert!(count.undecided <= 30 && count.hits > 9000 && count.misses > 9000, "{count:?}");

@@ -45,8 +45,8 @@ pub struct TileMemory {
     pub(super) mesh_lists: Box<MeshLists>,
     /// Whether the frustums end at a light.
     pub(super) ends_at_light: bool,
-    /// The meshes of the tile that have too many triangles for packets, by their indices among the primitives:
-    /// rays are asked one by one.
+    /// The meshes of the tile that have too many triangles for packets, by their indices among the
+    /// primitives: rays are asked one by one.
     pub(super) mesh_by_rays: Vec<u32>,
     /// Where rays to a mesh started last, if that is known.
     pub(super) mesh_start: Option<KnownStart>,

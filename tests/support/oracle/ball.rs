@@ -17,8 +17,8 @@ impl Ball {
         Self { center, radius }
     }
 
-    /// Whether a ray of direction `d`, of length 1, comes near it; a hundredth of its radius, and what rounding takes from the way there,
-    /// are far more than any rounding.
+    /// Whether a ray of direction `d`, of length 1, comes near it; a hundredth of its radius, and what
+    /// rounding takes from the way there, are far more than any rounding.
     pub fn may_meet(&self, origin: DVec3, d: DVec3) -> bool {
         let to = self.center - origin;
         let near = self.radius * 1.01 + 8.0 * f64::EPSILON * (self.center.length() + origin.length());

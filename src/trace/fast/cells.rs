@@ -210,7 +210,7 @@ impl<S: Simd, T: Precision> CellsTest<'_, S, T> {
         memory: &mut TileMemory,
     ) -> (u64, u64) {
         let simd = self.simd;
-        if U::IS_DOUBLE {
+        if T::IS_DOUBLE {
             self.fast.know_meshes(simd, expression, source.full(), (self.k, self.asked), memory);
         }
         let PrecisionScratch { csg, found, cells, .. } = U::scratch(memory);

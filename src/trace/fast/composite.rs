@@ -115,7 +115,8 @@ impl<S: Simd, T: Precision, H: HitSink<T>> CompositeTest<'_, S, T, H> {
     ) -> u64 {
         memory.counts.primitive_tests += expression.leaves.len() as u64;
         memory.counts.csg_evaluations += 1;
-        if U::IS_DOUBLE {
+        // Of rays in single precision the exact engine says what they meet of meshes.
+        if T::IS_DOUBLE {
             self.fast.know_meshes(self.simd, expression, source.full(), (self.k, self.asked), memory);
         }
         let PacketSource { rays: packet, departures, .. } = source;

@@ -20,9 +20,6 @@ const OFF: f64 = 4e-14;
 /// So many rays beside one are asked.
 const BESIDE: u32 = 64;
 
-/// Meshes of more triangles than this are looked at through fewer dots.
-const MANY: usize = 10_000;
-
 /// What a dot shows.
 #[derive(Clone, Copy, Debug)]
 struct Shown {
@@ -64,8 +61,8 @@ fn look(nasty: &Nasty, count: &mut Count) {
     // taken at their word.
     let strict = Oracle::<Wide>::with_tolerance(studio.scene(), 0.0);
     let Extent { middle, size } = nasty.extent();
-    // Each ray asks every triangle. The middle dot is one.
-    let across = if nasty.mesh.triangles.len() > MANY { 3 } else { 13 };
+    // Each ray asks every triangle. An odd number: the middle dot is one.
+    let across = (3 * nasty.dots / 4) | 1;
     let dots = Size::new(across, across);
     for (view, camera) in nasty.cameras().into_iter().enumerate() {
         let far = size + middle.length();

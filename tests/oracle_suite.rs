@@ -5,6 +5,7 @@ mod support {
     pub mod anything;
     pub mod beside;
     pub mod cases;
+    pub mod nasty_meshes;
     pub mod oracle;
     pub mod oracle_agreement;
     pub mod rays;
@@ -14,6 +15,7 @@ mod support {
 
 mod oracle {
     mod examples;
+    mod meshes;
     mod random_solids;
     mod random_surfaces;
 }

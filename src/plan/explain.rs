@@ -115,7 +115,9 @@ impl Plan {
             PrecisionReason::Asked(precision) => format!("{} precision is wanted", precision.name()),
             PrecisionReason::Exact => "the exact engine has double precision → f64".into(),
             PrecisionReason::SentOn => "rays start on what is hit → f64".into(),
-            PrecisionReason::NoGain => "of balls and surfaces it saves nothing → f64".into(),
+            PrecisionReason::NoGain => {
+                "of balls, surfaces and meshes that are cut it saves nothing → f64".into()
+            }
             PrecisionReason::Thin => {
                 "a primitive is so thin that most rays would be asked twice → f64".into()
             }

@@ -67,7 +67,7 @@ pub(super) enum PrecisionReason {
     Exact,
     /// Rays start on surfaces.
     SentOn,
-    /// There are surfaces that bound no solid, or nothing but balls.
+    /// There are surfaces that bound no solid, meshes that are cut, or nothing but balls.
     NoGain,
     /// A primitive is thin.
     Thin,
@@ -112,7 +112,7 @@ impl PrecisionReason {
             PrecisionChoice::Auto => {}
         }
         let stats = &assembly.stats;
-        if stats.surfaces > 0 || stats.balls == assembly.objects.len() {
+        if stats.surfaces > 0 || stats.cut_meshes > 0 || stats.balls == assembly.objects.len() {
             return Self::NoGain;
         }
         let place_error = assembly.place_error * f32::EPSILON_RATIO;

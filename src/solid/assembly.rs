@@ -78,6 +78,8 @@ pub struct AssemblyStats {
     pub balls: usize,
     /// Objects that are one surface.
     pub surfaces: usize,
+    /// Meshes that are operands of objects.
+    pub cut_meshes: usize,
 }
 
 /// One object of the lattice.
@@ -345,7 +347,10 @@ impl Assembly {
         let alone: Vec<_> = objects.iter().map(alone).collect();
         let balls = alone.iter().filter(|(_, kind)| *kind == BatchKind::Ball).count();
         let surfaces = objects.iter().filter(|o| matches!(o.body, Body::Surface(_))).count();
-        let stats = AssemblyStats { thinnest, balls, surfaces };
+        let meshes = primitives.iter().filter(|p| matches!(p.form, WorldShape::Mesh(_))).count();
+        let lone_meshes = alone.iter().filter(|(_, kind)| *kind == BatchKind::Mesh).count();
+        let stats =
+            AssemblyStats { thinnest, balls, surfaces, cut_meshes: meshes.saturating_sub(lone_meshes) };
         Ok(Self { primitives, objects, alone, limit, place_error, scene_frame, stats })
     }
 

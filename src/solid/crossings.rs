@@ -12,7 +12,9 @@ use crate::math::{Mask, Number, Real, RealIds, RealMask, SimdIds, SimdReal};
 
 use super::crossing::{PlaceError, have_one_slope, start_of};
 use super::csg_query::{CsgQuery, Departures, PacketCrossings, PacketRange};
-use super::expression::Link;
+use super::expression::{Leaf, Link};
+use super::mesh_lists::MeshLists;
+use super::mesh_spans::{KnownMesh, MeshLearning, MeshSpans};
 use super::primitive::WorldPrimitive;
 use super::prune::ExprView;
 use super::single::decide_single;
@@ -22,8 +24,9 @@ use super::span_cache::{CachedSpans, SpanCache, SpanEnds};
 #[derive(Clone, Debug, Default)]
 pub struct PacketScratch<T> {
     known: SpanCache<T>,
-    /// By leaf: the place of its spans among those that are known.
-    places: Vec<u32>,
+    meshes: MeshSpans<T>,
+    /// Where the leaves' spans are, those of one leaf side by side.
+    places: Vec<SpanPlace>,
     /// By leaf: the rays that are inside; and those that the place toggles.
     inside: Vec<u64>,
     flipped: Vec<u64>,
@@ -36,12 +39,39 @@ impl<T: Real> PacketScratch<T> {
     /// Another packet follows, or the same from other surfaces.
     pub fn start(&mut self) {
         self.known.clear();
+        self.meshes.clear();
+    }
+
+    /// Whether the spans of the packet's rays in a mesh are known.
+    pub fn knows_mesh(&self, primitive: u32) -> bool {
+        self.meshes.find(primitive).is_some()
     }
 }
 
-/// The first crossings of an expression of convex primitives.
+impl PacketScratch<f64> {
+    /// Makes room for the spans in so many more meshes, where that takes forgetting all.
+    pub fn make_room_for_meshes(&mut self, more: usize) {
+        self.meshes.make_room(more);
+    }
+
+    /// Computes the spans in a mesh of those rays that will ask for them.
+    pub fn learn_mesh<S: Simd>(&mut self, simd: S, of: &MeshLearning, lists: &MeshLists) {
+        self.meshes.learn(simd, of, lists);
+    }
+}
+
+/// The place of some spans of a leaf: in a mesh, or in a convex primitive.
+#[derive(Clone, Copy, Debug)]
+struct SpanPlace {
+    leaf: usize,
+    place: usize,
+    is_mesh: bool,
+}
+
+/// The first crossings of an expression of solids.
 ///
-/// Rays whose expression has a primitive that is not convex are uncertain, all of them.
+/// Rays whose expression has a mesh that is not [known](PacketScratch::knows_mesh) are uncertain, all of
+/// them.
 pub fn first_of_expressions<S: Simd, T: Real>(
     simd: S,
     asked: &CsgQuery<T>,
@@ -54,31 +84,63 @@ pub fn first_of_expressions<S: Simd, T: Real>(
     (found.any, found.uncertain, found.entering) = (0, 0, 0);
     let form = |leaf: usize| &primitives[expression.leaves[leaf].primitive as usize].form;
     let leaves = expression.leaves.len();
-    if (0..leaves).any(|leaf| !form(leaf).is_convex()) {
+    let is_known = |primitive: u32| scratch.meshes.find(primitive).is_some();
+    if (0..leaves).any(|leaf| !form(leaf).is_convex() && !is_known(expression.leaves[leaf].primitive)) {
         found.uncertain = wanted;
         return;
     }
-    let (mut some, mut uncertain) = (0, 0);
-    scratch.places.clear();
-    scratch.known.make_room(leaves);
-    for (leaf, place) in expression.leaves.iter().enumerate() {
-        let (place, [ahead, may]) = {
-            let near = asked.near.get(leaf).copied().unwrap_or(u64::MAX);
-            let asked = CsgQuery { wanted: wanted & near, ..*asked };
-            scratch.known.look(simd, &asked, place.primitive, form(leaf))
-        };
-        scratch.places.push(place);
+    let PacketScratch { known, meshes, places, .. } = scratch;
+    let near = |leaf: usize| wanted & asked.near.get(leaf).copied().unwrap_or(u64::MAX);
+    let (mut some, mut uncertain, mut has_mesh) = (0, 0, false);
+    places.clear();
+    known.make_room(leaves);
+    for (leaf, &Leaf { primitive, .. }) in expression.leaves.iter().enumerate() {
+        if let Some(&KnownMesh { first, count, .. }) = meshes.find(primitive) {
+            has_mesh = true;
+            for place in first..first + count {
+                let spans = &mut meshes.spans()[place];
+                some |= simd.vectorize(
+                    #[inline(always)]
+                    || spans.look(simd, near(leaf), asked.reach),
+                );
+                places.push(SpanPlace { leaf, place, is_mesh: true });
+            }
+            continue;
+        }
+        let asked = CsgQuery { wanted: near(leaf), ..*asked };
+        let (place, [ahead, may]) = known.look(simd, &asked, primitive, form(leaf));
+        places.push(SpanPlace { leaf, place: place as usize, is_mesh: false });
         some |= ahead;
         uncertain |= may;
     }
     found.uncertain = uncertain;
-    some &= !uncertain;
+    decide_all(simd, asked, some & !uncertain, expression, scratch, found);
+    if has_mesh {
+        for (leaf, &Leaf { primitive, .. }) in expression.leaves.iter().enumerate() {
+            if let Some(mesh) = scratch.meshes.find(primitive) {
+                found.uncertain |= mesh.uncertain(asked, near(leaf), found);
+            }
+        }
+        found.any &= !found.uncertain;
+    }
+}
+
+/// Decides what some rays cross first, given their spans in all leaves.
+#[inline]
+fn decide_all<S: Simd, T: Real>(
+    simd: S,
+    asked: &CsgQuery<T>,
+    some: u64,
+    expression: ExprView,
+    scratch: &mut PacketScratch<T>,
+    found: &mut PacketCrossings<T>,
+) {
     if some == 0 {
         return;
     }
-    if let ([leaf], [place]) = (expression.leaves, &scratch.places[..]) {
-        let known = &scratch.known.spans()[*place as usize];
-        let negated = expression.is_negated();
+    if let ([leaf], &[SpanPlace { place, is_mesh, .. }]) = (expression.leaves, &scratch.places[..]) {
+        let spans = if is_mesh { scratch.meshes.spans() } else { scratch.known.spans() };
+        let (known, negated) = (&spans[place], expression.is_negated());
         simd.vectorize(
             #[inline(always)]
             || decide_single(simd, asked, some, known, leaf.primitive, negated, found),
@@ -94,18 +156,21 @@ pub fn first_of_expressions<S: Simd, T: Real>(
 /// The spans of an expression's leaves.
 struct Leaves<'a, T> {
     spans: &'a mut [CachedSpans<T>],
-    places: &'a [u32],
+    meshes: &'a mut [CachedSpans<T>],
+    places: &'a [SpanPlace],
 }
 
 impl<T> Leaves<'_, T> {
     #[inline(always)]
-    fn of(&self, leaf: usize) -> &CachedSpans<T> {
-        &self.spans[self.places[leaf] as usize]
+    fn of(&self, number: usize) -> &CachedSpans<T> {
+        let SpanPlace { place, is_mesh, .. } = self.places[number];
+        if is_mesh { &self.meshes[place] } else { &self.spans[place] }
     }
 
     #[inline(always)]
-    fn of_mut(&mut self, leaf: usize) -> &mut CachedSpans<T> {
-        &mut self.spans[self.places[leaf] as usize]
+    fn of_mut(&mut self, number: usize) -> &mut CachedSpans<T> {
+        let SpanPlace { place, is_mesh, .. } = self.places[number];
+        if is_mesh { &mut self.meshes[place] } else { &mut self.spans[place] }
     }
 }
 
@@ -120,8 +185,10 @@ fn decide<S: Simd, T: Real>(
 ) {
     let CsgQuery { departures, reach, .. } = *asked;
     let leaves = expression.leaves.len();
-    let PacketScratch { known, places, inside, flipped, before, behind } = scratch;
-    let mut sides = Leaves { spans: known.spans(), places };
+    let PacketScratch { known, meshes, places, inside, flipped, before, behind } = scratch;
+    let mut sides = Leaves { spans: known.spans(), meshes: meshes.spans(), places };
+    // Of an expression that is one primitive.
+    let negated = if expression.nodes.is_empty() && expression.is_negated() { u64::MAX } else { 0 };
     inside.clear();
     inside.resize(leaves, 0);
     flipped.resize(leaves, 0);
@@ -138,14 +205,18 @@ fn decide<S: Simd, T: Real>(
             }
         }
         open &= !done;
-        for leaf in 0..leaves {
-            let CachedSpans { enter, leave, .. } = sides.of_mut(leaf);
-            flipped[leaf] = (enter.crossing ^ leave.crossing) & open;
-            inside[leaf] ^= flipped[leaf];
+        flipped.fill(0);
+        for (number, &SpanPlace { leaf, .. }) in places.iter().enumerate() {
+            let CachedSpans { enter, leave, .. } = sides.of_mut(number);
+            flipped[leaf] ^= (enter.crossing ^ leave.crossing) & open;
             enter.ahead &= !enter.crossing;
             leave.ahead &= !leave.crossing;
         }
-        let value = |nodes: &[u64], inside: &[u64]| nodes.first().map_or_else(|| inside[0], |&root| root);
+        for leaf in 0..leaves {
+            inside[leaf] ^= flipped[leaf];
+        }
+        let value =
+            |nodes: &[u64], inside: &[u64]| nodes.first().map_or_else(|| inside[0] ^ negated, |&root| root);
         evaluate(expression, inside, behind);
         let now = value(behind, inside);
         // Of an expression that is one primitive, what is inside has just been toggled.
@@ -153,14 +224,20 @@ fn decide<S: Simd, T: Real>(
         let shown = changed & open & !early;
         if shown != 0 {
             let mut left = shown;
-            for leaf in 0..leaves {
-                let why = left & decides(expression, leaf, inside, flipped, before, behind);
-                if why != 0 {
+            let (mut last, mut why) = (usize::MAX, 0);
+            for (number, &SpanPlace { leaf, .. }) in places.iter().enumerate() {
+                if leaf != last {
+                    why = left & decides(expression, leaf, inside, flipped, before, behind);
                     left &= !why;
-                    let [enter, leave] = sides.of(leaf).sides();
-                    for (side, lanes) in [(enter, why & enter.crossing), (leave, why & !enter.crossing)] {
-                        take(simd, side, lanes, expression.leaves[leaf].primitive, found);
-                    }
+                    last = leaf;
+                }
+                if why == 0 {
+                    continue;
+                }
+                // The nearest of those that a ray crosses in this place.
+                for side in sides.of(number).sides() {
+                    take(simd, side, why & side.crossing, expression.leaves[leaf].primitive, found);
+                    why &= !side.crossing;
                 }
             }
             found.uncertain |= left;
@@ -187,8 +264,8 @@ fn next_place<S: Simd, T: Real>(
     let shift = row * T::LANES;
     let (infinite, zero) = (T::all(simd, f64::INFINITY), T::all(simd, 0.0));
     let (mut t, mut error, mut place_error, mut rounding_share) = (infinite, zero, zero, zero);
-    for leaf in 0..sides.places.len() {
-        let known = sides.of(leaf);
+    for number in 0..sides.places.len() {
+        let known = sides.of(number);
         for side in known.sides() {
             if !T::has_any(side.ahead, row) {
                 continue;
@@ -212,8 +289,8 @@ fn next_place<S: Simd, T: Real>(
     // The first itself reaches back to its place; mostly no other does.
     let none = T::mask_of(simd, 0, row);
     let (mut some, mut more) = (none, none);
-    for leaf in 0..sides.places.len() {
-        for side in sides.of_mut(leaf).sides_mut() {
+    for number in 0..sides.places.len() {
+        for side in sides.of_mut(number).sides_mut() {
             if !T::has_any(side.ahead, row) {
                 side.crossing &= !(T::REGISTER_BITS << shift);
                 continue;
@@ -265,8 +342,8 @@ fn one_place<S: Simd, T: Real>(
     let limit = t + error;
     // In the order of their distances the place ends before the first that does not reach back to it.
     let mut end = infinite;
-    for leaf in 0..sides.places.len() {
-        for side in sides.of(leaf).sides() {
+    for number in 0..sides.places.len() {
+        for side in sides.of(number).sides() {
             let their_t = side.t.load(simd, row);
             let apart =
                 T::mask_of(simd, side.ahead, row) & (their_t - side.error.load(simd, row)).is_above(limit);
@@ -274,8 +351,8 @@ fn one_place<S: Simd, T: Real>(
         }
     }
     let mut all_before = asking;
-    for leaf in 0..sides.places.len() {
-        let known = sides.of_mut(leaf);
+    for number in 0..sides.places.len() {
+        let known = sides.of_mut(number);
         let own = T::all(simd, known.place_error);
         for side in known.sides_mut() {
             if !T::has_any(side.crossing, row) {

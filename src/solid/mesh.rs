@@ -61,16 +61,25 @@ impl TriangleMesh {
 
     /// Every crossing of the line with the surface, in no order.
     pub fn crossings(&self, ray: &Ray, mut found: impl FnMut(End)) {
-        let across = RayShear::new(ray);
+        let crossed = self.crossed_by(ray);
         self.boxes.walk_line::<()>(ray, &mut |surface: u32, _: f64| {
-            let corners = self.corners(surface);
-            if across.meets_triangle(&corners) {
-                let anchor = nearest(ray, &corners);
-                let (t, error) = plane_crossing(ray, &corners, normal(&corners), anchor, self.place_error);
-                found(End { t, error, surface });
-            }
+            crossed(surface).into_iter().for_each(&mut found);
             ControlFlow::Continue(0.0)
         });
+    }
+
+    /// Where the line crosses a triangle, if it does.
+    #[inline]
+    pub(super) fn crossed_by<'a>(&'a self, ray: &'a Ray) -> impl Fn(u32) -> Option<End> + 'a {
+        let across = RayShear::new(ray);
+        move |surface| {
+            let corners = self.corners(surface);
+            across.meets_triangle(&corners).then(|| {
+                let anchor = nearest(ray, &corners);
+                let (t, error) = plane_crossing(ray, &corners, normal(&corners), anchor, self.place_error);
+                End { t, error, surface }
+            })
+        }
     }
 
     /// Sets where those of a packet's rays that cross any of its triangles, `found.any`, meet the planes of

@@ -7,13 +7,13 @@
 //! on, or at the ray's start. A ray's answer counts where one crossing is certain, and no other one, nor any
 //! doubt, lies so near before or behind it that both could be one place. All other rays are asked one by one.
 
-use fearless_simd::{Select, Simd, SimdBase, SimdMask, f32x16, u32x16};
+use fearless_simd::{Select, Simd, SimdBase, SimdMask, f32x16, mask32x16, u32x16};
 
-use crate::math::{DVec3, Lanes, PACKET, ROW, ROWS, RayPacket, row_of, splats};
+use crate::math::{DVec3, Lanes, PACKET, ROW, ROWS, RayPacket, lanes, row_of, splats};
 
 use super::csg_query::Departures;
-use super::mesh::TriangleMesh;
-use super::ray_shear::STEEP;
+use super::mesh_lists::MeshLists;
+use super::ray_shear::{ONE_PLACE, STEEP};
 
 /// Half an ulp of a number near 1, in single precision.
 const HALF_ULP: f64 = 1.0 / 16_777_216.0;
@@ -41,10 +41,6 @@ const LOST_OF_DISTANCE: f64 = 10.0 * HALF_ULP;
 /// The same as a share of how far starts lie from the first: 2 roundings, the product and three sums are 6,
 /// and one of the height; rounded up to 8.
 const LOST_OF_START: f64 = 8.0 * HALF_ULP;
-
-/// So many times its error may a crossing lie from another of the same place
-/// ([`super::crossing`]: slopes of one place differ by a factor of 256), and a little more.
-const ONE_PLACE: f64 = 300.0;
 
 /// A triangle lower than this share of its longest edge is never certain: its normal is mostly rounding.
 const FLAT: f64 = 1.0 / 65_536.0;
@@ -87,6 +83,38 @@ pub struct MeshPacket {
     lost: f64,
 }
 
+/// A triangle, for sixteen rays.
+struct SplatTriangle<S: Simd> {
+    /// A side is certain above this.
+    bound: f32x16<S>,
+    /// Which product of direction and normal is steep.
+    steep: f32x16<S>,
+    /// How high the plane lies over the base, by the normal.
+    height: f32x16<S>,
+    /// The normal's components added up.
+    area: f32x16<S>,
+    /// [`MeshPacket::lost`].
+    lost: f32x16<S>,
+    lost_of_plane: f32x16<S>,
+    moments: [[f32x16<S>; 3]; 3],
+    edges: [[f32x16<S>; 3]; 3],
+    normal: [f32x16<S>; 3],
+}
+
+/// How the rays of a row pass a triangle.
+struct TestedRow<S: Simd> {
+    /// Whose lines certainly pass through it.
+    inside: mask32x16<S>,
+    /// Which certainly cross it ahead of their starts.
+    hit: mask32x16<S>,
+    /// Which may cross it ahead of their starts, or not.
+    doubt: mask32x16<S>,
+    /// Which are steep enough for `t` to mean anything.
+    is_steep: mask32x16<S>,
+    t: f32x16<S>,
+    error: f32x16<S>,
+}
+
 /// What is certain of the rays of a packet, a bit for each.
 #[derive(Clone, Copy, Debug)]
 pub struct MeshAnswer {
@@ -111,6 +139,8 @@ pub struct MeshQuery<'a> {
     pub limits: &'a [f32; PACKET],
     /// How far any primitive may be off its place.
     pub place_error: f64,
+    /// How far one may be off whose surface may be one place with the mesh's.
+    pub neighbour_error: f64,
 }
 
 impl MeshPacket {
@@ -132,8 +162,9 @@ impl MeshPacket {
 
     /// Takes the rays of a packet. False where they are not all within the world: nothing can be said then.
     #[inline(always)]
-    pub fn set<S: Simd>(&mut self, simd: S, mesh: &TriangleMesh, query: &MeshQuery) -> bool {
-        let MeshQuery { packet, wanted, departures, primitive, limits, place_error } = *query;
+    pub fn set<S: Simd>(&mut self, simd: S, query: &MeshQuery) -> bool {
+        let MeshQuery { packet, wanted, departures, primitive, limits, place_error, neighbour_error } =
+            *query;
         let mut spread = 0.0_f64;
         for axis in 0..3 {
             let base = packet.o[axis].0[0];
@@ -154,7 +185,7 @@ impl MeshPacket {
             }
         }
         self.spread = spread;
-        self.lost = LOST_OF_START * spread + ONE_PLACE * mesh.place_error() + 4.0 * place_error;
+        self.lost = LOST_OF_START * spread + ONE_PLACE * neighbour_error + 4.0 * place_error;
         if spread > 0.0 {
             for row in 0..ROWS {
                 let (o, d) = (rows(simd, &self.o, row), rows(simd, &self.d, row));
@@ -199,9 +230,9 @@ impl MeshPacket {
         most.reduce_max()
     }
 
-    /// Intersects the rays with a triangle, whose box lies no nearer to any start than `near`.
+    /// What is the same of a triangle for all rays.
     #[inline(always)]
-    pub fn intersect<S: Simd>(&mut self, simd: S, [a, b, c]: [DVec3; 3], surface: u32, near: f32) {
+    fn broadcast<S: Simd>(&self, simd: S, [a, b, c]: [DVec3; 3]) -> SplatTriangle<S> {
         let (ab, bc, ca) = (b - a, c - b, a - c);
         let normal = ab.cross(c - a);
         let (a, b, c) = (a - self.base, b - self.base, c - self.base);
@@ -211,53 +242,68 @@ impl MeshPacket {
         let moment = larger(larger(one_norm(m_ab), one_norm(m_bc)), one_norm(m_ca));
         let bound =
             LOST_OF_MOMENT * moment + LOST_OF_EDGE * self.spread * longest + LOST_OF_SQUARE * far * far;
-        let bound = f32x16::splat(simd, bound as f32);
         let area = one_norm(normal);
         // Else never steep.
         let is_plain = area > FLAT * longest * longest && PLAIN_EDGES.contains(&longest);
         let steep = if is_plain { 2.0 * STEEP * area } else { f64::INFINITY };
-        let steep = f32x16::splat(simd, steep as f32);
-        let height = f32x16::splat(simd, a.dot(normal) as f32);
-        let area = f32x16::splat(simd, area as f32);
-        let lost = f32x16::splat(simd, self.lost as f32);
-        let lost_of_plane = f32x16::splat(simd, (LOST_OF_PLANE * longest) as f32);
-        let near = f32x16::splat(simd, near);
-        let moments = [splats(simd, m_ab), splats(simd, m_bc), splats(simd, m_ca)];
-        let edges = [splats(simd, ab), splats(simd, bc), splats(simd, ca)];
-        let normal = splats(simd, normal);
+        SplatTriangle {
+            bound: f32x16::splat(simd, bound as f32),
+            steep: f32x16::splat(simd, steep as f32),
+            height: f32x16::splat(simd, a.dot(normal) as f32),
+            area: f32x16::splat(simd, area as f32),
+            lost: f32x16::splat(simd, self.lost as f32),
+            lost_of_plane: f32x16::splat(simd, (LOST_OF_PLANE * longest) as f32),
+            moments: [splats(simd, m_ab), splats(simd, m_bc), splats(simd, m_ca)],
+            edges: [splats(simd, ab), splats(simd, bc), splats(simd, ca)],
+            normal: splats(simd, normal),
+        }
+    }
+
+    /// How the rays of a row pass a triangle; nothing where all certainly pass beside it.
+    #[inline(always)]
+    fn test<S: Simd>(&self, simd: S, of: &SplatTriangle<S>, row: usize) -> Option<TestedRow<S>> {
         let is_spread = self.spread > 0.0;
+        let d = rows(simd, &self.d, row);
+        let mut sides = [dot(&d, &of.moments[0]), dot(&d, &of.moments[1]), dot(&d, &of.moments[2])];
+        if is_spread {
+            let m = rows(simd, &self.moment, row);
+            sides[0] += dot(&m, &of.edges[0]);
+            sides[1] += dot(&m, &of.edges[1]);
+            sides[2] += dot(&m, &of.edges[2]);
+        }
+        let least = sides[0].min(sides[1]).min(sides[2]);
+        let most = sides[0].max(sides[1]).max(sides[2]);
+        let maybe = !(most.simd_gt(of.bound) & least.simd_lt(-of.bound));
+        if !maybe.any_true() {
+            return None;
+        }
+        let inside = maybe & (least.simd_gt(of.bound) | most.simd_lt(-of.bound));
+        let towards = dot(&d, &of.normal);
+        let inverse = f32x16::splat(simd, 1.0) / towards;
+        let mut height = of.height;
+        if is_spread {
+            height -= dot(&rows(simd, &self.o, row), &of.normal);
+        }
+        let t = height * inverse;
+        let share = f32x16::splat(simd, LOST_OF_DISTANCE as f32);
+        let error = inverse.abs() * of.area * (t.abs() * share + of.lost) + of.lost_of_plane;
+        let is_steep = towards.abs().simd_gt(of.steep);
+        let certain = is_steep & inside;
+        let hit = certain & t.simd_gt(error);
+        let doubt = maybe & !(hit | (certain & t.simd_lt(-error)));
+        Some(TestedRow { inside, hit, doubt, is_steep, t, error })
+    }
+
+    /// Intersects the rays with a triangle, whose box lies no nearer to any start than `near`.
+    #[inline(always)]
+    pub fn intersect<S: Simd>(&mut self, simd: S, corners: [DVec3; 3], surface: u32, near: f32) {
+        let triangle = self.broadcast(simd, corners);
+        let near = f32x16::splat(simd, near);
         for row in 0..ROWS {
-            let d = rows(simd, &self.d, row);
-            let mut sides = [dot(&d, &moments[0]), dot(&d, &moments[1]), dot(&d, &moments[2])];
-            if is_spread {
-                let m = rows(simd, &self.moment, row);
-                sides[0] += dot(&m, &edges[0]);
-                sides[1] += dot(&m, &edges[1]);
-                sides[2] += dot(&m, &edges[2]);
-            }
-            let least = sides[0].min(sides[1]).min(sides[2]);
-            let most = sides[0].max(sides[1]).max(sides[2]);
-            let maybe = !(most.simd_gt(bound) & least.simd_lt(-bound));
-            if !maybe.any_true() {
-                continue;
-            }
-            let inside = least.simd_gt(bound) | most.simd_lt(-bound);
-            let towards = dot(&d, &normal);
-            let inverse = f32x16::splat(simd, 1.0) / towards;
-            let mut height = height;
-            if is_spread {
-                height -= dot(&rows(simd, &self.o, row), &normal);
-            }
-            let t = height * inverse;
-            let share = f32x16::splat(simd, LOST_OF_DISTANCE as f32);
-            let error = inverse.abs() * area * (t.abs() * share + lost) + lost_of_plane;
-            let is_steep = towards.abs().simd_gt(steep);
-            let certain = is_steep & inside;
-            let mut hit = certain & t.simd_gt(error) & maybe;
-            let mut doubt = maybe & !(hit | (certain & t.simd_lt(-error)));
+            let Some(tested) = self.test(simd, &triangle, row) else { continue };
+            let TestedRow { mut hit, mut doubt, is_steep, t, error, .. } = tested;
             if self.any_leaves {
-                let leaves = u32x16::from_slice(simd, &self.leaves.0[row * ROW..][..ROW]);
-                let others = !leaves.simd_eq(u32x16::splat(simd, surface));
+                let others = !self.leaving(simd, surface, row);
                 (hit, doubt) = (hit & others, doubt & others);
             }
             let (best, best_error) = (row_of(simd, &self.t, row), row_of(simd, &self.error, row));
@@ -278,6 +324,50 @@ impl MeshPacket {
         }
     }
 
+    /// Adds a triangle that rays cross, within their limits, to `lists`; its box lies no nearer to any start
+    /// than `near`.
+    #[inline(always)]
+    pub fn list<S: Simd>(
+        &self,
+        simd: S,
+        corners: [DVec3; 3],
+        surface: u32,
+        near: f32,
+        lists: &mut MeshLists,
+    ) {
+        let triangle = self.broadcast(simd, corners);
+        let near = f32x16::splat(simd, near);
+        for row in 0..ROWS {
+            let Some(tested) = self.test(simd, &triangle, row) else { continue };
+            let TestedRow { inside, mut hit, mut doubt, is_steep, t, error } = tested;
+            if self.any_leaves {
+                let own = self.leaving(simd, surface, row);
+                lists.left |= (own & inside).to_bitmask() << (row * ROW);
+                (hit, doubt) = (hit & !own, doubt & !own);
+            }
+            let limit = row_of(simd, &self.t, row) + row_of(simd, &self.error, row);
+            let from = is_steep.select(t - error, near);
+            let matters = !from.simd_gt(limit);
+            let (hit, doubt) = ((hit & matters).to_bitmask(), (doubt & matters).to_bitmask());
+            for lane in lanes(hit) {
+                lists.push(row * ROW + lane, surface);
+            }
+            if doubt != 0 {
+                let from: [f32; ROW] = from.into();
+                for lane in lanes(doubt) {
+                    lists.doubt(row * ROW + lane, from[lane]);
+                }
+            }
+        }
+    }
+
+    /// Which rays of a row leave a triangle.
+    #[inline(always)]
+    fn leaving<S: Simd>(&self, simd: S, surface: u32, row: usize) -> mask32x16<S> {
+        let leaves = u32x16::from_slice(simd, &self.leaves.0[row * ROW..][..ROW]);
+        leaves.simd_eq(u32x16::splat(simd, surface))
+    }
+
     /// What was found.
     #[inline(always)]
     pub fn answer<S: Simd>(&self, simd: S) -> MeshAnswer {
@@ -293,6 +383,18 @@ impl MeshPacket {
             hits |= (asked & (apart | nothing) & !none).to_bitmask() << (row * ROW);
         }
         MeshAnswer { hits, uncertain }
+    }
+
+    /// How far one of the rays matters, and how far that may be off.
+    #[inline]
+    pub fn limit_of(&self, lane: usize) -> [f64; 2] {
+        [f64::from(self.t[lane]), f64::from(self.error[lane])]
+    }
+
+    /// Sets which triangle one of the rays crosses.
+    #[inline]
+    pub fn put(&mut self, lane: usize, surface: u32) {
+        self.surface.0[lane] = surface;
     }
 
     /// The triangles that rays with a hit cross.

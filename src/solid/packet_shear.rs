@@ -8,10 +8,7 @@ use fearless_simd::{Simd, SimdMask, f64x8, mask64x8};
 
 use crate::math::{Bounds, DVec3, LANES, Lanes, Mask, Number, REGISTERS, RayPacket};
 
-/// An area that is a difference of two products has the sign of its rounded value where that is larger than
-/// this share of their sum: three roundings of half an ulp (Ozaki et al.: Simple floating-point filters for
-/// the two-dimensional orientation problem, BIT 2016). The bound of the `robust` crate is no larger.
-const ROUNDED: f64 = 1.5 * f64::EPSILON;
+use super::ray_shear::ROUNDED;
 
 /// The planes across the rays of a packet: two axes of the world, sheared along each ray.
 #[derive(Clone, Debug)]

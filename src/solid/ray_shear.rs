@@ -11,6 +11,11 @@ use robust::{Coord, orient2d};
 
 use crate::math::{Bounds, DVec3, Number, Ray, Rays, Vector};
 
+/// An area that is a difference of two products has the sign of its rounded value where that is larger than
+/// this share of their sum: three roundings of half an ulp (Ozaki et al.: Simple floating-point filters for
+/// the two-dimensional orientation problem, BIT 2016). The bound of the `robust` crate is no larger.
+pub(super) const ROUNDED: f64 = 1.5 * f64::EPSILON;
+
 /// The plane across a ray: two axes of the world sheared along it.
 pub(super) struct RayShear<'a> {
     ray: &'a Ray,
@@ -33,17 +38,20 @@ impl<'a> RayShear<'a> {
     }
 
     /// The place of a point in the plane.
+    #[inline]
     fn place(&self, p: DVec3) -> Coord<f64> {
-        let q = p - self.ray.o;
+        let q = (p - self.ray.o).to_array();
         let along = q[self.axes[0]];
         Coord { x: q[self.axes[1]] - self.shear[0] * along, y: q[self.axes[2]] - self.shear[1] * along }
     }
 
     /// Whether the line passes through a triangle. One without area across the line is never passed through.
+    #[inline]
     pub fn meets_triangle(&self, corners: &[DVec3; 3]) -> bool {
-        let [a, b, c] = corners.map(|p| self.place(p));
-        let sides = [side(a, b), side(b, c), side(c, a)];
-        sides[0].is_some() && sides[0] == sides[1] && sides[1] == sides[2]
+        // Not by `map`, which is not inlined.
+        let [a, b, c] = [self.place(corners[0]), self.place(corners[1]), self.place(corners[2])];
+        let first = side(a, b);
+        first.is_some() && first == side(b, c) && first == side(c, a)
     }
 
     /// Whether the line is inside a stretch of an outline an odd number of times, counted by the edges from
@@ -93,7 +101,19 @@ fn is_right(p: Coord<f64>, q: Coord<f64>) -> bool {
 
 /// On which side of the directed edge the ray's point lies, itself moved by (ε, ε²); `None` for an edge of no
 /// length across the ray, whose triangle has no area there.
+#[inline]
 fn side(p: Coord<f64>, q: Coord<f64>) -> Option<bool> {
+    let (left, right) = (p.x * q.y, p.y * q.x);
+    let area = left - right;
+    if area.abs() > ROUNDED * (left.abs() + right.abs()) {
+        return Some(area > 0.0);
+    }
+    exact_side(p, q)
+}
+
+/// [`side`] where rounding could have made the sign.
+#[inline(never)]
+fn exact_side(p: Coord<f64>, q: Coord<f64>) -> Option<bool> {
     let area = orient2d(p, q, Coord { x: 0.0, y: 0.0 });
     if area != 0.0 {
         return Some(area > 0.0);
@@ -108,6 +128,10 @@ fn side(p: Coord<f64>, q: Coord<f64>) -> Option<bool> {
 /// The sine of the angle between a line and a plane above which their crossing is off by a thousand times a
 /// coordinate's error at most, and the corners of an outline can not say more.
 pub(super) const STEEP: f64 = 1e-3;
+
+/// So many times its error may a crossing lie from another of the same place
+/// ([`super::crossing`]: slopes of one place differ by a factor of 256), and a little more.
+pub(super) const ONE_PLACE: f64 = 300.0;
 
 /// Where lines meet a plane.
 pub(super) struct OnPlane<N> {

@@ -7,7 +7,7 @@ use crate::math::{Lanes, Mask, Number, RayPacket, Rays, Real};
 
 use super::csg_query::{CsgQuery, PacketRange};
 use super::primitive::WorldShape;
-use super::span::{Ends, Spans};
+use super::span::{End, Ends, Spans};
 
 /// Calls `$kernel($simd, $args…, spans)` with the spans of a convex form, compiled for each form by itself
 /// and for the SIMD width. Other forms have none.
@@ -81,8 +81,26 @@ impl<T: Real> SpanEnds<T> {
     }
 }
 
+impl CachedSpans<f64> {
+    /// Forgets all rays, for a primitive that may be off its place by as much.
+    pub fn reset(&mut self, place_error: f64) {
+        (self.any, self.place_error, self.rounding_share) = (0, place_error, 1.0);
+    }
+
+    /// Sets the span of one ray.
+    #[inline]
+    pub fn put(&mut self, lane: usize, enter: End, leave: End) {
+        self.any |= 1 << lane;
+        for (side, end) in [(&mut self.enter, enter), (&mut self.leave, leave)] {
+            side.t.0[lane] = end.t;
+            side.error.0[lane] = end.error;
+            side.surface.0[lane] = f64::from(end.surface);
+        }
+    }
+}
+
 impl<T: Real> CachedSpans<T> {
-    const NONE: Self = Self {
+    pub const NONE: Self = Self {
         known: 0,
         place_error: 0.0,
         rounding_share: 0.0,
@@ -107,7 +125,7 @@ impl<T: Real> CachedSpans<T> {
     /// Looks ahead at the spans of some rays that can matter within `reach`. Far outside it only the state
     /// inside it matters: none for a span that ends before it or starts behind it.
     #[inline(always)]
-    fn look<S: Simd>(&mut self, simd: S, wanted: u64, reach: &PacketRange<T>) -> u64 {
+    pub fn look<S: Simd>(&mut self, simd: S, wanted: u64, reach: &PacketRange<T>) -> u64 {
         let mut ahead = 0;
         let rays = wanted & self.any;
         for register in 0..T::REGISTERS {

@@ -13,6 +13,13 @@ pub struct Nasty {
     pub dots: u32,
 }
 
+/// The middle of a mesh, and how long it is along its longest axis.
+#[derive(Clone, Copy, Debug)]
+pub struct Extent {
+    pub middle: DVec3,
+    pub size: f64,
+}
+
 /// A box whose sides are grids of `n` × `n` squares, each of two triangles in one plane with its neighbours.
 fn grid_box(n: u32, half: DVec3, center: DVec3) -> Mesh {
     let mut mesh = Mesh { points: Vec::new(), triangles: Vec::new() };
@@ -162,12 +169,18 @@ impl Nasty {
         }
     }
 
+    /// Where its triangles are.
+    pub fn extent(&self) -> Extent {
+        let points = &self.mesh.points;
+        let used = self.mesh.triangles.iter().flatten().map(|&i| points[i as usize]);
+        let (lo, hi) = used.fold((points[0], points[0]), |(lo, hi), p| (lo.min(p), hi.max(p)));
+        Extent { middle: 0.5 * lo + 0.5 * hi, size: (hi - lo).max_element() }
+    }
+
     /// Looks from outside at the middle and at a corner, from inside, and along an edge and a face.
     pub fn cameras(&self) -> Vec<Camera> {
         let (points, triangles) = (&self.mesh.points, &self.mesh.triangles);
-        let used = || triangles.iter().flatten().map(|&i| points[i as usize]);
-        let (lo, hi) = used().fold((points[0], points[0]), |(lo, hi), p| (lo.min(p), hi.max(p)));
-        let (middle, size) = (0.5 * lo + 0.5 * hi, (hi - lo).max_element());
+        let Extent { middle, size } = self.extent();
         let [a, b, c] = triangles[triangles.len() / 3].map(|i| points[i as usize]);
         let out = middle + DVec3::new(2.1, -1.7, 1.3) * size;
         let pairs = [

@@ -65,7 +65,8 @@ pub fn compare(studio: &Studio, oracle: &Oracle, camera: &Camera, dots: Size) ->
     comparison
 }
 
-fn agrees(depth: f64, object: u32, normal: DVec3, expected: Option<Hit>) -> bool {
+/// Whether a dot shows what is expected.
+pub fn agrees(depth: f64, object: u32, normal: DVec3, expected: Option<Hit>) -> bool {
     match expected {
         None => depth == f64::INFINITY && object == 0 && normal == DVec3::ZERO,
         Some(hit) => {

@@ -61,6 +61,7 @@ impl Fast<'_> {
         memory.frusta.set(simd, &memory.frustums);
         memory.cullers.iter_mut().for_each(PacketCuller::forget);
         memory.forget_tile();
+        memory.ends_at_light = true;
         let mut visitor =
             BlockedVisitor { fast: self, shadow_packets, departures, lamp, open, budget, given_up: 0 };
         walk_tile(simd, self.boxes, &whole, self.slack, &mut visitor, memory);

@@ -35,6 +35,8 @@ pub(super) struct CellsTest<'a, S, T> {
     pub cells: &'a CsgCells,
     /// The packet's number in the tile.
     pub k: usize,
+    /// Which of its rays may meet the object, a bit for each.
+    pub asked: u64,
     /// What lies nearer was looked at; what lies farther away does not matter.
     pub start: f64,
     pub farthest: f64,
@@ -208,6 +210,9 @@ impl<S: Simd, T: Precision> CellsTest<'_, S, T> {
         memory: &mut TileMemory,
     ) -> (u64, u64) {
         let simd = self.simd;
+        if T::IS_DOUBLE {
+            self.fast.know_meshes(simd, expression, source.full(), (self.k, self.asked), memory);
+        }
         let PrecisionScratch { csg, found, cells, .. } = U::scratch(memory);
         let (packet, b, start) = (source.rays, self.cells.bounds(cell), self.start);
         let wanted = simd.vectorize(

@@ -34,6 +34,9 @@ pub(super) struct CompositeTest<'a, S, T, H> {
     pub simd: S,
     pub source: PacketSource<'a, T>,
     pub object: u32,
+    /// The packet's number in the tile, and which of its rays may meet the object, a bit for each.
+    pub k: usize,
+    pub asked: u64,
     pub whole: Option<Whole<'a>>,
     /// The rays that have not met the object yet, a bit for each.
     pub open: u64,
@@ -95,7 +98,6 @@ impl<S: Simd, T: Precision, H: HitSink<T>> CompositeTest<'_, S, T, H> {
         let reach = TRange { from: from - slack, to: to + slack };
         let mut uncertain = self.evaluate_in(self.source, self.open, expression, reach, memory);
         if uncertain != 0 && !T::IS_DOUBLE {
-            f64::scratch(memory).csg.start();
             uncertain = self.evaluate_in(self.source.full(), uncertain, expression, reach, memory);
         }
         self.sink.mark_uncertain(uncertain);
@@ -113,6 +115,10 @@ impl<S: Simd, T: Precision, H: HitSink<T>> CompositeTest<'_, S, T, H> {
     ) -> u64 {
         memory.counts.primitive_tests += expression.leaves.len() as u64;
         memory.counts.csg_evaluations += 1;
+        // Of rays in single precision the exact engine says what they meet of meshes.
+        if T::IS_DOUBLE {
+            self.fast.know_meshes(self.simd, expression, source.full(), (self.k, self.asked), memory);
+        }
         let PacketSource { rays: packet, departures, .. } = source;
         let PrecisionScratch { csg, found, reach: part, .. } = U::scratch(memory);
         part.fill(reach);

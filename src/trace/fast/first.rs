@@ -32,6 +32,7 @@ impl Fast<'_> {
         let whole = sources.whole(simd);
         let are_made_late = matches!(sources, PacketSources::Primary { .. });
         memory.forget_tile();
+        memory.ends_at_light = false;
         memory.far.clear();
         for (k, found) in traced.nearest.iter_mut().enumerate() {
             memory.far.push(if sources.is_blind(k) { f64::NEG_INFINITY } else { f64::INFINITY });

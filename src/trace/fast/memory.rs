@@ -3,7 +3,7 @@
 use crate::lattice::{FRUSTA, Frustum, FrustumSoa};
 use crate::math::{RayPacket, Real};
 use crate::solid::{
-    MeshPacket, PacketCrossings, PacketRange, PacketScratch, PacketShear, PrunedExpr, Pruning,
+    MeshLists, MeshPacket, PacketCrossings, PacketRange, PacketScratch, PacketShear, PrunedExpr, Pruning,
 };
 use crate::stage::Counts;
 
@@ -41,6 +41,13 @@ pub struct TileMemory {
     /// The rays that are intersected with a mesh, and its nodes to be walked.
     pub(super) mesh: Box<MeshPacket>,
     pub(super) mesh_stack: Vec<MeshItem>,
+    /// What they cross of a mesh that is an operand.
+    pub(super) mesh_lists: Box<MeshLists>,
+    /// Whether the frustums end at a light.
+    pub(super) ends_at_light: bool,
+    /// The meshes of the tile that have too many triangles for packets, by their indices among the
+    /// primitives: rays are asked one by one.
+    pub(super) mesh_by_rays: Vec<u32>,
     /// Where rays to a mesh started last, if that is known.
     pub(super) mesh_start: Option<KnownStart>,
     /// What rays meet of one object.
@@ -107,6 +114,7 @@ impl TileMemory {
     /// Forgets the planes across the rays of the last tile, and which objects were walked by cells.
     pub(super) fn forget_tile(&mut self) {
         self.in_cells.clear();
+        self.mesh_by_rays.clear();
         self.mesh_start = None;
         self.sheared.iter_mut().for_each(PacketShear::forget);
     }
@@ -130,6 +138,9 @@ impl Default for TileMemory {
             in_cells: Vec::new(),
             mesh: Box::new(MeshPacket::EMPTY),
             mesh_stack: Vec::new(),
+            mesh_lists: Box::new(MeshLists::EMPTY),
+            ends_at_light: false,
+            mesh_by_rays: Vec::new(),
             mesh_start: None,
             met: Box::default(),
             pruning: Pruning::default(),

@@ -3,16 +3,23 @@
 
 use fearless_simd::Simd;
 
-use crate::math::{DVec3, Lanes, Ray, lanes};
-use crate::solid::{MeshAnswer, MeshQuery};
+use crate::math::{DVec3, Lanes, PACKET, Ray, lanes};
+use crate::solid::{AheadQuery, ExprView, FirstAhead, Leaf, MeshAnswer, MeshLearning, MeshQuery, WorldShape};
 
 use super::Fast;
 use super::memory::TileMemory;
-use super::mesh_walk::{KnownStart, MeshObject, walk_mesh};
+use super::mesh_walk::{KnownStart, MeshLister, MeshObject, TRIANGLES_PER_RAY, walk_mesh};
 use super::object::PacketTest;
+use super::packet_culler::Slabs;
 use super::precision::Precision;
 use super::sink::{HitSink, offer_crossings};
 use super::source::PacketSource;
+
+/// What is seen is no farther than this from the origin along each axis, with room for rounding.
+const WITHIN: f64 = 2.01;
+
+/// From so many rays of a packet is told how the other packets of a tile fare with a mesh.
+const MANY_RAYS: u32 = 32;
 
 impl Fast<'_> {
     /// What a packet's rays cross first of a mesh. Answers whether any ray may have met it.
@@ -59,29 +66,186 @@ impl Fast<'_> {
         wanted: u64,
         memory: &mut TileMemory,
     ) -> MeshAnswer {
-        let TileMemory { mesh: rays, mesh_stack, frustums, cullers, counts, .. } = memory;
         let nothing_known = MeshAnswer { hits: 0, uncertain: wanted };
-        let Some(Some(frustum)) = frustums.get(k) else { return nothing_known };
-        simd.vectorize(
+        let limits = memory.cullers[k].limits();
+        let query = self.mesh_query(of, source, wanted, &limits, of.mesh.place_error());
+        let is_set = simd.vectorize(
             #[inline(always)]
-            || {
-                let query = MeshQuery {
-                    packet: source.rays,
-                    wanted,
-                    departures: source.departures,
-                    primitive: of.primitive,
-                    limits: &cullers[k].limits(),
-                    place_error: self.assembly.place_error,
-                };
-                if !rays.set(simd, of.mesh, &query) {
-                    return nothing_known;
+            || memory.mesh.set(simd, &query),
+        );
+        if !is_set {
+            return nothing_known;
+        }
+        let TileMemory { mesh: rays, mesh_stack, frustums, counts, mesh_by_rays, .. } = memory;
+        let Some(Some(frustum)) = frustums.get(k) else { return nothing_known };
+        if !mesh_by_rays.contains(&of.primitive) {
+            let budget = TRIANGLES_PER_RAY * u64::from(wanted.count_ones());
+            let [nodes, triangles] = simd.vectorize(
+                #[inline(always)]
+                || walk_mesh(simd, of.mesh, frustum, &mut **rays, mesh_stack, budget),
+            );
+            counts.cells_visited += nodes;
+            counts.primitive_tests += triangles;
+            if triangles <= budget {
+                return simd.vectorize(
+                    #[inline(always)]
+                    || rays.answer(simd),
+                );
+            }
+            if wanted.count_ones() >= MANY_RAYS {
+                mesh_by_rays.push(of.primitive);
+            }
+            simd.vectorize(
+                #[inline(always)]
+                || rays.set(simd, &query),
+            );
+        }
+        let mut answer = MeshAnswer { hits: 0, uncertain: 0 };
+        for lane in lanes(wanted) {
+            let asked = ahead_query(&query, lane, rays.limit_of(lane));
+            match of.mesh.first_ahead(&source.rays.ray(lane), &asked) {
+                FirstAhead::Nothing => {}
+                FirstAhead::Triangle(surface) => {
+                    rays.put(lane, surface);
+                    answer.hits |= 1 << lane;
                 }
-                let [nodes, triangles] = walk_mesh(simd, of.mesh, frustum, rays, mesh_stack);
-                counts.cells_visited += nodes;
-                counts.primitive_tests += triangles;
-                rays.answer(simd)
-            },
-        )
+                FirstAhead::Uncertain => answer.uncertain |= 1 << lane,
+            }
+        }
+        counts.primitive_tests += u64::from(wanted.count_ones());
+        answer
+    }
+
+    /// Computes the spans of a packet's rays in the meshes of an expression, where they are not known yet.
+    pub(super) fn know_meshes<S: Simd>(
+        &self,
+        simd: S,
+        expression: ExprView,
+        source: PacketSource,
+        (k, wanted): (usize, u64),
+        memory: &mut TileMemory,
+    ) {
+        let is_unknown = |leaf: &Leaf, memory: &TileMemory| {
+            matches!(self.assembly.primitives[leaf.primitive as usize].form, WorldShape::Mesh(_))
+                && !memory.doubles.csg.knows_mesh(leaf.primitive)
+        };
+        if expression.leaves.iter().any(|leaf| is_unknown(leaf, memory)) {
+            memory.doubles.csg.make_room_for_meshes(expression.leaves.len());
+        }
+        for leaf in expression.leaves {
+            if is_unknown(leaf, memory)
+                && let WorldShape::Mesh(mesh) = &self.assembly.primitives[leaf.primitive as usize].form
+            {
+                let of = MeshObject { object: 0, primitive: leaf.primitive, mesh };
+                self.know_mesh(simd, &of, source, (k, wanted), memory);
+            }
+        }
+    }
+
+    fn know_mesh<S: Simd>(
+        &self,
+        simd: S,
+        of: &MeshObject,
+        source: PacketSource,
+        (k, wanted): (usize, u64),
+        memory: &mut TileMemory,
+    ) {
+        let PacketSource { rays: packet, departures, .. } = source;
+        let mut limits = memory.cullers[k].limits();
+        let b = of.mesh.bounds().padded(DVec3::splat(self.slack));
+        let culler = &memory.cullers[k];
+        let wanted = simd.vectorize(
+            #[inline(always)]
+            || culler.passing(simd, &Slabs::around(simd, b.lo, b.hi, 0.0), wanted),
+        );
+        let (mut boxed, mut complete) = (0, 0);
+        for lane in lanes(wanted) {
+            let ray: Ray = packet.ray(lane);
+            if !b.contains(ray.o) {
+                continue;
+            }
+            boxed |= 1 << lane;
+            if !memory.ends_at_light {
+                limits[lane] = f32::INFINITY;
+            }
+            let limit = f64::from(limits[lane]);
+            complete |= u64::from(limit == f64::INFINITY || !b.contains(ray.at(limit))) << lane;
+        }
+        let query = self.mesh_query(of, source, wanted, &limits, self.assembly.place_error);
+        let TileMemory {
+            mesh: rays,
+            mesh_lists: lists,
+            mesh_stack,
+            frustums,
+            counts,
+            doubles,
+            mesh_by_rays,
+            ..
+        } = memory;
+        let is_set = simd.vectorize(
+            #[inline(always)]
+            || rays.set(simd, &query),
+        );
+        let Some(Some(frustum)) = frustums.get(k).filter(|_| is_set) else { return };
+        lists.clear();
+        // A cutter may reach out of the world, which frustums end with.
+        let is_within = b.farthest().max_element() <= WITHIN;
+        let mut by_rays = !is_within || mesh_by_rays.contains(&of.primitive);
+        if !by_rays {
+            let budget = TRIANGLES_PER_RAY * u64::from(wanted.count_ones());
+            let lister = &mut MeshLister { rays, lists };
+            let [nodes, triangles] = simd.vectorize(
+                #[inline(always)]
+                || walk_mesh(simd, of.mesh, frustum, lister, mesh_stack, budget),
+            );
+            counts.cells_visited += nodes;
+            counts.primitive_tests += triangles;
+            by_rays = triangles > budget;
+            if by_rays {
+                lists.clear();
+                if wanted.count_ones() >= MANY_RAYS {
+                    mesh_by_rays.push(of.primitive);
+                }
+            }
+        }
+        if by_rays {
+            for lane in lanes(wanted) {
+                let asked = ahead_query(&query, lane, rays.limit_of(lane));
+                lists.list_ray(lane, of.mesh, &packet.ray(lane), &asked);
+            }
+            counts.primitive_tests += u64::from(wanted.count_ones());
+        }
+        let learning = MeshLearning {
+            mesh: of.mesh,
+            primitive: of.primitive,
+            packet,
+            departures,
+            wanted,
+            boxed,
+            complete,
+        };
+        doubles.csg.learn_mesh(simd, &learning, lists);
+    }
+
+    /// What some rays of a packet ask of a mesh; whose surface may be one place with the mesh's is off its
+    /// place by `neighbour_error` at most.
+    fn mesh_query<'q>(
+        &self,
+        of: &MeshObject,
+        source: PacketSource<'q>,
+        wanted: u64,
+        limits: &'q [f32; PACKET],
+        neighbour_error: f64,
+    ) -> MeshQuery<'q> {
+        MeshQuery {
+            packet: source.rays,
+            wanted,
+            departures: source.departures,
+            primitive: of.primitive,
+            limits,
+            place_error: self.assembly.place_error,
+            neighbour_error,
+        }
     }
 
     /// Whether a ray goes into a mesh where it first crosses it, at `t`: whether it starts outside. `start`
@@ -106,4 +270,10 @@ impl Fast<'_> {
         }
         !inside
     }
+}
+
+/// What one ray of a packet asks of a mesh.
+fn ahead_query(query: &MeshQuery, lane: usize, limit: [f64; 2]) -> AheadQuery {
+    let own = query.departures.filter(|all| all.primitive.0[lane] == query.primitive);
+    AheadQuery { leaves: own.map(|all| all.surface.0[lane]), limit, neighbour_error: query.place_error }
 }

@@ -6,7 +6,7 @@ use fearless_simd::Simd;
 use crate::bvh::{BvhChild, WIDE};
 use crate::lattice::Frustum;
 use crate::math::DVec3;
-use crate::solid::{MeshPacket, TriangleMesh};
+use crate::solid::{MeshLists, MeshPacket, TriangleMesh};
 
 /// A node of a mesh that is to be walked.
 #[derive(Clone, Copy, Debug)]
@@ -33,14 +33,59 @@ pub(super) struct KnownStart {
     pub inside: bool,
 }
 
-/// Walks the boxes of a mesh with a packet's frustum. Answers how many nodes and triangles were looked at.
+/// What a walk through a mesh does with the triangles that it meets.
+pub(super) trait MeshVisitor<S: Simd> {
+    /// Intersects the packet's rays with a triangle, whose box lies no nearer to any start than `near`.
+    fn visit(&mut self, simd: S, corners: [DVec3; 3], surface: u32, near: f32);
+
+    /// How far any of the rays still matters.
+    fn farthest(&self, simd: S) -> f32;
+}
+
+/// The nearest crossings.
+impl<S: Simd> MeshVisitor<S> for MeshPacket {
+    #[inline(always)]
+    fn visit(&mut self, simd: S, corners: [DVec3; 3], surface: u32, near: f32) {
+        self.intersect(simd, corners, surface, near);
+    }
+
+    #[inline(always)]
+    fn farthest(&self, simd: S) -> f32 {
+        Self::farthest(self, simd)
+    }
+}
+
+/// All crossings within the rays' limits.
+pub(super) struct MeshLister<'a> {
+    pub rays: &'a MeshPacket,
+    pub lists: &'a mut MeshLists,
+}
+
+impl<S: Simd> MeshVisitor<S> for MeshLister<'_> {
+    #[inline(always)]
+    fn visit(&mut self, simd: S, corners: [DVec3; 3], surface: u32, near: f32) {
+        self.rays.list(simd, corners, surface, near, self.lists);
+    }
+
+    #[inline(always)]
+    fn farthest(&self, simd: S) -> f32 {
+        self.rays.farthest(simd)
+    }
+}
+
+/// More triangles than this for each of a packet's rays take longer than the rays do one by one.
+pub(super) const TRIANGLES_PER_RAY: u64 = 8;
+
+/// Walks the boxes of a mesh with a packet's frustum, until more than `budget` triangles were looked at.
+/// Answers how many nodes and triangles were.
 #[inline(always)]
 pub(super) fn walk_mesh<S: Simd>(
     simd: S,
     mesh: &TriangleMesh,
     frustum: &Frustum,
-    rays: &mut MeshPacket,
+    rays: &mut impl MeshVisitor<S>,
     stack: &mut Vec<MeshItem>,
+    budget: u64,
 ) -> [u64; 2] {
     let nodes = mesh.boxes().nodes();
     let (mut visited, mut tested) = (0, 0);
@@ -50,6 +95,9 @@ pub(super) fn walk_mesh<S: Simd>(
     while let Some(MeshItem { near, node }) = stack.pop() {
         if near > farthest {
             continue;
+        }
+        if tested > budget {
+            break;
         }
         visited += 1;
         let node = &nodes[node as usize];
@@ -64,7 +112,7 @@ pub(super) fn walk_mesh<S: Simd>(
             let Some(BvhChild::Object(surface)) = node.child(slot) else { continue };
             if near[slot] <= farthest {
                 tested += 1;
-                rays.intersect(simd, mesh.corners(surface), surface, near[slot]);
+                rays.visit(simd, mesh.corners(surface), surface, near[slot]);
             }
         }
         if some {

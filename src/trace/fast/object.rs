@@ -103,7 +103,8 @@ impl Fast<'_> {
                 if cells.is_none() || !memory.in_cells.contains(&object) {
                     let slack = self.slack_of::<T>();
                     let (from, to) = box_range(simd, &memory.cullers[k], &own.bounds, slack, passing);
-                    T::scratch(memory).csg.start();
+                    memory.doubles.csg.start();
+                    memory.singles.csg.start();
                     let expression = ExprView::from(&**whole);
                     let loose = cells.map(|cells| (cells.loose(), expression));
                     let mut composite = CompositeTest {
@@ -111,6 +112,8 @@ impl Fast<'_> {
                         simd,
                         source,
                         object,
+                        k,
+                        asked: passing,
                         whole: loose,
                         open,
                         work: 0,
@@ -132,6 +135,7 @@ impl Fast<'_> {
                         object,
                         cells,
                         k,
+                        asked: passing,
                         start,
                         farthest,
                         open,

@@ -7,6 +7,7 @@
 //! exponents of any size for scales and ratios at the ends of f64. The scene's and the ray's own f64 are
 //! taken as exact.
 
+mod ball;
 mod big;
 mod chord;
 mod number;
@@ -24,6 +25,7 @@ pub use chord::{Chord, Verdict, chord, point_at, silhouette, verdict};
 pub use number::Number;
 pub use wide::Wide;
 
+use ball::Ball;
 use number::unit;
 use open::Open;
 use side::{Row, Side, along, direction, point, sides};
@@ -61,8 +63,7 @@ struct Piece<N> {
     object: usize,
     surface: Surface<N>,
     /// A ball around it.
-    center: DVec3,
-    radius: f64,
+    ball: Ball,
     /// How far rounding may have moved it.
     map_error: f64,
 }
@@ -129,8 +130,11 @@ impl<'a, N: Number> Oracle<'a, N> {
         let ray = Ray { o: &o, d: &d, origin: origin / self.unit, toward };
         let opens = self.pieces.iter().enumerate().filter_map(|(index, piece)| {
             let Surface::Open(open) = &piece.surface else { return None };
-            let (t, plane, normal) =
-                if piece.may_meet(&ray) { open.first(&o, &d, toward)? } else { return None };
+            let (t, plane, normal) = if piece.ball.may_meet(ray.origin, toward.normalize()) {
+                open.first(&o, &d, toward)?
+            } else {
+                return None;
+            };
             let slack = self.slack(piece, plane, toward);
             let hit = Hit {
                 t: t.value(),
@@ -156,7 +160,7 @@ impl<'a, N: Number> Oracle<'a, N> {
         let length = toward.length();
         let off = self.tolerance * piece.map_error;
         let sine = (normal.dot(toward) / length).abs();
-        (off / sine.max(f64::MIN_POSITIVE)).min(2.0 * piece.radius) / length
+        (off / sine.max(f64::MIN_POSITIVE)).min(2.0 * piece.ball.radius) / length
     }
 
     /// The first point in front of the origin where the ray enters or leaves an object that is a solid. From
@@ -165,7 +169,7 @@ impl<'a, N: Number> Oracle<'a, N> {
     fn solid_hit(&self, ray: &Ray<N>) -> Option<(N, f64, Hit)> {
         let mut crossings = Vec::new();
         for (index, piece) in self.pieces.iter().enumerate() {
-            if piece.may_meet(ray) {
+            if piece.ball.may_meet(ray.origin, ray.toward.normalize()) {
                 piece.crossings(ray, |t, outward| {
                     let slack = self.slack(piece, outward, ray.toward);
                     crossings.push(Crossing { t, piece: index, outward, slack });
@@ -281,18 +285,8 @@ impl<N: Number> Piece<N> {
             convex => Surface::Convex(sides(convex, &map)),
         };
         let corners = primitive.shape.bounds().corners().map(|corner| map.transform_point3(corner));
-        let center = corners.iter().fold(DVec3::ZERO, |sum, &p| sum + p / 8.0);
-        let radius = corners.iter().map(|p| p.distance(center)).fold(0.0, f64::max);
-        Self { object, surface, center, radius, map_error: primitive.map_error().length() / unit }
-    }
-
-    /// Whether a ray comes near the ball; a hundredth of its radius, and what rounding takes from the way
-    /// there, are far more than any rounding.
-    fn may_meet(&self, ray: &Ray<N>) -> bool {
-        let d = ray.toward.normalize();
-        let to = self.center - ray.origin;
-        let near = self.radius * 1.01 + 8.0 * f64::EPSILON * (self.center.length() + ray.origin.length());
-        to.cross(d).length() <= near && to.dot(d) >= -near
+        let ball = Ball::around(&corners);
+        Self { object, surface, ball, map_error: primitive.map_error().length() / unit }
     }
 
     fn contains(&self, p: &Row<N>) -> bool {
@@ -300,8 +294,10 @@ impl<N: Number> Piece<N> {
             Surface::Convex(sides) => sides.iter().all(|side| side.at(p).sign() <= 0),
             Surface::Parity(triangles) => {
                 // Any direction will do; this one is along no axis or diagonal of a model.
-                let d = direction(DVec3::new(0.537_651_3, 0.831_874_9, 0.137_229_1));
-                let in_front = triangles.iter().filter_map(|t| t.crossing(p, &d)).filter(|t| t.sign() > 0);
+                let toward = DVec3::new(0.537_651_3, 0.831_874_9, 0.137_229_1).normalize();
+                let (from, d) = (DVec3::from_array(std::array::from_fn(|i| p[i].value())), direction(toward));
+                let near = triangles.iter().filter(|t| t.ball.may_meet(from, toward));
+                let in_front = near.filter_map(|t| t.crossing(p, &d)).filter(|t| t.sign() > 0);
                 in_front.count() % 2 == 1
             }
             Surface::Open(_) => false,
@@ -323,7 +319,8 @@ impl<N: Number> Piece<N> {
                 }
             }
             Surface::Parity(triangles) => {
-                for triangle in triangles {
+                let toward = ray.toward.normalize();
+                for triangle in triangles.iter().filter(|t| t.ball.may_meet(ray.origin, toward)) {
                     if let Some(t) = triangle.crossing(ray.o, ray.d).filter(|t| t.sign() > 0) {
                         add(t, triangle.unit_normal());
                     }

@@ -3,6 +3,7 @@
 use ray13::math::{DAffine3, DVec3};
 use ray13::scene::Mesh;
 
+use super::ball::Ball;
 use super::number::{Number, cross, dot, unit};
 use super::side::{Row, mapped, place};
 
@@ -10,6 +11,8 @@ use super::side::{Row, mapped, place};
 #[derive(Clone, Debug)]
 pub struct Triangle<N> {
     corners: [[N; 3]; 3],
+    /// A ball around it.
+    pub ball: Ball,
 }
 
 fn minus<N: Number>(a: &[N; 3], b: &[N; 3]) -> [N; 3] {
@@ -20,7 +23,7 @@ impl<N: Number> Triangle<N> {
     /// All triangles of a mesh, moved by its map.
     pub fn of(mesh: &Mesh, map: &DAffine3) -> Vec<Self> {
         let corner = |i: u32| place(&mapped(map, mesh.points[i as usize]));
-        mesh.triangles.iter().map(|t| Self { corners: t.map(corner) }).collect()
+        mesh.triangles.iter().map(|t| Self::new(t.map(corner))).collect()
     }
 
     /// A polygon as a frusta of triangles: a point is inside it if it is inside an odd number of them.
@@ -29,8 +32,13 @@ impl<N: Number> Triangle<N> {
         let apex = &corners[0];
         corners[1..]
             .windows(2)
-            .map(|edge| Self { corners: [apex.clone(), edge[0].clone(), edge[1].clone()] })
+            .map(|edge| Self::new([apex.clone(), edge[0].clone(), edge[1].clone()]))
             .collect()
+    }
+
+    fn new(corners: [[N; 3]; 3]) -> Self {
+        let ball = Ball::around(&corners.clone().map(|p| DVec3::from_array(p.map(|x| x.value()))));
+        Self { corners, ball }
     }
 
     /// The shares of the three corners in a point of the triangle, by areas.

@@ -1,0 +1,107 @@
+//! One ray of a packet against a mesh, where triangles are so small that a packet has too many of them
+//! between its rays: the triangles ahead of its start, the nearest first, by the exact predicate.
+
+use std::ops::ControlFlow;
+
+use crate::math::Ray;
+
+use super::mesh::TriangleMesh;
+use super::ray_shear::{ONE_PLACE, STEEP};
+use super::span::End;
+
+/// What one ray crosses first of a mesh.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FirstAhead {
+    /// Certainly nothing.
+    Nothing,
+    /// This triangle, which is in one place with no other.
+    Triangle(u32),
+    /// What the exact engine says.
+    Uncertain,
+}
+
+/// What a ray asks of a mesh.
+#[derive(Clone, Copy, Debug)]
+pub struct AheadQuery {
+    /// The triangle that it leaves.
+    pub leaves: Option<u32>,
+    /// How far it matters, and how far that may be off.
+    pub limit: [f64; 2],
+    /// How far any primitive may be off its place whose surface may be one place with the mesh's, or with the
+    /// ray's start.
+    pub neighbour_error: f64,
+}
+
+impl AheadQuery {
+    /// How many times its error a crossing may lie from what is one place with it, or with the start.
+    fn room(&self, mesh: &TriangleMesh) -> f64 {
+        (ONE_PLACE + 4.0) * self.neighbour_error / mesh.place_error()
+    }
+
+    /// Where a walk has to begin.
+    fn from(&self) -> f64 {
+        -(ONE_PLACE + 4.0) * self.neighbour_error / STEEP
+    }
+}
+
+impl TriangleMesh {
+    /// What a ray crosses first.
+    pub fn first_ahead(&self, ray: &Ray, asked: &AheadQuery) -> FirstAhead {
+        let ([limit, limit_error], room) = (asked.limit, asked.room(self));
+        let mut first: Option<(End, f64)> = None;
+        let mut second = limit - limit_error;
+        let crossed = self.crossed_by(ray);
+        let end = self.boxes().walk(ray, asked.from(), limit + limit_error, &mut |surface: u32, _: f64| {
+            let to = |first: Option<(End, f64)>| first.map_or(limit + limit_error, |(end, own)| end.t + own);
+            let Some(end) = crossed(surface).filter(|_| asked.leaves != Some(surface)) else {
+                return ControlFlow::Continue(to(first));
+            };
+            let own = room * end.error;
+            // What is not a number is not known to be apart.
+            let is_apart = end.t.abs() > own;
+            if !is_apart {
+                return ControlFlow::Break(());
+            }
+            if end.t > 0.0 {
+                let is_nearer = first.is_none_or(|(known, _)| end.t < known.t);
+                let other = if is_nearer { first.replace((end, own)) } else { Some((end, own)) };
+                second = other.map_or(second, |(other, own)| second.min(other.t - own));
+            }
+            ControlFlow::Continue(to(first))
+        });
+        match (end, first) {
+            (None, None) => FirstAhead::Nothing,
+            (None, Some((end, own))) if end.t + own < second && self.is_steep(&end) => {
+                FirstAhead::Triangle(end.surface)
+            }
+            (None, Some((end, own))) if end.t - own > limit + limit_error => FirstAhead::Nothing,
+            _ => FirstAhead::Uncertain,
+        }
+    }
+
+    /// Whether a crossing lies where the ray meets the plane of the triangle, whichever way that is computed.
+    fn is_steep(&self, end: &End) -> bool {
+        2.0 * STEEP * end.error <= self.place_error()
+    }
+
+    /// The triangles that a ray crosses ahead of its start, in no order, and the one that it leaves, where
+    /// its line passes that. False where one may lie at the start itself, or is seen edge on.
+    pub fn all_ahead(&self, ray: &Ray, asked: &AheadQuery, mut found: impl FnMut(u32)) -> bool {
+        let ([limit, limit_error], room) = (asked.limit, asked.room(self));
+        let to = limit + limit_error;
+        let crossed = self.crossed_by(ray);
+        let end = self.boxes().walk(ray, asked.from(), to, &mut |surface: u32, _: f64| {
+            let Some(end) = crossed(surface) else { return ControlFlow::Continue(to) };
+            let is_left = asked.leaves == Some(surface);
+            let is_certain = end.t.abs() > room * end.error && self.is_steep(&end);
+            if !is_left && !is_certain {
+                return ControlFlow::Break(());
+            }
+            if is_left || end.t > 0.0 {
+                found(surface);
+            }
+            ControlFlow::Continue(to)
+        });
+        end.is_none()
+    }
+}

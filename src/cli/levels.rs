@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::frame::{Studio, Wants};
 use crate::math::{Grid, Size};
 use crate::output::{LevelsError, read_levels};
-use crate::scene::MAX_FILE_BYTES;
+use crate::scene::{FilesRead, MAX_FILE_BYTES};
 use crate::tone::Level;
 
 use super::arguments::ComparisonArguments;
@@ -21,11 +21,11 @@ const CELLS: Size = Size::new(80, 25);
 
 impl ComparisonArguments {
     /// Reads a scene and says what was left out. `bytes` are what the file holds, where they are read
-    /// already: a pipe is read once.
-    pub fn studio(&self, file: &str, bytes: Option<&[u8]>) -> Result<Studio, CliError> {
+    /// already: a pipe is read once. All files that are read are noted.
+    pub fn studio(&self, file: &str, bytes: Option<&[u8]>, files: &FilesRead) -> Result<Studio, CliError> {
         let scene = match bytes {
-            Some(bytes) => input::read_bytes(file, bytes, &self.reading)?,
-            None => input::read(file, &self.reading)?,
+            Some(bytes) => input::read_bytes(file, bytes, &self.reading, files)?,
+            None => input::read_noting(file, &self.reading, files)?,
         };
         input::say(&scene.notes);
         input::studio(scene)

@@ -51,6 +51,11 @@ impl Memory {
         self.taken.saturating_add(bytes) <= self.limit
     }
 
+    /// The error of a scene for which there is no room, where `bytes` are all that is still needed.
+    pub fn refuse_last(&self, bytes: u64, sink: &mut Sink) -> Reported {
+        sink.report(too_little(self.limit, self.taken.saturating_add(bytes)))
+    }
+
     /// The error of a scene for which there is no room: `bytes` more at this byte of the text.
     pub fn refuse(&self, bytes: u64, at: u32, sink: &mut Sink) -> Reported {
         // As the text began it will go on; what is held besides the scene, the text itself, is there already.

@@ -8,6 +8,7 @@ mod language;
 mod memory;
 mod mesh;
 mod model;
+mod named_files;
 mod nff;
 mod options;
 mod outline;
@@ -24,5 +25,5 @@ pub use model::{
     Anchor, Camera, CameraError, Corner, Facets, FieldSpan, HalfSpace, Light, Material, MaterialId, Mesh,
     Object, Primitive, REACH, Scene, Shape, Solid, World,
 };
-pub use options::{FilesRead, Format, ReadOptions, UpAxis};
-pub use read::{MAX_FILE_BYTES, ReadError, read, read_file};
+pub use options::{FilesRead, Format, MAX_FILE_BYTES, ReadOptions, UpAxis};
+pub use read::{ReadError, read, read_file};

@@ -1,8 +1,6 @@
 //! The scene: what a reader gives and every later stage takes. Lengths are the scene's own unit, angles
 //! degrees, colours and intensities linear light.
 
-use std::path::PathBuf;
-
 use std::sync::Arc;
 use std::vec::Drain;
 
@@ -33,10 +31,8 @@ pub struct Scene {
     pub views: Vec<Camera>,
     /// Ambient light, background and depth constant.
     pub world: World,
-    /// What the parts of a mesh file are; empty of other scenes.
+    /// What the parts of a mesh file are, or of those that a scene imports, each once.
     pub meshes: Vec<MeshFacts>,
-    /// The files that were read for it beside its own: the materials of a mesh.
-    pub libraries: Vec<PathBuf>,
     /// What the reader left out or took differently, one sentence each, for the person who looks.
     pub notes: Vec<String>,
 }

@@ -7,6 +7,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 use crate::math::DVec3;
 use crate::stage::Progress;
 
+/// The largest file that is read: 256 MiB.
+pub const MAX_FILE_BYTES: u64 = 256 << 20;
+
 /// How a scene is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -115,8 +118,11 @@ pub struct ReadOptions {
     pub memory: Option<u64>,
     /// The axis of a mesh that is up, where it is not the one usual in its format.
     pub up: Option<UpAxis>,
-    /// Where the files are that a mesh names; [`read_file`](super::read_file) takes the folder of its own.
+    /// Where the files are that a scene or a mesh names; [`read_file`](super::read_file) takes the folder of
+    /// its own.
     pub folder: Option<PathBuf>,
+    /// A folder, besides that one, of which a scene may name files, at any depth.
+    pub root: Option<PathBuf>,
     /// Where to note the files that the scene is read from.
     pub files: Option<FilesRead>,
 }

@@ -5,11 +5,8 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use super::options::{Format, ReadOptions};
+use super::options::{Format, MAX_FILE_BYTES, ReadOptions};
 use super::{Diagnostic, Diagnostics, Scene, content, language, memory, mesh, nff};
-
-/// The largest file that is read: 256 MiB.
-pub const MAX_FILE_BYTES: u64 = 256 << 20;
 
 /// Why a file gave no scene.
 #[derive(Debug, thiserror::Error)]

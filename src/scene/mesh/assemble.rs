@@ -35,15 +35,15 @@ pub fn bytes(mesh: &PolygonMesh) -> u64 {
 }
 
 /// The polygons of a part, and the triangles they are cut into.
-struct Part {
-    name: Option<String>,
+pub struct Part {
+    pub name: Option<String>,
     runs: Vec<Range<u32>>,
     /// The material of each run.
     materials: Vec<u32>,
-    triangles: Vec<[u32; 3]>,
-    topology: Topology,
+    pub triangles: Vec<[u32; 3]>,
+    pub topology: Topology,
     /// Whether each of its triangles was there twice, so that nothing lies between them.
-    is_doubled: bool,
+    pub is_doubled: bool,
 }
 
 impl Part {
@@ -58,8 +58,8 @@ impl Part {
     }
 }
 
-/// Makes a scene of polygons.
-pub fn assemble(mut mesh: PolygonMesh, up: UpAxis) -> Result<Scene, MeshError> {
+/// Makes sure that there is something to see, and welds equal corners.
+pub fn prepare(mesh: &mut PolygonMesh) -> Result<(), MeshError> {
     if mesh.faces() == 0 {
         return Err(MeshFault::Empty.of_all());
     }
@@ -67,30 +67,23 @@ pub fn assemble(mut mesh: PolygonMesh, up: UpAxis) -> Result<Scene, MeshError> {
     if !is_within_reach(&Bounds::around(named)) {
         return Err(MeshFault::TooFar.of_all());
     }
-    weld(&mut mesh);
-    let mut clipper = EarClipper::default();
-    let mut parts: Vec<Part> = groups(&mesh)
-        .into_iter()
-        .filter_map(|(name, runs)| {
-            Some(part(&mesh, name, &runs, &mut clipper)).filter(|part| !part.triangles.is_empty())
-        })
-        .collect();
-    // Groups may be of the faces of one solid, such as those of a side.
-    if parts.len() > 1 && parts.iter().any(|part| !part.is_solid()) {
-        let whole = part(&mesh, None, &runs(&mesh), &mut clipper);
-        if whole.is_solid() {
-            parts = vec![whole];
-        }
-    }
-    let mut scene =
-        Scene { notes: mesh.notes.clone(), libraries: mesh.libraries.clone(), ..Scene::default() };
+    weld(mesh);
+    Ok(())
+}
+
+/// Makes a scene of polygons.
+pub fn assemble(mut mesh: PolygonMesh, up: UpAxis) -> Result<Scene, MeshError> {
+    prepare(&mut mesh)?;
+    let parts = parts(&mesh);
+    let mut scene = Scene { notes: mesh.notes.clone(), ..Scene::default() };
     let mut flat = 0;
     for part in &parts {
         let facts = MeshFacts::of(&part.triangles, &mesh.points, &part.topology);
         let is_solid = part.is_solid();
         let objects = scene.objects.len();
         if is_solid {
-            scene.objects.extend(solid(&mesh, part, up));
+            let shape = closed(&mesh, part, up).map(Shape::Mesh);
+            scene.objects.extend(shape.map(|shape| object(part, shape, part.material().unwrap_or(0))));
         } else {
             flat += surfaces(&mesh, part, up, &mut scene.objects);
         }
@@ -113,6 +106,25 @@ pub fn assemble(mut mesh: PolygonMesh, up: UpAxis) -> Result<Scene, MeshError> {
     scene.notes.extend(shown_as_surfaces(&scene.meshes));
     scene.materials = mesh.materials;
     Ok(scene)
+}
+
+/// The parts of a mesh whose corners are welded: its groups, or all of it where only that is a solid.
+pub fn parts(mesh: &PolygonMesh) -> Vec<Part> {
+    let mut clipper = EarClipper::default();
+    let mut parts: Vec<Part> = groups(mesh)
+        .into_iter()
+        .filter_map(|(name, runs)| {
+            Some(part(mesh, name, &runs, &mut clipper)).filter(|part| !part.triangles.is_empty())
+        })
+        .collect();
+    // Groups may be of the faces of one solid, such as those of a side.
+    if parts.len() > 1 && parts.iter().any(|part| !part.is_solid()) {
+        let whole = part(mesh, None, &runs(mesh), &mut clipper);
+        if whole.is_solid() {
+            parts = vec![whole];
+        }
+    }
+    parts
 }
 
 /// The note on parts that are no solids.
@@ -215,8 +227,8 @@ fn cut(mesh: &PolygonMesh, runs: &[(FaceRun, Range<u32>)], clipper: &mut EarClip
     triangles
 }
 
-/// The solid of a closed part; none where it has no area.
-fn solid(mesh: &PolygonMesh, part: &Part, up: UpAxis) -> Option<Object> {
+/// The mesh of a closed part; none where it has no area.
+pub fn closed(mesh: &PolygonMesh, part: &Part, up: UpAxis) -> Option<Arc<Mesh>> {
     let place = |corner: u32| up.turned(mesh.points[corner as usize]);
     if !part.triangles.iter().any(|triangle| has_area(triangle.iter().map(|&corner| place(corner)))) {
         return None;
@@ -232,8 +244,7 @@ fn solid(mesh: &PolygonMesh, part: &Part, up: UpAxis) -> Option<Object> {
     } else {
         part.triangles.iter().map(|triangle| triangle.map(index)).collect()
     };
-    let shape = Shape::Mesh(Arc::new(Mesh { points, triangles }));
-    Some(object(part, shape, part.material().unwrap_or(0)))
+    Some(Arc::new(Mesh { points, triangles }))
 }
 
 /// A surface for each polygon of a part; gives how many were left out, for they have no area.

@@ -75,6 +75,17 @@ pub enum MeshFault {
     /// The format has it, the reader does not.
     #[error("{0}, which ray13 does not read")]
     Unsupported(String),
+    /// A mesh that is wanted as a solid has an edge that nothing meets.
+    #[error("the mesh is not closed: nothing meets its edge from {from} to {to}")]
+    Open {
+        /// An end, as the file has it.
+        from: String,
+        /// The other.
+        to: String,
+    },
+    /// A mesh that is wanted as a solid is closed, and nothing lies inside.
+    #[error("the mesh encloses nothing: its faces lie on each other")]
+    Hollow,
     /// Coordinates too large.
     #[error("the mesh reaches farther than {:e} from the origin", crate::scene::REACH)]
     TooFar,
@@ -98,13 +109,25 @@ impl MeshFault {
 }
 
 impl MeshError {
+    /// The error in one sentence, with its place, for who speaks of several files.
+    pub fn sentence(&self, bytes: &[u8]) -> String {
+        match &self.place {
+            MeshPlace::Whole => self.fault.to_string(),
+            MeshPlace::Byte { offset, part } => format!("{part}, at byte {offset}: {}", self.fault),
+            MeshPlace::Text(span) => {
+                let before = &bytes[..span.start.min(bytes.len())];
+                let line = before.split(|&byte| byte == b'\n').count();
+                format!("line {line}: {}", self.fault)
+            }
+        }
+    }
+
     /// The error as a person is told it; `bytes` are the file's.
     pub fn told(self, name: &str, bytes: &[u8]) -> Diagnostics {
         let whole = |message| Diagnostics::whole(name, Diagnostic::error(0..0, message));
         match self.place {
-            MeshPlace::Whole => whole(self.fault.to_string()),
-            MeshPlace::Byte { offset, part } => whole(format!("{part}, at byte {offset}: {}", self.fault)),
-            MeshPlace::Text(span) => match std::str::from_utf8(bytes) {
+            MeshPlace::Whole | MeshPlace::Byte { .. } => whole(self.sentence(bytes)),
+            MeshPlace::Text(ref span) => match std::str::from_utf8(bytes) {
                 Ok(text) if !span.is_empty() => {
                     // What is missing at an end is told at the last byte, which may be within a character.
                     let start = (0..=span.start).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0);
@@ -114,11 +137,7 @@ impl MeshError {
                     Diagnostics { source: text.into(), ..Diagnostics::whole(name, error) }
                 }
                 // A comment in another encoding is no reason not to read a mesh.
-                _ => {
-                    let before = &bytes[..span.start.min(bytes.len())];
-                    let line = before.split(|&byte| byte == b'\n').count();
-                    whole(format!("line {line}: {}", self.fault))
-                }
+                _ => whole(self.sentence(bytes)),
             },
         }
     }

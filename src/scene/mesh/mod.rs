@@ -12,6 +12,7 @@ mod obj;
 mod off;
 mod ply;
 mod polygons;
+mod solids;
 mod stl;
 #[cfg(test)]
 mod tests;
@@ -20,8 +21,11 @@ mod words;
 
 use super::memory::too_little;
 use super::{Diagnostics, Format, ReadOptions, Scene, UpAxis};
+use fault::MeshError;
+use polygons::PolygonMesh;
 
 pub use facts::MeshFacts;
+pub(super) use solids::{MeshSolids, NoSolids, solids};
 
 /// The format of a mesh by its content, whatever its name.
 pub(super) fn format_of(bytes: &[u8]) -> Option<Format> {
@@ -56,14 +60,7 @@ pub(super) fn read(
     options: &ReadOptions,
 ) -> Option<Result<Scene, Diagnostics>> {
     let bytes = without_mark(bytes);
-    let polygons = match format {
-        Format::Stl => stl::read(bytes),
-        Format::Off => off::read(bytes),
-        Format::Ply => ply::read(bytes),
-        Format::Obj => obj::read(bytes, options),
-        Format::Language | Format::Nff => return None,
-    };
-    let polygons = match polygons {
+    let polygons = match polygons(bytes, format, Some(options))? {
         Ok(polygons) => polygons,
         Err(error) => return Some(Err(error.told(name, bytes))),
     };
@@ -73,4 +70,19 @@ pub(super) fn read(
     }
     let up = options.up.unwrap_or(if format == Format::Obj { UpAxis::Y } else { UpAxis::Z });
     Some(assemble::assemble(polygons, up).map_err(|error| error.told(name, bytes)))
+}
+
+/// The polygons of a file; `None` where the format is none of meshes. Without options materials are not read.
+fn polygons(
+    bytes: &[u8],
+    format: Format,
+    options: Option<&ReadOptions>,
+) -> Option<Result<PolygonMesh, MeshError>> {
+    match format {
+        Format::Stl => Some(stl::read(bytes)),
+        Format::Off => Some(off::read(bytes)),
+        Format::Ply => Some(ply::read(bytes)),
+        Format::Obj => Some(obj::read(bytes, options)),
+        Format::Language | Format::Nff => None,
+    }
 }

@@ -1,7 +1,5 @@
 //! What every mesh format gives: corners, and polygons that name them, in groups.
 
-use std::path::PathBuf;
-
 use crate::math::DVec3;
 use crate::scene::Material;
 
@@ -24,8 +22,6 @@ pub struct PolygonMesh {
     pub groups: Vec<Option<String>>,
     /// The materials; at least one.
     pub materials: Vec<Material>,
-    /// The files that were read beside the mesh.
-    pub libraries: Vec<PathBuf>,
     /// What was read otherwise than it is written.
     pub notes: Vec<String>,
 }
@@ -52,7 +48,6 @@ impl Default for PolygonMesh {
             runs: vec![FaceRun { first: 0, group: 0, material: 0 }],
             groups: vec![None],
             materials: vec![Material::default()],
-            libraries: Vec::new(),
             notes: Vec::new(),
         }
     }

@@ -72,8 +72,8 @@ pub fn is_obj(bytes: &[u8]) -> bool {
     false
 }
 
-/// Reads a file. Its materials are looked for in the folder that the options name.
-pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<PolygonMesh, MeshError> {
+/// Reads a file. Its materials are looked for in the folder that the options name; nowhere without options.
+pub fn read(bytes: &[u8], options: Option<&ReadOptions>) -> Result<PolygonMesh, MeshError> {
     let mut reader = Reader {
         mesh: PolygonMesh::of("OBJ"),
         groups: Groups::default(),
@@ -85,7 +85,6 @@ pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<PolygonMesh, MeshErro
         }
     }
     reader.mesh.materials = reader.library.materials;
-    reader.mesh.libraries = reader.library.files;
     reader.mesh.notes = reader.library.notes;
     Ok(reader.mesh)
 }
@@ -124,7 +123,7 @@ impl Reader {
         &mut self,
         word: MeshWord<'_>,
         words: &mut MeshWords<'_>,
-        options: &ReadOptions,
+        options: Option<&ReadOptions>,
     ) -> Result<(), MeshError> {
         match word.bytes {
             b"v" => {
@@ -142,11 +141,12 @@ impl Reader {
                 self.groups.group = words.rest_of_line().to_vec();
                 self.groups.is_new = true;
             }
-            b"usemtl" => {
+            b"usemtl" if options.is_some() => {
                 self.library.choose(words.rest_of_line());
                 self.groups.is_new = true;
             }
-            b"mtllib" => self.library.load(words.rest_of_line(), options),
+            b"mtllib" => options.into_iter().for_each(|it| self.library.load(words.rest_of_line(), it)),
+            b"usemtl" => {}
             other => {
                 if !IGNORED.iter().any(|ignored| ignored.as_bytes() == other) {
                     let wanted = "a statement of OBJ, such as `v`, `f` or `o`";

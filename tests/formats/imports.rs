@@ -174,7 +174,7 @@ fn what_can_not_be_read_is_said_at_its_place() {
     ] {
         write(&at, "a.scene", call);
         let output = ray13(&at, &["check", "a.scene"]);
-        let message = text(&output.stderr).replace("\n", " ");
+        let message = text(&output.stderr).replace('\n', " ");
         assert_eq!(output.status.code(), Some(2), "{message}");
         let place = says.strip_prefix("a.scene:1:8: error: ").map_or(says, |rest| rest);
         assert!(message.contains(place) && message.contains("a.scene:1:"), "{message}\ninstead of: {says}");

@@ -35,7 +35,7 @@ pub fn bytes(mesh: &PolygonMesh) -> u64 {
 }
 
 /// The polygons of a part, and the triangles they are cut into.
-pub struct Part {
+pub struct MeshPart {
     pub name: Option<String>,
     runs: Vec<Range<u32>>,
     /// The material of each run.
@@ -46,7 +46,7 @@ pub struct Part {
     pub is_doubled: bool,
 }
 
-impl Part {
+impl MeshPart {
     /// The material of all of it, where that is one.
     fn material(&self) -> Option<u32> {
         let &first = self.materials.first()?;
@@ -109,9 +109,9 @@ pub fn assemble(mut mesh: PolygonMesh, up: UpAxis) -> Result<Scene, MeshError> {
 }
 
 /// The parts of a mesh whose corners are welded: its groups, or all of it where only that is a solid.
-pub fn parts(mesh: &PolygonMesh) -> Vec<Part> {
+pub fn parts(mesh: &PolygonMesh) -> Vec<MeshPart> {
     let mut clipper = EarClipper::default();
-    let mut parts: Vec<Part> = groups(mesh)
+    let mut parts: Vec<MeshPart> = groups(mesh)
         .into_iter()
         .filter_map(|(name, runs)| {
             Some(part(mesh, name, &runs, &mut clipper)).filter(|part| !part.triangles.is_empty())
@@ -198,7 +198,7 @@ fn part(
     name: Option<String>,
     runs: &[(FaceRun, Range<u32>)],
     clipper: &mut EarClipper,
-) -> Part {
+) -> MeshPart {
     let mut triangles = cut(mesh, runs, clipper);
     cancel_pairs(&mut triangles);
     let is_doubled = triangles.is_empty();
@@ -209,7 +209,7 @@ fn part(
     let topology = Topology::of(&triangles, mesh.points.len());
     let materials = runs.iter().map(|(run, _)| run.material).collect();
     let runs = runs.iter().map(|(_, faces)| faces.clone()).collect();
-    Part { name, runs, materials, triangles, topology, is_doubled }
+    MeshPart { name, runs, materials, triangles, topology, is_doubled }
 }
 
 /// Cuts the polygons of runs into triangles.
@@ -228,7 +228,7 @@ fn cut(mesh: &PolygonMesh, runs: &[(FaceRun, Range<u32>)], clipper: &mut EarClip
 }
 
 /// The mesh of a closed part; none where it has no area.
-pub fn closed(mesh: &PolygonMesh, part: &Part, up: UpAxis) -> Option<Arc<Mesh>> {
+pub fn closed(mesh: &PolygonMesh, part: &MeshPart, up: UpAxis) -> Option<Arc<Mesh>> {
     let place = |corner: u32| up.turned(mesh.points[corner as usize]);
     if !part.triangles.iter().any(|triangle| has_area(triangle.iter().map(|&corner| place(corner)))) {
         return None;
@@ -248,7 +248,7 @@ pub fn closed(mesh: &PolygonMesh, part: &Part, up: UpAxis) -> Option<Arc<Mesh>> 
 }
 
 /// A surface for each polygon of a part; gives how many were left out, for they have no area.
-fn surfaces(mesh: &PolygonMesh, part: &Part, up: UpAxis, objects: &mut Vec<Object>) -> usize {
+fn surfaces(mesh: &PolygonMesh, part: &MeshPart, up: UpAxis, objects: &mut Vec<Object>) -> usize {
     let mut flat = 0;
     for (faces, &material) in part.runs.iter().zip(&part.materials) {
         for face in faces.clone() {
@@ -268,7 +268,7 @@ fn surfaces(mesh: &PolygonMesh, part: &Part, up: UpAxis, objects: &mut Vec<Objec
     flat
 }
 
-fn object(part: &Part, shape: Shape, material: u32) -> Object {
+fn object(part: &MeshPart, shape: Shape, material: u32) -> Object {
     let primitive = Primitive::new(shape, DAffine3::IDENTITY, MaterialId(material));
     Object { name: part.name.clone(), solid: Solid::Primitive(primitive) }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::assemble::{bytes, closed, parts, prepare};
 use super::facts::{MeshFacts, place};
 use super::fault::{MeshError, MeshFault};
-use super::{polygons, without_mark};
+use super::formats::{polygons, without_mark};
 use crate::scene::{Format, Mesh, UpAxis};
 
 /// What a mesh file has in it.

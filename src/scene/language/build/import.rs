@@ -1,7 +1,6 @@
 //! `import`: what another file has in it.
 
-use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -17,24 +16,8 @@ use crate::scene::language::syntax::Call;
 use crate::scene::language::vocabulary::Word;
 use crate::scene::memory::ASSEMBLED_OPERATOR;
 use crate::scene::mesh::{self, MeshSolids, NoSolids};
-use crate::scene::named_files::{NamedFile, NamedFiles, NoNamedFile};
-use crate::scene::{Diagnostic, Format, MaterialId, Mesh, MeshFacts, Primitive, ReadOptions, Shape, Solid};
-
-/// The files that a scene imports.
-#[derive(Debug)]
-pub struct Imports {
-    files: NamedFiles,
-    /// Those that were read, by their paths; of those that can not be, why. Each is read once, however often
-    /// it is named.
-    known: HashMap<PathBuf, Result<Rc<MeshSolids>, String>>,
-}
-
-impl Imports {
-    /// Those of a scene that is read with these options.
-    pub fn new(options: &ReadOptions) -> Self {
-        Self { files: NamedFiles::new(options), known: HashMap::new() }
-    }
-}
+use crate::scene::named_files::{NamedFile, NoNamedFile};
+use crate::scene::{Diagnostic, Format, MaterialId, Mesh, MeshFacts, Primitive, Shape, Solid};
 
 /// What a file is to `import`.
 enum Kind {
@@ -103,16 +86,16 @@ impl Builder {
             };
             self.not_imported(error, arguments)
         })?;
-        let solids = match self.imports.known.get(&file.path) {
-            Some(known) => known.clone(),
-            None => {
-                let solids = self.read_mesh(name, &file)?.map(Rc::new);
-                self.imports.known.insert(file.path, solids.clone());
-                if let Ok(solids) = &solids {
-                    self.tell_of(name, solids, arguments);
-                }
-                solids
+        let known = self.imports.known.get(&file.path).cloned();
+        let solids = if let Some(known) = known {
+            known
+        } else {
+            let solids = self.read_mesh(name, &file)?.map(Rc::new);
+            self.imports.known.insert(file.path, solids.clone());
+            if let Ok(solids) = &solids {
+                self.tell_of(name, solids, arguments);
             }
+            solids
         };
         let solids = solids.map_err(|why| {
             let error = Diagnostic::error(place, format!("`{shown}` can not be imported: {why}"));

@@ -165,8 +165,7 @@ fn named(name: &str) -> Option<&'static EmbeddedScene> {
 }
 
 /// Formats of models that people try first, by the ending of the name. Only asked where a file made no sense.
-const FOREIGN: [(&str, &str); 4] =
-    [("3mf", "a 3MF model"), ("amf", "an AMF model"), ("step", "a STEP model"), ("stp", "a STEP model")];
+const FOREIGN: [(&str, &str); 2] = [("step", "a STEP model"), ("stp", "a STEP model")];
 
 fn foreign(file: &str) -> Option<&'static str> {
     let ending = Path::new(file).extension()?;

@@ -4,6 +4,7 @@ mod content;
 mod degrees;
 mod diagnostic;
 mod embedded;
+mod gzip;
 mod language;
 mod memory;
 mod mesh;
@@ -14,6 +15,7 @@ mod options;
 mod outline;
 mod profile;
 mod read;
+mod screen_colors;
 mod triangulation;
 mod unit_vector;
 

@@ -26,15 +26,21 @@ pub enum Format {
     Ply,
     /// OBJ, Wavefront's.
     Obj,
+    /// 3MF, of the 3MF Consortium: XML in a ZIP archive.
+    ThreeMf,
+    /// AMF, the Additive Manufacturing File Format, of ISO and ASTM.
+    Amf,
 }
 
 /// The formats that names tell.
-const ENDINGS: [(&str, Format); 5] = [
+const ENDINGS: [(&str, Format); 7] = [
     ("nff", Format::Nff),
     ("stl", Format::Stl),
     ("off", Format::Off),
     ("ply", Format::Ply),
     ("obj", Format::Obj),
+    ("3mf", Format::ThreeMf),
+    ("amf", Format::Amf),
 ];
 
 impl Format {
@@ -54,6 +60,8 @@ impl Format {
             Self::Off => "OFF",
             Self::Ply => "PLY",
             Self::Obj => "OBJ",
+            Self::ThreeMf => "3MF",
+            Self::Amf => "AMF",
         }
     }
 }

@@ -164,7 +164,7 @@ fn what_can_not_be_read_is_said_at_its_place() {
         ("import(\"scenes\");", "it is no plain file"),
         ("import(\"cut.stl\");", "the header, at byte 80: the file is cut off"),
         ("import(\"far.obj\");", "a face names corner 99"),
-        ("import(\"other.scene\");", "it is no mesh: STL, OFF, PLY and OBJ are read"),
+        ("import(\"other.scene\");", "it is no mesh: STL, OFF, PLY, OBJ, 3MF and AMF are read"),
         ("import(\"flat.off\");", "not closed"),
         ("import(\"a.svg\");", "SVG files are not read yet"),
         ("import(file = \"a.DXF\", layer = \"x\");", "DXF files are not read yet"),

@@ -27,11 +27,15 @@ const READ_CORNER: u64 = 4 + 24 + 36;
 /// Bytes that a mesh takes at most while it is read and shown, if all of it is shown as surfaces, which is
 /// the more expensive way.
 pub fn bytes(mesh: &PolygonMesh) -> u64 {
-    let (points, corners) = (mesh.points.len() as u64, mesh.corners.len() as u64);
+    bytes_of(mesh.points.len() as u64, mesh.corners.len() as u64, mesh.faces() as u64)
+}
+
+/// The same of a mesh that is still to be made, and has so many points, corners of faces, and faces.
+pub fn bytes_of(points: u64, corners: u64, faces: u64) -> u64 {
     READ_POINT * points
         + READ_CORNER * corners
-        + (size_of::<Object>() as u64 + ASSEMBLED + ASSEMBLED_FACES) * mesh.faces() as u64
-        + ASSEMBLED_TRIANGLE * corners.saturating_sub(2 * mesh.faces() as u64)
+        + (size_of::<Object>() as u64 + ASSEMBLED + ASSEMBLED_FACES) * faces
+        + ASSEMBLED_TRIANGLE * corners.saturating_sub(2 * faces)
 }
 
 /// The polygons of a part, and the triangles they are cut into.
@@ -90,6 +94,7 @@ pub fn assemble(mut mesh: PolygonMesh, up: UpAxis) -> Result<Scene, MeshError> {
         if scene.objects.len() > objects {
             scene.meshes.push(MeshFacts {
                 format: mesh.format,
+                unit: mesh.unit,
                 up,
                 name: part.name.clone(),
                 is_solid,

@@ -12,6 +12,8 @@ use super::topology::Topology;
 pub struct MeshFacts {
     /// The format, as in `binary STL`.
     pub format: &'static str,
+    /// The unit of its places and lengths, of formats that name one.
+    pub unit: Option<&'static str>,
     /// The axis that is up.
     pub up: UpAxis,
     /// The part's name.
@@ -52,6 +54,7 @@ impl MeshFacts {
         let has_volume = topology.is_closed() && topology.is_oriented && f64::is_finite(volume);
         Self {
             format: "",
+            unit: None,
             up: UpAxis::Z,
             name: None,
             triangles: triangles.len(),
@@ -98,6 +101,9 @@ impl fmt::Display for MeshFacts {
             UpAxis::Z => "z",
         };
         write!(f, "{}, {up} up", self.format)?;
+        if let Some(unit) = self.unit {
+            write!(f, ", in {unit}")?;
+        }
         if let Some(name) = &self.name {
             write!(f, ", `{name}`")?;
         }

@@ -20,6 +20,13 @@ pub enum MeshPlace {
     Whole,
     /// Bytes of a text.
     Text(Range<usize>),
+    /// A line of a file within the file.
+    Within {
+        /// Its name.
+        part: String,
+        /// The line, from 1.
+        line: usize,
+    },
     /// A byte of a binary file, counted from 0, and what it is a part of, as in `triangle 3`.
     Byte {
         /// The offset.
@@ -70,11 +77,34 @@ pub enum MeshFault {
         known: String,
     },
     /// More corners than can be numbered.
-    #[error("the mesh has more than {} corners", u32::MAX)]
+    #[error("the mesh has more corners or faces than can be numbered")]
     TooMany,
     /// The format has it, the reader does not.
     #[error("{0}, which ray13 does not read")]
     Unsupported(String),
+    /// An archive does not have a file that it should.
+    #[error("the archive has no `{0}`")]
+    NoEntry(String),
+    /// A part of an archive is more than may be read.
+    #[error("`{what}` in the archive takes more than {room} bytes, which is all that may be read of it")]
+    TooLarge {
+        /// Its name.
+        what: String,
+        /// Bytes that there may be.
+        room: u64,
+    },
+    /// A part of an archive is not what its sum says.
+    #[error("`{0}` in the archive is damaged")]
+    Damaged(String),
+    /// A text is no XML.
+    #[error("this is no XML: {0}")]
+    NoXml(String),
+    /// An object that is named is not there.
+    #[error("an object `{0}` is named, which there is not")]
+    NoObject(String),
+    /// What a file stands for takes this many bytes, which there are not.
+    #[error("it takes about {0} bytes of memory")]
+    NoRoom(u64),
     /// A mesh that is wanted as a solid has an edge that nothing meets.
     #[error("the mesh is not closed: nothing meets its edge from {from} to {to}")]
     Open {
@@ -109,16 +139,24 @@ impl MeshFault {
 }
 
 impl MeshError {
+    /// The error of a text as that of the archive that has it, in a file of this name.
+    pub fn within(self, part: &str, text: &[u8]) -> Self {
+        match self.place {
+            MeshPlace::Text(span) => {
+                let place = MeshPlace::Within { part: part.to_owned(), line: line(text, span.start) };
+                Self { place, ..self }
+            }
+            _ => self,
+        }
+    }
+
     /// The error in one sentence, with its place, for who speaks of several files.
     pub fn sentence(&self, bytes: &[u8]) -> String {
         match &self.place {
             MeshPlace::Whole => self.fault.to_string(),
             MeshPlace::Byte { offset, part } => format!("{part}, at byte {offset}: {}", self.fault),
-            MeshPlace::Text(span) => {
-                let before = &bytes[..span.start.min(bytes.len())];
-                let line = before.split(|&byte| byte == b'\n').count();
-                format!("line {line}: {}", self.fault)
-            }
+            MeshPlace::Within { part, line } => format!("{part}, line {line}: {}", self.fault),
+            MeshPlace::Text(span) => format!("line {}: {}", line(bytes, span.start), self.fault),
         }
     }
 
@@ -126,7 +164,9 @@ impl MeshError {
     pub fn told(self, name: &str, bytes: &[u8]) -> Diagnostics {
         let whole = |message| Diagnostics::whole(name, Diagnostic::error(0..0, message));
         match self.place {
-            MeshPlace::Whole | MeshPlace::Byte { .. } => whole(self.sentence(bytes)),
+            MeshPlace::Whole | MeshPlace::Byte { .. } | MeshPlace::Within { .. } => {
+                whole(self.sentence(bytes))
+            }
             MeshPlace::Text(ref span) => match std::str::from_utf8(bytes) {
                 Ok(text) if !span.is_empty() => {
                     // What is missing at an end is told at the last byte, which may be within a character.
@@ -141,4 +181,9 @@ impl MeshError {
             },
         }
     }
+}
+
+/// The line of a byte of a text, from 1.
+fn line(text: &[u8], at: usize) -> usize {
+    text[..at.min(text.len())].split(|&byte| byte == b'\n').count()
 }

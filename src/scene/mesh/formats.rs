@@ -1,6 +1,7 @@
 //! Which format a mesh file has, and its reader.
 
 use super::fault::MeshError;
+use super::objects::{self, amf, three_mf};
 use super::polygons::PolygonMesh;
 use super::{obj, off, ply, stl};
 use crate::scene::{Format, ReadOptions};
@@ -17,7 +18,7 @@ pub fn format_of(bytes: &[u8]) -> Option<Format> {
     } else if obj::is_obj(bytes) {
         Some(Format::Obj)
     } else {
-        None
+        objects::format_of(bytes)
     }
 }
 
@@ -30,17 +31,21 @@ pub fn without_mark(bytes: &[u8]) -> &[u8] {
     }
 }
 
-/// The polygons of a file; `None` where the format is none of meshes. Without options materials are not read.
+/// The polygons of a file; `None` where the format is none of meshes. Without options files of materials are
+/// not read. What is compressed, or names what it is made of, is read as far as `room` bytes allow for.
 pub fn polygons(
     bytes: &[u8],
     format: Format,
     options: Option<&ReadOptions>,
+    room: u64,
 ) -> Option<Result<PolygonMesh, MeshError>> {
     match format {
         Format::Stl => Some(stl::read(bytes)),
         Format::Off => Some(off::read(bytes)),
         Format::Ply => Some(ply::read(bytes)),
         Format::Obj => Some(obj::read(bytes, options)),
+        Format::ThreeMf => Some(three_mf::read(bytes, room)),
+        Format::Amf => Some(amf::read(bytes, room)),
         Format::Language | Format::Nff => None,
     }
 }

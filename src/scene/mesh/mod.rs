@@ -1,4 +1,4 @@
-//! Mesh files: STL, OFF, PLY and OBJ.
+//! Mesh files: STL, OFF, PLY, OBJ, 3MF and AMF.
 //!
 //! Bytes → polygons ([`polygons`]), by a reader for each format → objects ([`assemble`]). Readers stop at the
 //! first mistake, and take memory for what there is, not for what the file says there is. `docs/meshes.md`
@@ -10,6 +10,7 @@ mod fault;
 mod formats;
 mod index;
 mod obj;
+mod objects;
 mod off;
 mod ply;
 mod polygons;
@@ -22,6 +23,7 @@ mod words;
 
 use super::memory::too_little;
 use super::{Diagnostics, Format, ReadOptions, Scene, UpAxis};
+use fault::{MeshError, MeshFault};
 use formats::{polygons, without_mark};
 
 pub use facts::MeshFacts;
@@ -36,8 +38,12 @@ pub(super) fn read(
     options: &ReadOptions,
 ) -> Option<Result<Scene, Diagnostics>> {
     let bytes = without_mark(bytes);
-    let polygons = match polygons(bytes, format, Some(options))? {
+    let room = options.memory.map_or(u64::MAX, |limit| limit.saturating_sub(bytes.len() as u64));
+    let polygons = match polygons(bytes, format, Some(options), room)? {
         Ok(polygons) => polygons,
+        Err(MeshError { fault: MeshFault::NoRoom(needed), .. }) => {
+            return Some(Err(Diagnostics::whole(name, too_little(options.memory.unwrap_or(room), needed))));
+        }
         Err(error) => return Some(Err(error.told(name, bytes))),
     };
     let needed = bytes.len() as u64 + assemble::bytes(&polygons);

@@ -10,6 +10,8 @@ use super::fault::MeshFault;
 pub struct PolygonMesh {
     /// What people call the format, as in `binary STL`.
     pub format: &'static str,
+    /// The unit that the file names, of those that do.
+    pub unit: Option<&'static str>,
     /// The corners; finite.
     pub points: Vec<DVec3>,
     /// Indices into `points`, polygon after polygon.
@@ -42,6 +44,7 @@ impl Default for PolygonMesh {
     fn default() -> Self {
         Self {
             format: "",
+            unit: None,
             points: Vec::new(),
             corners: Vec::new(),
             ends: Vec::new(),

@@ -30,18 +30,19 @@ pub enum NoSolids {
     NoRoom(u64),
 }
 
-/// Reads a file as solids, whose faces all have the material of who asks. `has_room` says whether so many
-/// bytes may be taken for the time of reading.
-pub fn solids(
-    file: &[u8],
-    format: Format,
-    has_room: impl FnOnce(u64) -> bool,
-) -> Result<MeshSolids, NoSolids> {
+/// Reads a file as solids, whose faces all have the material of who asks. `room` bytes may be taken for the
+/// time of reading.
+pub fn solids(file: &[u8], format: Format, room: u64) -> Result<MeshSolids, NoSolids> {
     let file = without_mark(file);
     let told = |error: MeshError| NoSolids::Wrong(error.sentence(file));
-    let mut mesh = polygons(file, format, None).ok_or(NoSolids::NoMesh)?.map_err(told)?;
+    let left = room.saturating_sub(file.len() as u64);
+    let mesh = polygons(file, format, None, left).ok_or(NoSolids::NoMesh)?;
+    let mut mesh = mesh.map_err(|error| match error.fault {
+        MeshFault::NoRoom(needed) => NoSolids::NoRoom(needed.saturating_add(file.len() as u64)),
+        _ => told(error),
+    })?;
     let needed = bytes(&mesh) + file.len() as u64;
-    if !has_room(needed) {
+    if needed > room {
         return Err(NoSolids::NoRoom(needed));
     }
     mesh.runs.iter_mut().for_each(|run| run.material = 0);
@@ -57,7 +58,12 @@ pub fn solids(
         let found = if part.is_doubled { None } else { closed(&mesh, &part, UpAxis::Z) };
         if let Some(found) = found {
             let facts = MeshFacts::of(&part.triangles, &mesh.points, &part.topology);
-            solids.facts.push(MeshFacts { format: mesh.format, name: part.name.clone(), ..facts });
+            solids.facts.push(MeshFacts {
+                format: mesh.format,
+                unit: mesh.unit,
+                name: part.name.clone(),
+                ..facts
+            });
             solids.parts.push(found);
         }
     }

@@ -17,7 +17,7 @@ use crate::scene::language::vocabulary::Word;
 use crate::scene::memory::ASSEMBLED_OPERATOR;
 use crate::scene::mesh::{self, MeshSolids, NoSolids};
 use crate::scene::named_files::{NamedFile, NoNamedFile};
-use crate::scene::{Diagnostic, Format, MaterialId, Mesh, MeshFacts, Primitive, Shape, Solid};
+use crate::scene::{Diagnostic, Format, MaterialId, Mesh, MeshFacts, Primitive, Shape, Solid, gzip};
 
 /// What a file is to `import`.
 enum Kind {
@@ -63,7 +63,8 @@ impl Builder {
             Kind::Drawing(format) => {
                 let error =
                     Diagnostic::error(arguments.place_of("file"), format!("{format} files are not read yet"));
-                let error = error.help("of other files it imports only meshes: STL, OFF, PLY and OBJ");
+                let error =
+                    error.help("of other files it imports only meshes: STL, OFF, PLY, OBJ, 3MF and AMF");
                 Err(self.not_imported(error, arguments))
             }
             Kind::Mesh => self.mesh_file(name, arguments),
@@ -119,12 +120,21 @@ impl Builder {
             Ok(bytes) => bytes,
             Err(why) => return Ok(Err(why.to_string())),
         };
+        let (bytes, name) = if gzip::is_gzip(&bytes) {
+            match gzip::unpacked(&bytes, Some(self.memory.left())) {
+                Ok(inner) => (inner, gzip::inner_name(name)),
+                Err(error) => return Ok(Err(error.message)),
+            }
+        } else {
+            (bytes, name)
+        };
         let format = mesh::format_of(&bytes).unwrap_or_else(|| Format::of(name));
-        let memory = &self.memory;
-        match mesh::solids(&bytes, format, |needed| memory.has_room_for(needed)) {
+        match mesh::solids(&bytes, format, self.memory.left()) {
             Ok(solids) => Ok(Ok(solids)),
             Err(NoSolids::Wrong(why)) => Ok(Err(why)),
-            Err(NoSolids::NoMesh) => Ok(Err("it is no mesh: STL, OFF, PLY and OBJ are read".to_owned())),
+            Err(NoSolids::NoMesh) => {
+                Ok(Err("it is no mesh: STL, OFF, PLY, OBJ, 3MF and AMF are read".to_owned()))
+            }
             Err(NoSolids::NoRoom(needed)) => Err(self.no_room_to_read(needed)),
         }
     }

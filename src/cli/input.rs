@@ -19,6 +19,7 @@ use super::error::{CliError, tell, visible};
 use super::memory;
 use super::openscad::{self, OpenScadRun, Program};
 use super::terminal::capabilities;
+use super::waiting::Waiting;
 
 /// Who looks on while a scene is read.
 #[derive(Clone, Debug, Default)]
@@ -78,7 +79,11 @@ pub fn read_watched(file: &str, reading: &ReadingArguments, onlooker: &Onlooker)
     if is_program && Path::new(file).is_file() {
         return read_program(file, Program::File(Path::new(file)), options, reading, onlooker);
     }
-    match scene::read_file(Path::new(file), options) {
+    // The viewer has a screen that says what it is at.
+    let waiting = onlooker.progress.is_none().then(|| Waiting::new(file));
+    let read = scene::read_file(Path::new(file), options);
+    drop(waiting);
+    match read {
         Ok(scene) => Ok(scene),
         Err(ReadError::Content(diagnostics)) => Err(no_scene(file, &diagnostics, onlooker)),
         Err(error @ ReadError::File { .. }) => match named(file) {

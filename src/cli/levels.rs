@@ -15,6 +15,7 @@ use super::error::{CliError, visible};
 use super::input;
 use super::picture::Unsized;
 use super::render::{refuse_over_budget, say_nothing};
+use super::waiting::Waiting;
 
 /// A terminal's cells, of which a picture without a size has as many dots as they show.
 const CELLS: Size = Size::new(80, 25);
@@ -85,6 +86,7 @@ pub fn read(file: &str) -> Result<Source, CliError> {
     }
     let is_named = Path::new(file).extension().is_some_and(|ending| ending == "levels");
     let failed = |e: &dyn std::fmt::Display| CliError::Input(format!("{}: {e}", visible(file)));
+    let _waiting = Waiting::new(file);
     let mut bytes = Vec::new();
     let read = File::open(file).and_then(|source| source.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes));
     match read {

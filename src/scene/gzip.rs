@@ -1,11 +1,12 @@
 //! Files that are compressed by gzip: any other file within.
 
-use std::io::{self, Read};
+use std::io;
 use std::path::Path;
 
 use flate2::bufread::MultiGzDecoder;
 
 use super::Diagnostic;
+use super::bounded::read_at_most;
 use super::memory::too_little;
 use super::options::MAX_FILE_BYTES;
 
@@ -25,7 +26,7 @@ pub fn inner_name(name: &str) -> &str {
 pub fn unpacked(bytes: &[u8], memory: Option<u64>) -> Result<Vec<u8>, Diagnostic> {
     let room = memory.map_or(u64::MAX, |memory| memory.saturating_sub(bytes.len() as u64));
     let mut inner = Vec::new();
-    let read = MultiGzDecoder::new(bytes).take(room.min(MAX_FILE_BYTES) + 1).read_to_end(&mut inner);
+    let read = read_at_most(MultiGzDecoder::new(bytes), room.min(MAX_FILE_BYTES) + 1, &mut inner);
     match read {
         _ if inner.len() as u64 > MAX_FILE_BYTES => Err(Diagnostic::error(
             0..0,

@@ -1,5 +1,6 @@
 //! Stage 1, OBJECTS: bytes in, [`Scene`] out. Kind, place, size and surface of every solid.
 
+mod bounded;
 mod content;
 mod degrees;
 mod diagnostic;

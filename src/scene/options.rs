@@ -84,6 +84,14 @@ impl UpAxis {
             Self::Z => place,
         }
     }
+
+    /// A place of the scene in the file.
+    pub fn turned_back(self, place: DVec3) -> DVec3 {
+        match self {
+            Self::Y => DVec3::new(place.x, place.z, 0.0 - place.y),
+            Self::Z => place,
+        }
+    }
 }
 
 /// The files that a scene is read from, as far as they are known: for who waits for changes of them. Those

@@ -46,7 +46,8 @@ pub fn read_file(path: &Path, options: &ReadOptions) -> Result<Scene, ReadError>
     check_room(&name, metadata.len(), options)?;
     // The length above is a promise only of plain files: a pipe or a growing file is cut off here.
     let mut bytes = Vec::with_capacity(metadata.len() as usize + 1);
-    file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(file_error)?;
+    let most = options.memory.map_or(MAX_FILE_BYTES, |memory| memory.min(MAX_FILE_BYTES));
+    file.take(most + 1).read_to_end(&mut bytes).map_err(file_error)?;
     let folder = options.folder.clone().or_else(|| path.parent().map(Path::to_owned));
     Ok(read(&name, &bytes, &ReadOptions { folder, ..options.clone() })?)
 }

@@ -85,8 +85,9 @@ pub fn assemble(mut mesh: PolygonMesh, up: UpAxis) -> Result<Scene, MeshError> {
         let facts = MeshFacts::of(&part.triangles, &mesh.points, &part.topology);
         let is_solid = part.is_solid();
         let objects = scene.objects.len();
+        let triangles = triangle_mesh(&mesh, part, up);
         if is_solid {
-            let shape = closed(&mesh, part, up).map(Shape::Mesh);
+            let shape = triangles.clone().map(Shape::Mesh);
             scene.objects.extend(shape.map(|shape| object(part, shape, part.material().unwrap_or(0))));
         } else {
             flat += surfaces(&mesh, part, up, &mut scene.objects);
@@ -98,6 +99,7 @@ pub fn assemble(mut mesh: PolygonMesh, up: UpAxis) -> Result<Scene, MeshError> {
                 up,
                 name: part.name.clone(),
                 is_solid,
+                mesh: triangles,
                 ..facts
             });
         }
@@ -232,8 +234,8 @@ fn cut(mesh: &PolygonMesh, runs: &[(FaceRun, Range<u32>)], clipper: &mut EarClip
     triangles
 }
 
-/// The mesh of a closed part; none where it has no area.
-pub fn closed(mesh: &PolygonMesh, part: &MeshPart, up: UpAxis) -> Option<Arc<Mesh>> {
+/// The triangles of a part by themselves; none where they have no area.
+pub fn triangle_mesh(mesh: &PolygonMesh, part: &MeshPart, up: UpAxis) -> Option<Arc<Mesh>> {
     let place = |corner: u32| up.turned(mesh.points[corner as usize]);
     if !part.triangles.iter().any(|triangle| has_area(triangle.iter().map(|&corner| place(corner)))) {
         return None;

@@ -1,9 +1,10 @@
 //! What a mesh is, for the person who checks it.
 
 use std::fmt;
+use std::sync::Arc;
 
 use crate::math::{Bounds, DVec3};
-use crate::scene::UpAxis;
+use crate::scene::{Mesh, UpAxis};
 
 use super::topology::Topology;
 
@@ -37,6 +38,8 @@ pub struct MeshFacts {
     pub area: f64,
     /// How far it reaches along each axis.
     pub size: DVec3,
+    /// Its triangles, as they are turned in the scene; none where they have no area.
+    pub mesh: Option<Arc<Mesh>>,
 }
 
 impl MeshFacts {
@@ -66,12 +69,21 @@ impl MeshFacts {
             volume: has_volume.then_some(volume),
             area,
             size: 2.0 * bounds.half(),
+            mesh: None,
         }
     }
 
     /// Whether every edge is shared by an even number of triangles.
     pub const fn is_closed(&self) -> bool {
         self.open_edges == 0
+    }
+}
+
+impl MeshFacts {
+    /// A point of the scene in the file's own coordinates, to six digits.
+    pub fn place(&self, point: DVec3) -> String {
+        let [x, y, z] = self.up.turned_back(point).to_array().map(figure);
+        format!("[{x}, {y}, {z}]")
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::assemble::{bytes, closed, parts, prepare};
+use super::assemble::{bytes, parts, prepare, triangle_mesh};
 use super::facts::{MeshFacts, place};
 use super::fault::{MeshError, MeshFault};
 use super::formats::{polygons, without_mark};
@@ -55,15 +55,11 @@ pub fn solids(file: &[u8], format: Format, room: u64) -> Result<MeshSolids, NoSo
             return Err(told(MeshFault::Open { from, to }.of_all()));
         }
         all_doubled &= part.is_doubled;
-        let found = if part.is_doubled { None } else { closed(&mesh, &part, UpAxis::Z) };
+        let found = if part.is_doubled { None } else { triangle_mesh(&mesh, &part, UpAxis::Z) };
         if let Some(found) = found {
             let facts = MeshFacts::of(&part.triangles, &mesh.points, &part.topology);
-            solids.facts.push(MeshFacts {
-                format: mesh.format,
-                unit: mesh.unit,
-                name: part.name.clone(),
-                ..facts
-            });
+            let (format, unit, name) = (mesh.format, mesh.unit, part.name.clone());
+            solids.facts.push(MeshFacts { format, unit, name, mesh: Some(Arc::clone(&found)), ..facts });
             solids.parts.push(found);
         }
     }

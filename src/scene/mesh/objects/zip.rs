@@ -1,12 +1,11 @@
 //! ZIP archives, as far as files of models are ones: entries by name, stored or deflated, of an archive that
 //! is in memory. The directory at the end has the last word; sizes in it are not trusted with memory.
 
-use std::io::Read;
-
 use flate2::Crc;
 use flate2::read::DeflateDecoder;
 
 use super::super::fault::{MeshError, MeshFault};
+use crate::scene::bounded::read_at_most;
 
 /// The directory of an archive.
 #[derive(Clone, Debug)]
@@ -69,8 +68,8 @@ impl<'a> ZipArchive<'a> {
         let packed = entry.packed(self.bytes).ok_or_else(cut_off)?;
         let mut bytes = Vec::new();
         let read = match entry.method {
-            0 => packed.take(room.saturating_add(1)).read_to_end(&mut bytes),
-            8 => DeflateDecoder::new(packed).take(room.saturating_add(1)).read_to_end(&mut bytes),
+            0 => read_at_most(packed, room.saturating_add(1), &mut bytes),
+            8 => read_at_most(DeflateDecoder::new(packed), room.saturating_add(1), &mut bytes),
             method => {
                 let what = format!("`{}` in the archive is compressed by method {method}", shown());
                 return Err(MeshFault::Unsupported(what).of_all());

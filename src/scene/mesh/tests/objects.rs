@@ -173,7 +173,7 @@ fn hostile_three_mf_is_refused() {
         (with("<resources>", "<resources>&lol;"), "an entity `lol`"),
         (with("<model ", "<model \u{0} x=<"), "no XML"),
         (three_mf("<model/>"), "no triangles"),
-        (with("v1=\"0\"", "v1=\"99\""), "3D/model.model, line 8: a face names corner 99"),
+        (with("v1=\"0\"", "v1=\"99\""), "3D/model.model, line 6: a face names corner 99"),
         (with("v1=\"0\"", "v1=\"-1\""), "a face names corner -1"),
         (with("v1=\"0\"", "v1=\"99999999999999999999\""), "`v1` is no number"),
         (with("v1=\"0\"", "v1=\"0.5\""), "`v1` is no number"),

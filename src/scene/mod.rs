@@ -17,6 +17,7 @@ mod outline;
 mod profile;
 mod read;
 mod screen_colors;
+mod triangles;
 mod triangulation;
 mod unit_vector;
 
@@ -25,8 +26,9 @@ pub use embedded::{EmbeddedScene, embedded};
 pub use language::reference;
 pub use mesh::MeshFacts;
 pub use model::{
-    Anchor, Camera, CameraError, Corner, Facets, FieldSpan, HalfSpace, Light, Material, MaterialId, Mesh,
-    Object, Primitive, REACH, Scene, Shape, Solid, World,
+    Anchor, Camera, CameraError, Corner, Facets, FieldSpan, HalfSpace, Light, Material, MaterialId, Object,
+    Primitive, REACH, Scene, Shape, Solid, World,
 };
 pub use options::{FilesRead, Format, MAX_FILE_BYTES, ReadOptions, UpAxis};
 pub use read::{ReadError, read, read_file};
+pub use triangles::Mesh;

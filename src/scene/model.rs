@@ -6,7 +6,7 @@ use std::vec::Drain;
 
 use crate::math::{Bounds, DAffine3, DVec3};
 
-use super::MeshFacts;
+use super::{Mesh, MeshFacts};
 
 /// Scenes reach no farther than this from the origin along any axis. It is a thousandth of the largest
 /// number: so far may an eye that sees all of a scene stand off, and the lights that go with it.
@@ -260,15 +260,6 @@ pub struct HalfSpace {
     pub normal: DVec3,
     /// Distance of the plane from the origin, along `normal`.
     pub offset: f64,
-}
-
-/// A closed surface of triangles: every edge is shared by an even number of them.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Mesh {
-    /// Corner points, in the mesh's own coordinates.
-    pub points: Vec<DVec3>,
-    /// Three indices into `points` each; either order of turning. No triangle names a point twice.
-    pub triangles: Vec<[u32; 3]>,
 }
 
 /// An index into [`Scene::materials`].

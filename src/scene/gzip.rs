@@ -36,7 +36,7 @@ pub fn unpacked(bytes: &[u8], memory: Option<u64>) -> Result<Vec<u8>, Diagnostic
             let limit = memory.unwrap_or(u64::MAX);
             Err(too_little(limit, limit.saturating_add(inner.len() as u64)))
         }
-        Ok(_) => Ok(inner),
+        Ok(()) => Ok(inner),
         Err(error) => Err(damaged(&error, inner.len())),
     }
 }

@@ -56,7 +56,10 @@ impl SelfCrossings {
                 let mut met = Met::default();
                 near(&bvh, &boxes[triangle], &mut met.looked, |other| {
                     let is_new = other > triangle && overlap(&boxes[other], &boxes[triangle]);
-                    if is_new && let Some(point) = crossing(corners(triangle), corners(other)) {
+                    if is_new
+                        && let Some(point) =
+                            crossing(mesh.triangles[triangle], mesh.triangles[other], &points)
+                    {
                         met.pairs += 1;
                         met.first.get_or_insert(point);
                     }
@@ -101,18 +104,31 @@ fn near(bvh: &Bvh8, around: &Bounds, looked: &mut u64, mut f: impl FnMut(usize))
 }
 
 fn overlap(a: &Bounds, b: &Bounds) -> bool {
-    !a.meet(b).is_empty()
+    a.lo.cmple(b.hi).all() && b.lo.cmple(a.hi).all()
 }
 
-/// A point at which an edge of one triangle passes through the inside of the other.
-fn crossing(a: [DVec3; 3], b: [DVec3; 3]) -> Option<DVec3> {
-    let sides = |triangle: [DVec3; 3], other: [DVec3; 3]| other.map(|point| side(triangle, point));
-    let (of_a, of_b) = (sides(b, a), sides(a, b));
-    let is_apart = |sides: [f64; 3]| sides.iter().all(|&s| s >= 0.0) || sides.iter().all(|&s| s <= 0.0);
-    if is_apart(of_a) || is_apart(of_b) {
+/// A point at which an edge of one triangle passes through the inside of the other. Corners are indices of
+/// points: one that both have is in the planes of both, which rounded numbers need not be asked for.
+fn crossing(a: [u32; 3], b: [u32; 3], points: &[DVec3]) -> Option<DVec3> {
+    // Two that share an edge meet in no other place, or lie in one plane.
+    if a.iter().filter(|corner| b.contains(corner)).count() >= 2 {
         return None;
     }
-    through(a, of_a, b).or_else(|| through(b, of_b, a))
+    let at = |corners: [u32; 3]| corners.map(|corner| points[corner as usize]);
+    let (places_a, places_b) = (at(a), at(b));
+    let sides = |plane: [u32; 3], places: [DVec3; 3], others: [u32; 3]| {
+        others.map(|corner| if plane.contains(&corner) { 0.0 } else { side(places, points[corner as usize]) })
+    };
+    let is_apart = |sides: [f64; 3]| sides.iter().all(|&s| s >= 0.0) || sides.iter().all(|&s| s <= 0.0);
+    let of_a = sides(b, places_b, a);
+    if is_apart(of_a) {
+        return None;
+    }
+    let of_b = sides(a, places_a, b);
+    if is_apart(of_b) {
+        return None;
+    }
+    through(places_a, of_a, places_b).or_else(|| through(places_b, of_b, places_a))
 }
 
 /// Where an edge of a triangle passes through the inside of another, on whose `sides` its corners are.

@@ -36,6 +36,14 @@ impl Kind {
     }
 }
 
+/// Bytes that solids hold while the scene is read, whatever is made of them.
+fn held(solids: &MeshSolids) -> u64 {
+    let of = |mesh: &Arc<Mesh>| {
+        size_of_val(mesh.points.as_slice()) + size_of_val(mesh.triangles.as_slice()) + size_of::<Mesh>()
+    };
+    solids.parts.iter().map(of).sum::<usize>() as u64
+}
+
 impl Builder {
     /// What an `import` is to the call that holds it.
     pub(super) fn import(
@@ -94,6 +102,7 @@ impl Builder {
             let solids = self.read_mesh(name, &file)?.map(Rc::new);
             self.imports.known.insert(file.path, solids.clone());
             if let Ok(solids) = &solids {
+                self.memory.take(held(solids));
                 self.tell_of(name, solids, arguments);
             }
             solids

@@ -89,6 +89,13 @@ pub fn read(bytes: &[u8], options: Option<&ReadOptions>) -> Result<PolygonMesh, 
     Ok(reader.mesh)
 }
 
+/// The longest name that is kept, in bytes: that of an object is there once for each of its groups.
+const LONGEST: usize = 100;
+
+fn shortened(name: &[u8]) -> &[u8] {
+    &name[..name.len().min(LONGEST)]
+}
+
 struct Reader {
     mesh: PolygonMesh,
     groups: Groups,
@@ -133,12 +140,12 @@ impl Reader {
             }
             b"f" => self.face(word, words)?,
             b"o" => {
-                self.groups.object = words.rest_of_line().to_vec();
+                self.groups.object = shortened(words.rest_of_line()).to_vec();
                 self.groups.group.clear();
                 self.groups.is_new = true;
             }
             b"g" => {
-                self.groups.group = words.rest_of_line().to_vec();
+                self.groups.group = shortened(words.rest_of_line()).to_vec();
                 self.groups.is_new = true;
             }
             b"usemtl" if options.is_some() => {

@@ -175,12 +175,12 @@ impl AmfReader {
                 let (object, way, turns) = std::mem::take(&mut self.placed);
                 if let Some((_, constellation)) = &mut self.object {
                     let map = DAffine3 { matrix3: turned(turns), translation: way };
-                    constellation.components.push(Instance { object: (String::new(), object), map });
+                    constellation.components.push(Instance { object: (0, object), map });
                 }
             }
             (_, "object" | "constellation") => {
                 if let Some((id, object)) = self.object.take() {
-                    self.tree.objects.insert((String::new(), id), object);
+                    self.tree.objects.insert((0, id), object);
                 }
             }
             _ => {}
@@ -199,7 +199,7 @@ impl AmfReader {
         if !self.order.iter().any(|(_, whole)| *whole) {
             built = self.order.iter().map(|(id, _)| id).collect();
         }
-        let item = |id: &String| Instance { object: (String::new(), id.clone()), map: DAffine3::IDENTITY };
+        let item = |id: &String| Instance { object: (0, id.clone()), map: DAffine3::IDENTITY };
         self.tree.items = built.into_iter().map(item).collect();
         self.tree
     }

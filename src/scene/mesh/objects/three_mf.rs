@@ -7,7 +7,7 @@ use std::collections::{HashMap, HashSet};
 use super::super::fault::{MeshError, MeshFault};
 use super::super::index::CornerNumbers;
 use super::super::polygons::PolygonMesh;
-use super::tree::{Instance, ModelObject, ObjectTree};
+use super::tree::{Instance, ModelObject, ObjectTree, shortened};
 use super::xml::{XmlElement, XmlEvent, XmlText, number};
 use super::zip::ZipArchive;
 use crate::math::{DAffine3, DVec3};
@@ -34,18 +34,14 @@ pub fn read(bytes: &[u8], room: u64) -> Result<PolygonMesh, MeshError> {
     let mut left = room.min(MAX_FILE_BYTES);
     let mut model = Model::default();
     let root = root(&archive, &mut left)?;
-    let mut waiting = vec![root.clone()];
-    let mut met: HashSet<String> = HashSet::from([root.clone()]);
-    while let Some(path) = waiting.pop() {
+    model.file(&root);
+    let mut next = 0;
+    while let Some(path) = model.paths.get(next).cloned() {
         let file = archive.read(path.as_bytes(), left)?;
         left -= file.len() as u64;
-        let mut reader = ModelReader::new(&mut model, &path, path == root);
+        let mut reader = ModelReader::new(&mut model, next as u32);
         reader.read(&file).map_err(|error| error.within(&path, &file))?;
-        for other in reader.others {
-            if met.len() < MOST_FILES && met.insert(other.clone()) {
-                waiting.push(other);
-            }
-        }
+        next += 1;
     }
     let mut mesh = model.tree.polygons("3MF", room)?;
     mesh.unit = Some(model.unit.unwrap_or("millimeter"));
@@ -69,7 +65,7 @@ fn root(archive: &ZipArchive<'_>, left: &mut u64) -> Result<String, MeshError> {
                     element.attribute("Type").map_err(within)?.is_some_and(|it| it.ends_with("3dmodel"));
                 let target = element.attribute("Target").map_err(within)?;
                 if let (true, Some(target)) = (is_model, target) {
-                    return Ok(inner(&target));
+                    return Ok(target.into_owned());
                 }
             }
             XmlEvent::End => return Ok(USUAL.to_owned()),
@@ -78,54 +74,67 @@ fn root(archive: &ZipArchive<'_>, left: &mut u64) -> Result<String, MeshError> {
     }
 }
 
-/// The name of a file in an archive, as its directory has it.
-fn inner(path: &str) -> String {
-    path.trim_start_matches('/').to_owned()
-}
-
 /// What is read of all files of a model.
 #[derive(Debug)]
 struct Model {
     tree: ObjectTree,
     unit: Option<&'static str>,
     notes: Vec<String>,
+    /// The files that are named, the one whose list is built first; and the place of each by its name.
+    paths: Vec<String>,
+    known: HashMap<String, u32>,
 }
 
 impl Default for Model {
     fn default() -> Self {
         let tree = ObjectTree { materials: vec![Material::default()], ..ObjectTree::default() };
-        Self { tree, unit: None, notes: Vec::new() }
+        Self { tree, unit: None, notes: Vec::new(), paths: Vec::new(), known: HashMap::new() }
+    }
+}
+
+impl Model {
+    /// The number of a file, which is to be read.
+    fn file(&mut self, path: &str) -> u32 {
+        let path = path.trim_start_matches('/');
+        if let Some(&known) = self.known.get(path) {
+            return known;
+        }
+        // What is named beyond them is not there.
+        if self.paths.len() >= MOST_FILES {
+            return u32::MAX;
+        }
+        self.paths.push(path.to_owned());
+        self.known.insert(path.to_owned(), self.paths.len() as u32 - 1);
+        self.paths.len() as u32 - 1
     }
 }
 
 /// Reads one file of a model.
 struct ModelReader<'m> {
     model: &'m mut Model,
-    path: &'m str,
-    /// Whether it is the one whose list is built.
-    is_root: bool,
+    /// The number of the file. Of the first the list is built.
+    file: u32,
     /// By group of materials: the indices of its materials.
     groups: HashMap<i64, Vec<u32>>,
     group: i64,
-    /// The object that is open, its number, and the material of its faces.
-    object: Option<(String, ModelObject, u32)>,
+    /// The object that is open, and its number.
+    object: Option<(String, ModelObject)>,
+    /// The group of materials, and the material, of its faces that say nothing else.
+    usual: (Option<i64>, u32),
     /// The objects that are no part of the model.
     left_out: HashSet<String>,
-    /// Other files that are named.
-    others: Vec<String>,
 }
 
 impl<'m> ModelReader<'m> {
-    fn new(model: &'m mut Model, path: &'m str, is_root: bool) -> Self {
+    fn new(model: &'m mut Model, file: u32) -> Self {
         Self {
             model,
-            path,
-            is_root,
+            file,
             groups: HashMap::new(),
             group: 0,
             object: None,
+            usual: (None, 0),
             left_out: HashSet::new(),
-            others: Vec::new(),
         }
     }
 
@@ -151,32 +160,38 @@ impl<'m> ModelReader<'m> {
 
     fn open(&mut self, element: &XmlElement<'_>) -> Result<(), MeshError> {
         match element.name() {
-            "model" if self.is_root => self.model.unit = element.attribute("unit")?.as_deref().and_then(unit),
+            "model" if self.file == 0 => {
+                self.model.unit = element.attribute("unit")?.as_deref().and_then(unit)
+            }
             "basematerials" | "colorgroup" => {
                 self.group = element.index("id")?;
                 self.groups.insert(self.group, Vec::new());
             }
             "base" => {
-                self.material(element, "displaycolor", element.attribute("name")?.map(Cow::into_owned))?;
+                self.material(
+                    element,
+                    "displaycolor",
+                    element.attribute("name")?.map(|name| shortened(&name)),
+                )?;
             }
             "color" => self.material(element, "color", None)?,
             "object" => self.object(element)?,
             "vertex" => {
                 let point = DVec3::new(element.number("x")?, element.number("y")?, element.number("z")?);
-                if let Some((_, object, _)) = &mut self.object {
+                if let Some((_, object)) = &mut self.object {
                     object.points.push(point);
                 }
             }
             "triangle" => self.triangle(element)?,
             "component" => {
                 let instance = self.instance(element)?;
-                if let Some((_, object, _)) = &mut self.object {
+                if let Some((_, object)) = &mut self.object {
                     object.components.push(instance);
                 }
             }
-            "item" if self.is_root => {
+            "item" if self.file == 0 => {
                 let instance = self.instance(element)?;
-                let is_own = instance.object.0 == self.path;
+                let is_own = instance.object.0 == self.file;
                 if !(is_own && self.left_out.contains(&instance.object.1)) {
                     self.model.tree.items.push(instance);
                 }
@@ -199,7 +214,8 @@ impl<'m> ModelReader<'m> {
         attribute: &str,
         name: Option<String>,
     ) -> Result<(), MeshError> {
-        let written = element.attribute(attribute)?.unwrap_or_default();
+        // Of another extension's elements of this name nothing is known.
+        let Some(written) = element.attribute(attribute)? else { return Ok(()) };
         let color = color(&written).ok_or_else(|| {
             MeshFault::Unexpected(format!("a colour as #RRGGBB in `{attribute}`")).at(element.place.clone())
         })?;
@@ -213,13 +229,9 @@ impl<'m> ModelReader<'m> {
     }
 
     /// The material that a group and a place in it name, where both are known.
-    fn named(&self, element: &XmlElement<'_>, index: &str) -> Result<Option<u32>, MeshError> {
-        if element.attribute("pid")?.is_none() || element.attribute(index)?.is_none() {
-            return Ok(None);
-        }
-        let group = self.groups.get(&element.index("pid")?);
-        let place = usize::try_from(element.index(index)?).ok();
-        Ok(group.zip(place).and_then(|(group, place)| group.get(place).copied()))
+    fn named(&self, group: Option<i64>, place: Option<i64>) -> Option<u32> {
+        let group = self.groups.get(&group?)?;
+        group.get(usize::try_from(place?).ok()?).copied()
     }
 
     fn object(&mut self, element: &XmlElement<'_>) -> Result<(), MeshError> {
@@ -227,48 +239,50 @@ impl<'m> ModelReader<'m> {
         if element.attribute("type")?.is_some_and(|kind| kind == "support" || kind == "other") {
             self.left_out.insert(id.clone());
         }
-        let object =
-            ModelObject { name: element.attribute("name")?.map(Cow::into_owned), ..ModelObject::default() };
-        let material = self.named(element, "pindex")?.unwrap_or(0);
-        self.object = Some((id, object, material));
+        let name = element.attribute("name")?.map(|name| shortened(&name));
+        self.object = Some((id, ModelObject { name, ..ModelObject::default() }));
+        let group = optional(element, "pid")?;
+        self.usual = (group, self.named(group, optional(element, "pindex")?).unwrap_or(0));
         Ok(())
     }
 
     fn triangle(&mut self, element: &XmlElement<'_>) -> Result<(), MeshError> {
-        let own = self.named(element, "p1")?;
-        let Some((_, object, material)) = &mut self.object else { return Ok(()) };
+        let group = optional(element, "pid")?.or(self.usual.0);
+        let material = self.named(group, optional(element, "p1")?).unwrap_or(self.usual.1);
+        let Some((_, object)) = &mut self.object else { return Ok(()) };
         let known = CornerNumbers::from_zero(object.points.len());
         let corner = |name: &str| {
             let index = element.index(name)?;
             known.corner(index).map_err(|fault| fault.at(element.place.clone()))
         };
         let triangle = [corner("v1")?, corner("v2")?, corner("v3")?];
-        object.begin_run(0, own.unwrap_or(*material));
+        object.begin_run(0, material);
         object.triangles.push(triangle);
         Ok(())
     }
 
     fn instance(&mut self, element: &XmlElement<'_>) -> Result<Instance, MeshError> {
-        let path = match element.attribute("path")? {
-            Some(path) => {
-                let path = inner(&path);
-                self.others.push(path.clone());
-                path
-            }
-            None => self.path.to_owned(),
+        let file = match element.attribute("path")? {
+            Some(path) => self.model.file(&path),
+            None => self.file,
         };
         let map = match element.attribute("transform")? {
             Some(written) => map(&written).map_err(|fault| fault.at(element.place.clone()))?,
             None => DAffine3::IDENTITY,
         };
-        Ok(Instance { object: (path, name_of(element, "objectid")?), map })
+        Ok(Instance { object: (file, name_of(element, "objectid")?), map })
     }
 
     fn close(&mut self) {
-        if let Some((id, object, _)) = self.object.take() {
-            self.model.tree.objects.insert((self.path.to_owned(), id), object);
+        if let Some((id, object)) = self.object.take() {
+            self.model.tree.objects.insert((self.file, id), object);
         }
     }
+}
+
+/// The whole number that an attribute is, where it is there.
+fn optional(element: &XmlElement<'_>, attribute: &str) -> Result<Option<i64>, MeshError> {
+    element.attribute(attribute)?.map(|_| element.index(attribute)).transpose()
 }
 
 /// The name by which an object is known.

@@ -19,8 +19,21 @@ const MOST_FACES: u64 = MAX_FILE_BYTES / 8;
 /// So many times may objects be placed. Each costs a little, if it has no faces at all.
 const MOST_INSTANCES: u64 = 1_000_000;
 
-/// An object's key: the file within an archive, and its name there.
-pub type ObjectKey = (String, String);
+/// An object's key: the number of the file within an archive, and its name there.
+pub type ObjectKey = (u32, String);
+
+/// Bytes that an object takes each time that it is placed, beside its points and triangles: a part with a
+/// name, and what is made of that.
+const PLACED: u64 = 600;
+
+/// The longest name that is kept, in bytes: it is there once for each place of an object.
+const LONGEST: usize = 100;
+
+/// A name, cut off where it is longer than anybody reads.
+pub fn shortened(name: &str) -> String {
+    let end = (0..=LONGEST.min(name.len())).rev().find(|&at| name.is_char_boundary(at)).unwrap_or(0);
+    name[..end].to_owned()
+}
 
 /// All objects of a file, and what is built of them.
 #[derive(Clone, Debug, Default)]
@@ -96,7 +109,7 @@ impl ObjectTree {
         if all.triangles > MOST_FACES || all.instances > MOST_INSTANCES {
             return Err(MeshFault::TooMany.of_all());
         }
-        let needed = bytes_of(all.points, 3 * all.triangles, all.triangles);
+        let needed = bytes_of(all.points, 3 * all.triangles, all.triangles) + PLACED * all.instances;
         if needed > room {
             return Err(MeshFault::NoRoom(needed).of_all());
         }

@@ -161,7 +161,7 @@ impl<'m> ModelReader<'m> {
     fn open(&mut self, element: &XmlElement<'_>) -> Result<(), MeshError> {
         match element.name() {
             "model" if self.file == 0 => {
-                self.model.unit = element.attribute("unit")?.as_deref().and_then(unit)
+                self.model.unit = element.attribute("unit")?.as_deref().and_then(unit);
             }
             "basematerials" | "colorgroup" => {
                 self.group = element.index("id")?;

@@ -73,7 +73,7 @@ impl NamedFiles {
             Ok(path) if allowed().any(|folder| real(folder).is_some_and(|it| path.starts_with(it))) => path,
             Ok(_) => return Err(outside()),
             // Of what lies outside not even that is told.
-            Err(_) if !allowed().any(|folder| without_dots(&named).starts_with(without_dots(folder))) => {
+            Err(_) if !allowed().any(|folder| whole(&named).starts_with(whole(folder))) => {
                 return Err(outside());
             }
             Err(error) => {
@@ -113,6 +113,13 @@ fn real(folder: &Path) -> Option<PathBuf> {
     fs::canonicalize(folder).ok()
 }
 
+/// A path from the root on, without `.` and `..`, by its words alone: of what is not there the system says no
+/// more.
+fn whole(path: &Path) -> PathBuf {
+    let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
+    without_dots(&std::path::absolute(path).unwrap_or_else(|_| path.to_owned()))
+}
+
 /// A path without `.` and `..`, by its words alone.
 fn without_dots(path: &Path) -> PathBuf {
     let mut clean = PathBuf::new();
@@ -145,6 +152,12 @@ mod tests {
         }
         for name in ["../lib.rs", "../../Cargo.toml", "../no such file", "/etc/hostname", "../no/such.stl"] {
             assert!(matches!(found(None, name), Err(NoNamedFile::Outside { .. })), "{name}");
+        }
+        // The folder of a scene that is named without one.
+        for folder in ["", ".", "src"] {
+            let files = NamedFiles { folder: Some(folder.into()), ..NamedFiles::default() };
+            assert!(matches!(files.find("../../no such file"), Err(NoNamedFile::Outside { .. })), "{folder}");
+            assert!(matches!(files.find("no such file"), Err(NoNamedFile::Io(_))), "{folder}");
         }
         assert!(found(Some("src"), "../lib.rs").is_ok());
         assert!(matches!(found(Some("src"), "../../Cargo.toml"), Err(NoNamedFile::Outside { .. })));

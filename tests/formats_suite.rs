@@ -14,6 +14,8 @@ mod support {
 
 mod formats {
     mod any_text;
+    mod hostile;
+    mod imports;
     mod leaves;
     mod memory;
     mod meshes;

@@ -95,6 +95,9 @@ pub struct ReadingArguments {
     /// Memory that a scene may take, as in 500MiB or 2GiB [default: half of the machine's]
     #[arg(long, value_name = "BYTES", value_parser = values::bytes)]
     pub memory: Option<u64>,
+    /// A folder of which a scene may import files, besides its own
+    #[arg(long, value_name = "DIR", value_parser = values::folder)]
+    pub root: Option<PathBuf>,
     /// The axis of a mesh file that is up: it is given as `--up`, which commands with a camera have for that
     /// too.
     #[arg(skip)]

@@ -1,5 +1,6 @@
 //! Two pictures, compared.
 
+use crate::scene::FilesRead;
 use crate::trade::LevelDifference;
 
 use super::arguments::DiffArguments;
@@ -19,11 +20,13 @@ pub fn run(arguments: &DiffArguments) -> Result<(), CliError> {
         Source::Levels(levels) => Some(levels.size()),
         Source::Bytes(_) | Source::Name => None,
     });
+    // No picture is written.
+    let read = FilesRead::default();
     let drawn = |source: Source, file: &str| {
         let studio = match source {
             Source::Levels(levels) => return Ok(levels),
-            Source::Bytes(bytes) => comparison.studio(file, Some(&bytes))?,
-            Source::Name => comparison.studio(file, None)?,
+            Source::Bytes(bytes) => comparison.studio(file, Some(&bytes), &read)?,
+            Source::Name => comparison.studio(file, None, &read)?,
         };
         comparison.levels(&studio, None, like)
     };

@@ -4,7 +4,7 @@
 use std::fs::File;
 use std::fs::Metadata;
 use std::io::{IsTerminal, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::frame::Studio;
 use crate::scene::{
@@ -19,6 +19,7 @@ use super::error::{CliError, tell, visible};
 use super::memory;
 use super::openscad::{self, OpenScadRun, Program};
 use super::terminal::capabilities;
+use super::waiting::Waiting;
 
 /// Who looks on while a scene is read.
 #[derive(Clone, Debug, Default)]
@@ -35,17 +36,28 @@ pub struct Onlooker {
 
 /// Reads a scene: a file, `-` for standard input, or an embedded scene where there is no file of that name.
 pub fn read(file: &str, reading: &ReadingArguments) -> Result<Scene, CliError> {
-    let onlooker = Onlooker { openscad: OpenScadRun::minding_signals(), ..Onlooker::default() };
+    read_noting(file, reading, &FilesRead::default())
+}
+
+/// The same, and notes the files that it is read from.
+pub fn read_noting(file: &str, reading: &ReadingArguments, files: &FilesRead) -> Result<Scene, CliError> {
+    let openscad = OpenScadRun::minding_signals();
+    let onlooker = Onlooker { openscad, files: Some(files.clone()), ..Onlooker::default() };
     read_watched(file, reading, &onlooker)
 }
 
 /// Reads a scene of which the bytes are here already; `file` is where they are from.
-pub fn read_bytes(file: &str, bytes: &[u8], reading: &ReadingArguments) -> Result<Scene, CliError> {
+pub fn read_bytes(
+    file: &str,
+    bytes: &[u8],
+    reading: &ReadingArguments,
+    files: &FilesRead,
+) -> Result<Scene, CliError> {
     if openscad::is_program(file, &reading.openscad)? {
-        return read(file, reading);
+        return read_noting(file, reading, files);
     }
     let folder = Path::new(file).parent().map(Path::to_owned);
-    let onlooker = Onlooker::default();
+    let onlooker = Onlooker { files: Some(files.clone()), ..Onlooker::default() };
     let options = ReadOptions { folder, ..options(reading, &onlooker) };
     scene::read(file, bytes, &options).map_err(|e| no_scene(file, &e, &onlooker))
 }
@@ -61,12 +73,17 @@ pub fn read_watched(file: &str, reading: &ReadingArguments, onlooker: &Onlooker)
         if is_program {
             return read_program("standard input", Program::Text(&bytes), options, reading, onlooker);
         }
+        let options = &ReadOptions { folder: Some(working_folder()), ..options.clone() };
         return scene::read("standard input", &bytes, options).map_err(|e| rendered(&e, onlooker));
     }
     if is_program && Path::new(file).is_file() {
         return read_program(file, Program::File(Path::new(file)), options, reading, onlooker);
     }
-    match scene::read_file(Path::new(file), options) {
+    // The viewer has a screen that says what it is at.
+    let waiting = onlooker.progress.is_none().then(|| Waiting::new(file));
+    let read = scene::read_file(Path::new(file), options);
+    drop(waiting);
+    match read {
         Ok(scene) => Ok(scene),
         Err(ReadError::Content(diagnostics)) => Err(no_scene(file, &diagnostics, onlooker)),
         Err(error @ ReadError::File { .. }) => match named(file) {
@@ -91,10 +108,11 @@ fn read_program(
         made.files.iter().for_each(|file| files.add(file));
     }
     let folder = match program {
-        Program::File(path) => path.parent().map(Path::to_owned),
-        Program::Text(_) => None,
+        // The names in the `.csg` are those from the program on.
+        Program::File(path) => path.parent().map_or_else(working_folder, Path::to_owned),
+        Program::Text(_) => working_folder(),
     };
-    let options = ReadOptions { folder, format: Some(Format::Language), ..options.clone() };
+    let options = ReadOptions { folder: Some(folder), format: Some(Format::Language), ..options.clone() };
     // Places are those of a text that is not kept; what is wrong in it stands in no program.
     let source = format!("{name}, as OpenSCAD's .csg");
     let mut scene = scene::read(&source, &made.csg, &options).map_err(|e| rendered(&e, onlooker))?;
@@ -102,11 +120,17 @@ fn read_program(
     Ok(scene)
 }
 
+/// Where the files lie that a scene of standard input names.
+fn working_folder() -> PathBuf {
+    PathBuf::new()
+}
+
 fn options(reading: &ReadingArguments, onlooker: &Onlooker) -> ReadOptions {
-    let ReadingArguments { skip_unsupported, memory, up, openscad: _ } = *reading;
+    let ReadingArguments { skip_unsupported, memory, up, ref root, openscad: _ } = *reading;
     let memory = memory.or_else(memory::half_of_all);
     let Onlooker { progress, files, .. } = onlooker.clone();
-    ReadOptions { skip_unsupported, progress, memory, up, files, ..ReadOptions::default() }
+    let root = root.clone();
+    ReadOptions { skip_unsupported, progress, memory, up, root, files, ..ReadOptions::default() }
 }
 
 /// Why a file is no scene, given what the reader says.
@@ -146,8 +170,7 @@ fn named(name: &str) -> Option<&'static EmbeddedScene> {
 }
 
 /// Formats of models that people try first, by the ending of the name. Only asked where a file made no sense.
-const FOREIGN: [(&str, &str); 4] =
-    [("3mf", "a 3MF model"), ("amf", "an AMF model"), ("step", "a STEP model"), ("stp", "a STEP model")];
+const FOREIGN: [(&str, &str); 2] = [("step", "a STEP model"), ("stp", "a STEP model")];
 
 fn foreign(file: &str) -> Option<&'static str> {
     let ending = Path::new(file).extension()?;

@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::frame::{Studio, Wants};
 use crate::math::{Grid, Size};
 use crate::output::{LevelsError, read_levels};
-use crate::scene::MAX_FILE_BYTES;
+use crate::scene::{FilesRead, MAX_FILE_BYTES};
 use crate::tone::Level;
 
 use super::arguments::ComparisonArguments;
@@ -15,17 +15,18 @@ use super::error::{CliError, visible};
 use super::input;
 use super::picture::Unsized;
 use super::render::{refuse_over_budget, say_nothing};
+use super::waiting::Waiting;
 
 /// A terminal's cells, of which a picture without a size has as many dots as they show.
 const CELLS: Size = Size::new(80, 25);
 
 impl ComparisonArguments {
     /// Reads a scene and says what was left out. `bytes` are what the file holds, where they are read
-    /// already: a pipe is read once.
-    pub fn studio(&self, file: &str, bytes: Option<&[u8]>) -> Result<Studio, CliError> {
+    /// already: a pipe is read once. All files that are read are noted.
+    pub fn studio(&self, file: &str, bytes: Option<&[u8]>, files: &FilesRead) -> Result<Studio, CliError> {
         let scene = match bytes {
-            Some(bytes) => input::read_bytes(file, bytes, &self.reading)?,
-            None => input::read(file, &self.reading)?,
+            Some(bytes) => input::read_bytes(file, bytes, &self.reading, files)?,
+            None => input::read_noting(file, &self.reading, files)?,
         };
         input::say(&scene.notes);
         input::studio(scene)
@@ -85,6 +86,7 @@ pub fn read(file: &str) -> Result<Source, CliError> {
     }
     let is_named = Path::new(file).extension().is_some_and(|ending| ending == "levels");
     let failed = |e: &dyn std::fmt::Display| CliError::Input(format!("{}: {e}", visible(file)));
+    let _waiting = Waiting::new(file);
     let mut bytes = Vec::new();
     let read = File::open(file).and_then(|source| source.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes));
     match read {

@@ -31,6 +31,7 @@ mod trade_png;
 mod trade_report;
 mod up;
 mod values;
+mod waiting;
 mod write;
 
 use std::io::{self, IsTerminal};
@@ -40,7 +41,8 @@ use std::time::Duration;
 
 use crate::app::{self, Opening, Painter, Reloading, Settings};
 use crate::frame::Studio;
-use crate::scene::{Scene, embedded};
+use crate::scene::{MeshFacts, Scene, embedded};
+use crate::solid::SelfCrossings;
 use crate::stage::Progress;
 
 use arguments::{Arguments, Command, ReadingArguments, SceneArguments, ViewerArguments};
@@ -239,13 +241,27 @@ fn check_scene(arguments: &SceneArguments) -> Result<(), CliError> {
     );
     let mut lines = line;
     for facts in scene.meshes.iter().take(MOST_MESHES) {
-        lines += &visible(&format!("{facts}"));
+        lines += &visible(&format!("{facts}{}", crossings(facts)));
         lines.push('\n');
     }
     if let Some(more) = scene.meshes.len().checked_sub(MOST_MESHES).filter(|&more| more > 0) {
         lines += &format!("and {} more\n", count(more, "part"));
     }
     print(lines.as_bytes())
+}
+
+/// Where a mesh crosses itself, in words; none where it does not.
+fn crossings(facts: &MeshFacts) -> String {
+    let Some(mesh) = &facts.mesh else { return String::new() };
+    let SelfCrossings { pairs, first, is_complete } = SelfCrossings::of(mesh);
+    let at = first.map(|point| format!(" as at {}", facts.place(point))).unwrap_or_default();
+    match (pairs, is_complete) {
+        (0, true) => String::new(),
+        (0, false) => ", too many triangles near each other to look for crossings of all".to_owned(),
+        (1, true) => format!(", crosses itself: 1 pair of triangles{at}"),
+        (pairs, true) => format!(", crosses itself: {pairs} pairs of triangles{at}"),
+        (pairs, false) => format!(", crosses itself: {pairs} pairs of triangles or more{at}"),
+    }
 }
 
 /// Lists the embedded scenes, or prints one.

@@ -81,8 +81,44 @@ impl WatchedScene {
         scene
     }
 
+    /// The files that it was read from.
+    pub fn files(&self) -> &[PathBuf] {
+        &self.files
+    }
+
     /// Waits until it is another; `false` at the end.
     pub fn wait(&mut self) -> bool {
         self.changes.wait()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+
+    /// Of a mesh that is not there yet, too: it may come.
+    #[test]
+    fn what_a_scene_imports_is_watched() {
+        let folder = tempfile::tempdir().unwrap();
+        let [scene, mesh] = ["a.scene", "part.off"].map(|name| folder.path().join(name));
+        fs::write(&scene, "cube(1); import(\"part.off\");").unwrap();
+        let reading = ReadingArguments {
+            skip_unsupported: false,
+            memory: None,
+            root: None,
+            up: None,
+            openscad: super::super::arguments::OpenScadArguments::default(),
+        };
+        let watch =
+            |file: &Path| WatchedScene::new(&file.to_string_lossy(), &reading, Onlooker::default()).unwrap();
+        let mut watched = watch(&scene);
+        assert!(watched.read().is_err());
+        assert_eq!(watched.files(), [scene.clone(), mesh.clone()]);
+        fs::write(&mesh, "OFF 4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n")
+            .unwrap();
+        assert!(watched.read().is_ok());
+        assert_eq!(watched.files(), [scene, mesh]);
     }
 }

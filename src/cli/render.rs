@@ -11,7 +11,7 @@ use crate::glyph::Palette;
 use crate::math::Grid;
 use crate::output::{self, Capabilities, Pixels};
 use crate::plan::PrecisionChoice;
-use crate::scene::Scene;
+use crate::scene::{FilesRead, Scene};
 use crate::tone::Tone;
 
 use super::arguments::{
@@ -37,8 +37,9 @@ pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
     let SceneArguments { file, reading } = &arguments.scene;
     if !arguments.watch {
         let begin = Instant::now();
-        let scene = input::read(file, reading)?;
-        to.check_libraries(&scene)?;
+        let files = FilesRead::default();
+        let scene = input::read_noting(file, reading, &files)?;
+        to.check_files(&files.all())?;
         input::say(&scene.notes);
         return draw(arguments, still, scene, begin, &to);
     }
@@ -50,8 +51,9 @@ pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
     let to = if has_place && arguments.output.is_none() { Destination::Place } else { to };
     loop {
         let begin = Instant::now();
-        let drawn = watched.read().and_then(|scene| {
-            to.check_libraries(&scene)?;
+        let read = watched.read();
+        let drawn = read.and_then(|scene| {
+            to.check_files(watched.files())?;
             let notes = scene.notes.clone();
             draw(arguments, still, scene, begin, &to)?;
             input::say(&notes);

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::frame::Studio;
 use crate::math::Grid;
 use crate::output;
+use crate::scene::FilesRead;
 use crate::tone::Level;
 use crate::trade::LevelDifference;
 
@@ -47,8 +48,9 @@ pub fn run(arguments: &SnapshotArguments) -> Result<(), CliError> {
     input::say(&effects::check(&comparison.picture, effects::Presentation::Marked)?);
     let mut tally = Tally::default();
     let mut scenes = Vec::new();
+    let read = FilesRead::default();
     for file in &arguments.files {
-        match opened(comparison, file) {
+        match opened(comparison, file, &read) {
             Ok((studio, views)) => scenes.push((file, studio, views)),
             Err(error) => tally.fail(&error),
         }
@@ -59,7 +61,9 @@ pub fn run(arguments: &SnapshotArguments) -> Result<(), CliError> {
         places.push((studio, pictures.places(file, views)?));
     }
     // No picture takes the place of a scene, by whatever link.
-    let sources = SceneFiles::new(arguments.files.iter().map(String::as_str));
+    let named = arguments.files.iter().map(Path::new);
+    let read = read.all();
+    let sources = SceneFiles::new(named.chain(read.iter().map(PathBuf::as_path)));
     for place in places.iter().flat_map(|(_, places)| places) {
         sources.check(&place.path)?;
     }
@@ -75,14 +79,18 @@ pub fn run(arguments: &SnapshotArguments) -> Result<(), CliError> {
 }
 
 /// A scene that snapshots are kept of, and the views that are.
-fn opened(comparison: &ComparisonArguments, file: &str) -> Result<(Studio, Vec<Option<String>>), CliError> {
+fn opened(
+    comparison: &ComparisonArguments,
+    file: &str,
+    read: &FilesRead,
+) -> Result<(Studio, Vec<Option<String>>), CliError> {
     if !Path::new(file).is_file() {
         return Err(CliError::Input(format!(
             "{}: snapshots are kept beside a scene's file, and there is no file of that name",
             visible(file)
         )));
     }
-    let studio = comparison.studio(file, None)?;
+    let studio = comparison.studio(file, None, read)?;
     let views = match comparison.picture.camera.view.clone() {
         Some(view) => vec![Some(view)],
         None => named_views(studio.scene().views.iter().map(|view| view.name.as_deref())),

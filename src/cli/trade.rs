@@ -11,6 +11,7 @@ use signal_hook::consts::SIGINT;
 use signal_hook::flag;
 
 use crate::frame::Wants;
+use crate::scene::FilesRead;
 use crate::trade::{EyeDistance, NothingMeasured, Sweep, SweepLimits, SweepStep, TradePlot, Wish, svg};
 
 use super::arguments::{PlotFormat, TradeArguments};
@@ -34,8 +35,9 @@ pub fn run(arguments: &TradeArguments) -> Result<(), CliError> {
     to.check(&arguments.scene.file)?;
     let format = plot_format(arguments)?;
     input::say(&effects::check(&arguments.picture, effects::Presentation::Cells)?);
-    let scene = input::read(&arguments.scene.file, &arguments.scene.reading)?;
-    to.check_libraries(&scene)?;
+    let files = FilesRead::default();
+    let scene = input::read_noting(&arguments.scene.file, &arguments.scene.reading, &files)?;
+    to.check_files(&files.all())?;
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
     // A size in dots is that of a picture without characters.

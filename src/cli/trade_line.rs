@@ -39,6 +39,8 @@ impl CommandLine {
         let bare = without_knobs(picture)?;
         let bare = Setting { options: bare.options()?, glyphs: bare.look(None).glyphs };
         let skip = if arguments.scene.reading.skip_unsupported { " --skip-unsupported" } else { "" };
+        let root = arguments.scene.reading.root.as_ref();
+        let root = root.map(|folder| format!(" --root {}", quoted(&folder.to_string_lossy())));
         let turned = match arguments.scene.reading.up {
             None => "",
             Some(UpAxis::Y) => " --up y",
@@ -48,7 +50,8 @@ impl CommandLine {
             picture: picture.clone(),
             file: quoted(&arguments.scene.file),
             rest: format!(
-                "{skip}{turned}{}{}",
+                "{skip}{}{turned}{}{}",
+                root.unwrap_or_default(),
                 told(&arguments.scene.reading.openscad),
                 rest(picture, request)
             ),

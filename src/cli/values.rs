@@ -1,5 +1,6 @@
 //! Values of arguments: sizes, points, fields, each with the message for what it can not be.
 
+use std::path::PathBuf;
 use std::str::FromStr;
 use std::time::Duration;
 
@@ -34,6 +35,12 @@ pub fn point(text: &str) -> Result<DVec3, String> {
     let Some(&[x, y, z]) = numbers.as_deref() else { return Err("expected X,Y,Z, as in 0,-9,3".into()) };
     let point = DVec3::new(x, y, z);
     if point.is_finite() { Ok(point) } else { Err("coordinates must be finite".into()) }
+}
+
+/// A folder that is there.
+pub fn folder(text: &str) -> Result<PathBuf, String> {
+    let folder = PathBuf::from(text);
+    if folder.is_dir() { Ok(folder) } else { Err("there is no such folder".into()) }
 }
 
 /// An axis of a mesh file.

@@ -5,8 +5,6 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use crate::scene::Scene;
-
 use super::error::CliError;
 use super::input;
 
@@ -55,10 +53,10 @@ impl Destination {
         Err(lost(&name))
     }
 
-    /// Refuses the files that were read for the scene beside its own: the colours of a mesh are part of it.
-    pub fn check_libraries(&self, scene: &Scene) -> Result<(), CliError> {
-        let libraries = SceneFiles(scene.libraries.iter().filter_map(|file| FileId::of(file)).collect());
-        self.path().map_or(Ok(()), |path| libraries.check(path))
+    /// Refuses the files that a scene was read from, its own and all that it is made of.
+    pub fn check_files(&self, files: &[PathBuf]) -> Result<(), CliError> {
+        let files = SceneFiles::new(files.iter().map(PathBuf::as_path));
+        self.path().map_or(Ok(()), |path| files.check(path))
     }
 
     fn path(&self) -> Option<&Path> {
@@ -113,9 +111,9 @@ fn is_same_path(a: &Path, b: &Path) -> bool {
 pub struct SceneFiles(HashSet<FileId>);
 
 impl SceneFiles {
-    /// Those of some scenes.
-    pub fn new<'s>(scenes: impl Iterator<Item = &'s str>) -> Self {
-        Self(scenes.filter_map(|scene| FileId::of(Path::new(scene))).collect())
+    /// These files.
+    pub fn new<'s>(files: impl Iterator<Item = &'s Path>) -> Self {
+        Self(files.filter_map(FileId::of).collect())
     }
 
     /// Refuses a place that is one of them, by whatever link.

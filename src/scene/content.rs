@@ -12,7 +12,10 @@ const BINARY: [Binary; 8] = [
     Binary { name: "a JPEG picture", is: |bytes| bytes.starts_with(b"\xff\xd8\xff") },
     Binary { name: "a PDF document", is: |bytes| bytes.starts_with(b"%PDF-") },
     Binary { name: "a gzip archive", is: |bytes| bytes.starts_with(b"\x1f\x8b") },
-    Binary { name: "a ZIP archive, as 3MF models are", is: |bytes| bytes.starts_with(b"PK\x03\x04") },
+    Binary {
+        name: "a ZIP archive without a model in it, or cut off",
+        is: |bytes| bytes.starts_with(b"PK\x03\x04"),
+    },
     Binary { name: "an ELF program", is: |bytes| bytes.starts_with(b"\x7fELF") },
     Binary { name: "UTF-16 text", is: |bytes| bytes.starts_with(b"\xff\xfe") },
     Binary { name: "UTF-16 text", is: |bytes| bytes.starts_with(b"\xfe\xff") },
@@ -48,7 +51,7 @@ mod tests {
     fn binary_files_are_known_by_their_first_bytes() {
         assert_eq!(binary(b"\x89PNG\r\n\x1a\n\0\0"), Some("a PNG picture"));
         assert_eq!(binary(b"\x1f\x8b\x08\0"), Some("a gzip archive"));
-        assert_eq!(binary(b"PK\x03\x04\x14\0"), Some("a ZIP archive, as 3MF models are"));
+        assert_eq!(binary(b"PK\x03\x04\x14\0"), Some("a ZIP archive without a model in it, or cut off"));
         assert_eq!(binary(b"\x7fELF\x02"), Some("an ELF program"));
         assert_eq!(binary(b"\xff\xfes\0"), Some("UTF-16 text"));
         let text: [&[u8]; 4] = [b"", b"sphere(1);", b"PNG", "cube(1); // \u{e4}".as_bytes()];

@@ -46,9 +46,19 @@ impl Memory {
         self.taken = self.taken.saturating_add(bytes);
     }
 
+    /// Bytes that may still be taken.
+    pub fn left(&self) -> u64 {
+        self.limit.saturating_sub(self.taken)
+    }
+
     /// Whether there is room for so much more.
     pub fn has_room_for(&self, bytes: u64) -> bool {
         self.taken.saturating_add(bytes) <= self.limit
+    }
+
+    /// The error of a scene for which there is no room, where `bytes` are all that is still needed.
+    pub fn refuse_last(&self, bytes: u64, sink: &mut Sink) -> Reported {
+        sink.report(too_little(self.limit, self.taken.saturating_add(bytes)))
     }
 
     /// The error of a scene for which there is no room: `bytes` more at this byte of the text.

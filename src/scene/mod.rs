@@ -1,18 +1,23 @@
 //! Stage 1, OBJECTS: bytes in, [`Scene`] out. Kind, place, size and surface of every solid.
 
+mod bounded;
 mod content;
 mod degrees;
 mod diagnostic;
 mod embedded;
+mod gzip;
 mod language;
 mod memory;
 mod mesh;
 mod model;
+mod named_files;
 mod nff;
 mod options;
 mod outline;
 mod profile;
 mod read;
+mod screen_colors;
+mod triangles;
 mod triangulation;
 mod unit_vector;
 
@@ -21,8 +26,9 @@ pub use embedded::{EmbeddedScene, embedded};
 pub use language::reference;
 pub use mesh::MeshFacts;
 pub use model::{
-    Anchor, Camera, CameraError, Corner, Facets, FieldSpan, HalfSpace, Light, Material, MaterialId, Mesh,
-    Object, Primitive, REACH, Scene, Shape, Solid, World,
+    Anchor, Camera, CameraError, Corner, Facets, FieldSpan, HalfSpace, Light, Material, MaterialId, Object,
+    Primitive, REACH, Scene, Shape, Solid, World,
 };
-pub use options::{FilesRead, Format, ReadOptions, UpAxis};
-pub use read::{MAX_FILE_BYTES, ReadError, read, read_file};
+pub use options::{FilesRead, Format, MAX_FILE_BYTES, ReadOptions, UpAxis};
+pub use read::{ReadError, read, read_file};
+pub use triangles::Mesh;

@@ -1,14 +1,12 @@
 //! The scene: what a reader gives and every later stage takes. Lengths are the scene's own unit, angles
 //! degrees, colours and intensities linear light.
 
-use std::path::PathBuf;
-
 use std::sync::Arc;
 use std::vec::Drain;
 
 use crate::math::{Bounds, DAffine3, DVec3};
 
-use super::MeshFacts;
+use super::{Mesh, MeshFacts};
 
 /// Scenes reach no farther than this from the origin along any axis. It is a thousandth of the largest
 /// number: so far may an eye that sees all of a scene stand off, and the lights that go with it.
@@ -33,10 +31,8 @@ pub struct Scene {
     pub views: Vec<Camera>,
     /// Ambient light, background and depth constant.
     pub world: World,
-    /// What the parts of a mesh file are; empty of other scenes.
+    /// What the parts of a mesh file are, or of those that a scene imports, each once.
     pub meshes: Vec<MeshFacts>,
-    /// The files that were read for it beside its own: the materials of a mesh.
-    pub libraries: Vec<PathBuf>,
     /// What the reader left out or took differently, one sentence each, for the person who looks.
     pub notes: Vec<String>,
 }
@@ -264,15 +260,6 @@ pub struct HalfSpace {
     pub normal: DVec3,
     /// Distance of the plane from the origin, along `normal`.
     pub offset: f64,
-}
-
-/// A closed surface of triangles: every edge is shared by an even number of them.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Mesh {
-    /// Corner points, in the mesh's own coordinates.
-    pub points: Vec<DVec3>,
-    /// Three indices into `points` each; either order of turning. No triangle names a point twice.
-    pub triangles: Vec<[u32; 3]>,
 }
 
 /// An index into [`Scene::materials`].

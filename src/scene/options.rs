@@ -7,6 +7,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 use crate::math::DVec3;
 use crate::stage::Progress;
 
+/// The largest file that is read: 256 MiB.
+pub const MAX_FILE_BYTES: u64 = 256 << 20;
+
 /// How a scene is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -23,15 +26,21 @@ pub enum Format {
     Ply,
     /// OBJ, Wavefront's.
     Obj,
+    /// 3MF, of the 3MF Consortium: XML in a ZIP archive.
+    ThreeMf,
+    /// AMF, the Additive Manufacturing File Format, of ISO and ASTM.
+    Amf,
 }
 
 /// The formats that names tell.
-const ENDINGS: [(&str, Format); 5] = [
+const ENDINGS: [(&str, Format); 7] = [
     ("nff", Format::Nff),
     ("stl", Format::Stl),
     ("off", Format::Off),
     ("ply", Format::Ply),
     ("obj", Format::Obj),
+    ("3mf", Format::ThreeMf),
+    ("amf", Format::Amf),
 ];
 
 impl Format {
@@ -51,6 +60,8 @@ impl Format {
             Self::Off => "OFF",
             Self::Ply => "PLY",
             Self::Obj => "OBJ",
+            Self::ThreeMf => "3MF",
+            Self::Amf => "AMF",
         }
     }
 }
@@ -70,6 +81,14 @@ impl UpAxis {
         match self {
             // 0 − z and not −z: there is no −0 among places.
             Self::Y => DVec3::new(place.x, 0.0 - place.z, place.y),
+            Self::Z => place,
+        }
+    }
+
+    /// A place of the scene in the file.
+    pub fn turned_back(self, place: DVec3) -> DVec3 {
+        match self {
+            Self::Y => DVec3::new(place.x, place.z, 0.0 - place.y),
             Self::Z => place,
         }
     }
@@ -115,8 +134,11 @@ pub struct ReadOptions {
     pub memory: Option<u64>,
     /// The axis of a mesh that is up, where it is not the one usual in its format.
     pub up: Option<UpAxis>,
-    /// Where the files are that a mesh names; [`read_file`](super::read_file) takes the folder of its own.
+    /// Where the files are that a scene or a mesh names; [`read_file`](super::read_file) takes the folder of
+    /// its own.
     pub folder: Option<PathBuf>,
+    /// A folder, besides that one, of which a scene may name files, at any depth.
+    pub root: Option<PathBuf>,
     /// Where to note the files that the scene is read from.
     pub files: Option<FilesRead>,
 }

@@ -5,11 +5,8 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use super::options::{Format, ReadOptions};
-use super::{Diagnostic, Diagnostics, Scene, content, language, memory, mesh, nff};
-
-/// The largest file that is read: 256 MiB.
-pub const MAX_FILE_BYTES: u64 = 256 << 20;
+use super::options::{Format, MAX_FILE_BYTES, ReadOptions};
+use super::{Diagnostic, Diagnostics, Scene, content, gzip, language, memory, mesh, nff};
 
 /// Why a file gave no scene.
 #[derive(Debug, thiserror::Error)]
@@ -49,7 +46,8 @@ pub fn read_file(path: &Path, options: &ReadOptions) -> Result<Scene, ReadError>
     check_room(&name, metadata.len(), options)?;
     // The length above is a promise only of plain files: a pipe or a growing file is cut off here.
     let mut bytes = Vec::with_capacity(metadata.len() as usize + 1);
-    file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(file_error)?;
+    let most = options.memory.map_or(MAX_FILE_BYTES, |memory| memory.min(MAX_FILE_BYTES));
+    file.take(most + 1).read_to_end(&mut bytes).map_err(file_error)?;
     let folder = options.folder.clone().or_else(|| path.parent().map(Path::to_owned));
     Ok(read(&name, &bytes, &ReadOptions { folder, ..options.clone() })?)
 }
@@ -70,10 +68,22 @@ pub fn read(name: &str, bytes: &[u8], options: &ReadOptions) -> Result<Scene, Di
         return Err(too_large(name));
     }
     check_room(name, bytes.len() as u64, options)?;
-    if let Some(what) = content::binary(bytes) {
+    if !gzip::is_gzip(bytes) {
+        return read_plain(name, bytes, options);
+    }
+    let inner = gzip::unpacked(bytes, options.memory).map_err(|error| Diagnostics::whole(name, error))?;
+    // Places are those of what is within; the file is the one that people have.
+    read_plain(gzip::inner_name(name), &inner, options)
+        .map_err(|errors| Diagnostics { source_name: name.to_owned(), ..errors })
+}
+
+/// Reads what is not compressed.
+fn read_plain(name: &str, bytes: &[u8], options: &ReadOptions) -> Result<Scene, Diagnostics> {
+    let known = options.format.or_else(|| mesh::format_of(bytes));
+    if let (None, Some(what)) = (known, content::binary(bytes)) {
         return Err(no_scene(name, what));
     }
-    let format = options.format.unwrap_or_else(|| format_of(name, bytes));
+    let format = known.unwrap_or_else(|| format_of(name, bytes));
     if let Some(scene) = mesh::read(name, bytes, format, options) {
         return scene;
     }
@@ -91,12 +101,9 @@ pub fn read(name: &str, bytes: &[u8], options: &ReadOptions) -> Result<Scene, Di
     }
 }
 
-/// The format of a mesh by the content. Others by the name; by the content where that has no ending, as that
-/// of standard input has none.
+/// The format of what is no mesh by its content: by the name; by the content where that has no ending, as
+/// that of standard input has none.
 fn format_of(name: &str, bytes: &[u8]) -> Format {
-    if let Some(format) = mesh::format_of(bytes) {
-        return format;
-    }
     match Path::new(name).extension() {
         None if content::is_nff(bytes) => Format::Nff,
         _ => Format::of(name),
@@ -107,7 +114,7 @@ fn no_scene(name: &str, what: &str) -> Diagnostics {
     let error = Diagnostic::error(0..0, format!("this is {what}, not a scene"));
     Diagnostics::whole(
         name,
-        error.help("ray13 reads its scene language, OpenSCAD's .csg and NFF, all of them UTF-8 text, and meshes: STL, OFF, PLY and OBJ"),
+        error.help("ray13 reads its scene language, OpenSCAD's .csg and NFF, all of them UTF-8 text, and meshes: STL, OFF, PLY, OBJ, 3MF and AMF"),
     )
 }
 

@@ -84,6 +84,25 @@ fn check_says_what_a_mesh_is() {
     assert!(text(&up.stdout).contains("binary STL, y up"), "{}", text(&up.stdout));
 }
 
+/// Two bricks of one part, one a little off the other: each goes through the other. The place is that of the
+/// file, whatever is up.
+#[test]
+fn check_says_where_a_mesh_crosses_itself() {
+    let mut two = MeshText::brick();
+    let moved: Vec<[f32; 3]> = two.points.iter().map(|[x, y, z]| [x + 1.0, y + 0.5, z + 0.25]).collect();
+    let faces: Vec<Vec<u32>> =
+        two.faces.iter().map(|face| face.iter().map(|corner| corner + 8).collect()).collect();
+    two.faces.extend(faces);
+    two.points.extend(moved);
+    for up in ["y", "z"] {
+        let said = text(&ray13(&["check", "--up", up], &file("crossing.stl", &two.stl_binary(b""))).stdout);
+        let (_, place) = said.split_once(" pairs of triangles as at [").expect(&said);
+        let place = place.split(']').next().unwrap().split(", ").map(|word| word.parse::<f64>().unwrap());
+        let inside = [1.0..=2.0, 0.5..=1.5, 0.25..=3.0];
+        assert!(place.zip(inside).all(|(x, range)| range.contains(&x)), "{said}");
+    }
+}
+
 #[test]
 fn an_open_mesh_is_shown_and_an_edge_is_named() {
     let mut brick = MeshText::brick();

@@ -1,5 +1,7 @@
 //! One solid, written in every format of meshes.
 
+use std::io::Write;
+
 /// Corners and faces that name them, each turning to the left seen from outside.
 #[derive(Clone, Debug)]
 pub struct MeshText {
@@ -22,12 +24,11 @@ impl MeshText {
 
     /// The faces cut into triangles, which their first corners are common to.
     fn triangles(&self) -> Vec<[[f32; 3]; 3]> {
-        let fan = |face: &Vec<u32>| {
-            let triangle =
-                |i: usize| [face[0], face[i], face[i + 1]].map(|corner| self.points[corner as usize]);
-            (1..face.len() - 1).map(triangle).collect::<Vec<_>>()
-        };
-        self.faces.iter().flat_map(fan).collect()
+        self.fans().map(|corners| corners.map(|corner| self.points[corner as usize])).collect()
+    }
+
+    fn fans(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
+        self.faces.iter().flat_map(|face| (1..face.len() - 1).map(|i| [face[0], face[i], face[i + 1]]))
     }
 
     /// Binary STL with this header, which has up to 80 bytes.
@@ -132,6 +133,38 @@ impl MeshText {
         text
     }
 
+    /// The model of a 3MF file.
+    pub fn model(&self) -> String {
+        let vertex = |[x, y, z]: &[f32; 3]| format!("<vertex x=\"{x}\" y=\"{y}\" z=\"{z:e}\"/>");
+        let triangle = |[a, b, c]: [u32; 3]| format!("<triangle v1=\"{a}\" v2=\"{b}\" v3=\"{c}\"/>\n");
+        format!(
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" xml:lang=\"en-US\" \
+             xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n<resources>\n<object id=\"7\" \
+             type=\"model\"><mesh><vertices>\n{}\n</vertices><triangles>\n{}</triangles></mesh></object></resources>\n\
+             <build><item objectid=\"7\"/></build></model>\n",
+            self.points.iter().map(vertex).collect::<String>(),
+            self.fans().map(triangle).collect::<String>()
+        )
+    }
+
+    pub fn three_mf(&self) -> Vec<u8> {
+        three_mf(&self.model())
+    }
+
+    pub fn amf(&self) -> String {
+        let vertex = |[x, y, z]: &[f32; 3]| {
+            format!("<vertex><coordinates><x>{x}</x><y>{y}</y><z> {z:e} </z></coordinates></vertex>\n")
+        };
+        let triangle =
+            |[a, b, c]: [u32; 3]| format!("<triangle><v1>{a}</v1><v2>{b}</v2><v3>{c}</v3></triangle>\n");
+        format!(
+            "<?xml version=\"1.0\"?>\n<!-- a part -->\n<amf unit=\"inch\">\n<object id=\"0\"><mesh>\n<vertices>\n{}\
+             </vertices>\n<volume>\n{}</volume></mesh></object></amf>\n",
+            self.points.iter().map(vertex).collect::<String>(),
+            self.fans().map(triangle).collect::<String>()
+        )
+    }
+
     /// OpenSCAD's `polyhedron`.
     pub fn polyhedron(&self) -> String {
         format!("polyhedron(points = {:?}, faces = {:?});", self.points, self.faces)
@@ -148,10 +181,56 @@ impl MeshText {
             ("little.ply", self.ply_little()),
             ("big.ply", self.ply_big()),
             ("part.obj", self.obj().into_bytes()),
+            ("part.3mf", self.three_mf()),
+            ("part.amf", self.amf().into_bytes()),
+            ("zipped.amf", zip(&[("part.amf", self.amf().as_bytes())])),
+            ("part.stl.gz", gzip(&self.stl_binary(b"packed"))),
         ]
     }
 }
 
 fn words(list: impl Iterator<Item = impl ToString>) -> String {
     list.map(|item| item.to_string()).collect::<Vec<_>>().join(" ")
+}
+
+/// What says which file of a 3MF archive is the model.
+const RELATIONSHIPS: &str = "<?xml version=\"1.0\"?><Relationships \
+     xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\"><Relationship Id=\"rel0\" \
+     Target=\"/3D/model.model\" Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/></Relationships>";
+
+/// A 3MF file of this model.
+pub fn three_mf(model: &str) -> Vec<u8> {
+    zip(&[("_rels/.rels", RELATIONSHIPS.as_bytes()), ("3D/model.model", model.as_bytes())])
+}
+
+pub fn gzip(bytes: &[u8]) -> Vec<u8> {
+    let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
+    encoder.write_all(bytes).unwrap();
+    encoder.finish().unwrap()
+}
+
+/// A ZIP archive, whose first entry is stored and whose others are deflated.
+pub fn zip(entries: &[(&str, &[u8])]) -> Vec<u8> {
+    let (mut bytes, mut directory) = (Vec::new(), Vec::new());
+    for (number, (name, file)) in entries.iter().enumerate() {
+        let mut check = flate2::Crc::new();
+        check.update(file);
+        let mut encoder = flate2::write::DeflateEncoder::new(Vec::new(), flate2::Compression::fast());
+        encoder.write_all(file).unwrap();
+        let packed = if number == 0 { file.to_vec() } else { encoder.finish().unwrap() };
+        let mut about = [20_u16, 0, if number == 0 { 0 } else { 8 }, 0, 0].map(u16::to_le_bytes).concat();
+        about.extend([check.sum(), packed.len() as u32, file.len() as u32].map(u32::to_le_bytes).concat());
+        about.extend([name.len() as u16, 0].map(u16::to_le_bytes).concat());
+        directory.extend([&b"PK\x01\x02\x14\0"[..], &about, &[0; 10]].concat());
+        directory.extend((bytes.len() as u32).to_le_bytes());
+        directory.extend(name.as_bytes());
+        bytes.extend([&b"PK\x03\x04"[..], &about, name.as_bytes(), &packed].concat());
+    }
+    let (at, count) = (bytes.len() as u32, entries.len() as u16);
+    bytes.extend(&directory);
+    bytes.extend(b"PK\x05\x06\0\0\0\0");
+    bytes.extend([count, count].map(u16::to_le_bytes).concat());
+    bytes.extend([directory.len() as u32, at].map(u32::to_le_bytes).concat());
+    bytes.extend([0; 2]);
+    bytes
 }

@@ -17,7 +17,7 @@ pub fn reference() -> String {
             describe(word, text);
         }
     };
-    section("Primitives", |meaning| matches!(meaning, Meaning::Solid(_)), &mut text);
+    section("Primitives", |meaning| matches!(meaning, Meaning::Solid(_) | Meaning::Import), &mut text);
     section("Plane figures", |meaning| matches!(meaning, Meaning::Figure(_)), &mut text);
     section("Forms", |meaning| matches!(meaning, Meaning::Form(_)), &mut text);
     section("Operators", |meaning| matches!(meaning, Meaning::Operator(_)), &mut text);

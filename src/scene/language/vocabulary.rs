@@ -36,6 +36,8 @@ pub struct Word {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Meaning {
     Solid(SolidWord),
+    /// The solids of a mesh file, or the figure of a drawing.
+    Import,
     Figure(FigureWord),
     Form(FormWord),
     Operator(OperatorWord),

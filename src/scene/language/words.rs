@@ -100,6 +100,22 @@ pub static WORDS: &[Word] = &[
         "A solid with flat faces. They must close: every edge belongs to two faces.",
     ),
     word(
+        "import",
+        Meaning::Import,
+        &[
+            placed("file", Takes::Text, "–", "its name, from the scene's folder on"),
+            placed("layer", Takes::Ignored, "–", "of drawings, which are not read yet"),
+            CONVEXITY,
+            placed("origin", Takes::Ignored, "–", "of drawings"),
+            placed("scale", Takes::Number, "1", "of drawings; without effect on a mesh, as in OpenSCAD"),
+            named("center", Takes::Flag, "false", "of drawings"),
+            named("dpi", Takes::Ignored, "–", "of drawings"),
+            named("id", Takes::Ignored, "–", "of drawings"),
+            named("timestamp", Takes::Ignored, "–", "without effect"),
+        ],
+        "The solids of a mesh file (docs/meshes.md). They must close: every edge belongs to two faces.",
+    ),
+    word(
         "circle",
         Meaning::Figure(FigureWord::Circle),
         &[
@@ -318,8 +334,5 @@ pub static WORDS: &[Word] = &[
 pub static UNSUPPORTED: &[(&str, &str)] = &[
     ("roof", "only OpenSCAD can work its shape out"),
     ("text", "letters are not drawn yet"),
-    ("surface", OTHER_FILE),
-    ("import", OTHER_FILE),
+    ("surface", "heights are not read from another file yet"),
 ];
-
-const OTHER_FILE: &str = "it takes its shape from another file";

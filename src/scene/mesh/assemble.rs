@@ -27,26 +27,30 @@ const READ_CORNER: u64 = 4 + 24 + 36;
 /// Bytes that a mesh takes at most while it is read and shown, if all of it is shown as surfaces, which is
 /// the more expensive way.
 pub fn bytes(mesh: &PolygonMesh) -> u64 {
-    let (points, corners) = (mesh.points.len() as u64, mesh.corners.len() as u64);
+    bytes_of(mesh.points.len() as u64, mesh.corners.len() as u64, mesh.faces() as u64)
+}
+
+/// The same of a mesh that is still to be made, and has so many points, corners of faces, and faces.
+pub fn bytes_of(points: u64, corners: u64, faces: u64) -> u64 {
     READ_POINT * points
         + READ_CORNER * corners
-        + (size_of::<Object>() as u64 + ASSEMBLED + ASSEMBLED_FACES) * mesh.faces() as u64
-        + ASSEMBLED_TRIANGLE * corners.saturating_sub(2 * mesh.faces() as u64)
+        + (size_of::<Object>() as u64 + ASSEMBLED + ASSEMBLED_FACES) * faces
+        + ASSEMBLED_TRIANGLE * corners.saturating_sub(2 * faces)
 }
 
 /// The polygons of a part, and the triangles they are cut into.
-struct Part {
-    name: Option<String>,
+pub struct MeshPart {
+    pub name: Option<String>,
     runs: Vec<Range<u32>>,
     /// The material of each run.
     materials: Vec<u32>,
-    triangles: Vec<[u32; 3]>,
-    topology: Topology,
+    pub triangles: Vec<[u32; 3]>,
+    pub topology: Topology,
     /// Whether each of its triangles was there twice, so that nothing lies between them.
-    is_doubled: bool,
+    pub is_doubled: bool,
 }
 
-impl Part {
+impl MeshPart {
     /// The material of all of it, where that is one.
     fn material(&self) -> Option<u32> {
         let &first = self.materials.first()?;
@@ -58,8 +62,8 @@ impl Part {
     }
 }
 
-/// Makes a scene of polygons.
-pub fn assemble(mut mesh: PolygonMesh, up: UpAxis) -> Result<Scene, MeshError> {
+/// Makes sure that there is something to see, and welds equal corners.
+pub fn prepare(mesh: &mut PolygonMesh) -> Result<(), MeshError> {
     if mesh.faces() == 0 {
         return Err(MeshFault::Empty.of_all());
     }
@@ -67,39 +71,35 @@ pub fn assemble(mut mesh: PolygonMesh, up: UpAxis) -> Result<Scene, MeshError> {
     if !is_within_reach(&Bounds::around(named)) {
         return Err(MeshFault::TooFar.of_all());
     }
-    weld(&mut mesh);
-    let mut clipper = EarClipper::default();
-    let mut parts: Vec<Part> = groups(&mesh)
-        .into_iter()
-        .filter_map(|(name, runs)| {
-            Some(part(&mesh, name, &runs, &mut clipper)).filter(|part| !part.triangles.is_empty())
-        })
-        .collect();
-    // Groups may be of the faces of one solid, such as those of a side.
-    if parts.len() > 1 && parts.iter().any(|part| !part.is_solid()) {
-        let whole = part(&mesh, None, &runs(&mesh), &mut clipper);
-        if whole.is_solid() {
-            parts = vec![whole];
-        }
-    }
-    let mut scene =
-        Scene { notes: mesh.notes.clone(), libraries: mesh.libraries.clone(), ..Scene::default() };
+    weld(mesh);
+    Ok(())
+}
+
+/// Makes a scene of polygons.
+pub fn assemble(mut mesh: PolygonMesh, up: UpAxis) -> Result<Scene, MeshError> {
+    prepare(&mut mesh)?;
+    let parts = parts(&mesh);
+    let mut scene = Scene { notes: mesh.notes.clone(), ..Scene::default() };
     let mut flat = 0;
     for part in &parts {
         let facts = MeshFacts::of(&part.triangles, &mesh.points, &part.topology);
         let is_solid = part.is_solid();
         let objects = scene.objects.len();
+        let triangles = triangle_mesh(&mesh, part, up);
         if is_solid {
-            scene.objects.extend(solid(&mesh, part, up));
+            let shape = triangles.clone().map(Shape::Mesh);
+            scene.objects.extend(shape.map(|shape| object(part, shape, part.material().unwrap_or(0))));
         } else {
             flat += surfaces(&mesh, part, up, &mut scene.objects);
         }
         if scene.objects.len() > objects {
             scene.meshes.push(MeshFacts {
                 format: mesh.format,
+                unit: mesh.unit,
                 up,
                 name: part.name.clone(),
                 is_solid,
+                mesh: triangles,
                 ..facts
             });
         }
@@ -113,6 +113,25 @@ pub fn assemble(mut mesh: PolygonMesh, up: UpAxis) -> Result<Scene, MeshError> {
     scene.notes.extend(shown_as_surfaces(&scene.meshes));
     scene.materials = mesh.materials;
     Ok(scene)
+}
+
+/// The parts of a mesh whose corners are welded: its groups, or all of it where only that is a solid.
+pub fn parts(mesh: &PolygonMesh) -> Vec<MeshPart> {
+    let mut clipper = EarClipper::default();
+    let mut parts: Vec<MeshPart> = groups(mesh)
+        .into_iter()
+        .filter_map(|(name, runs)| {
+            Some(part(mesh, name, &runs, &mut clipper)).filter(|part| !part.triangles.is_empty())
+        })
+        .collect();
+    // Groups may be of the faces of one solid, such as those of a side.
+    if parts.len() > 1 && parts.iter().any(|part| !part.is_solid()) {
+        let whole = part(mesh, None, &runs(mesh), &mut clipper);
+        if whole.is_solid() {
+            parts = vec![whole];
+        }
+    }
+    parts
 }
 
 /// The note on parts that are no solids.
@@ -186,7 +205,7 @@ fn part(
     name: Option<String>,
     runs: &[(FaceRun, Range<u32>)],
     clipper: &mut EarClipper,
-) -> Part {
+) -> MeshPart {
     let mut triangles = cut(mesh, runs, clipper);
     cancel_pairs(&mut triangles);
     let is_doubled = triangles.is_empty();
@@ -197,7 +216,7 @@ fn part(
     let topology = Topology::of(&triangles, mesh.points.len());
     let materials = runs.iter().map(|(run, _)| run.material).collect();
     let runs = runs.iter().map(|(_, faces)| faces.clone()).collect();
-    Part { name, runs, materials, triangles, topology, is_doubled }
+    MeshPart { name, runs, materials, triangles, topology, is_doubled }
 }
 
 /// Cuts the polygons of runs into triangles.
@@ -215,8 +234,8 @@ fn cut(mesh: &PolygonMesh, runs: &[(FaceRun, Range<u32>)], clipper: &mut EarClip
     triangles
 }
 
-/// The solid of a closed part; none where it has no area.
-fn solid(mesh: &PolygonMesh, part: &Part, up: UpAxis) -> Option<Object> {
+/// The triangles of a part by themselves; none where they have no area.
+pub fn triangle_mesh(mesh: &PolygonMesh, part: &MeshPart, up: UpAxis) -> Option<Arc<Mesh>> {
     let place = |corner: u32| up.turned(mesh.points[corner as usize]);
     if !part.triangles.iter().any(|triangle| has_area(triangle.iter().map(|&corner| place(corner)))) {
         return None;
@@ -232,12 +251,11 @@ fn solid(mesh: &PolygonMesh, part: &Part, up: UpAxis) -> Option<Object> {
     } else {
         part.triangles.iter().map(|triangle| triangle.map(index)).collect()
     };
-    let shape = Shape::Mesh(Arc::new(Mesh { points, triangles }));
-    Some(object(part, shape, part.material().unwrap_or(0)))
+    Some(Arc::new(Mesh { points, triangles }))
 }
 
 /// A surface for each polygon of a part; gives how many were left out, for they have no area.
-fn surfaces(mesh: &PolygonMesh, part: &Part, up: UpAxis, objects: &mut Vec<Object>) -> usize {
+fn surfaces(mesh: &PolygonMesh, part: &MeshPart, up: UpAxis, objects: &mut Vec<Object>) -> usize {
     let mut flat = 0;
     for (faces, &material) in part.runs.iter().zip(&part.materials) {
         for face in faces.clone() {
@@ -257,7 +275,7 @@ fn surfaces(mesh: &PolygonMesh, part: &Part, up: UpAxis, objects: &mut Vec<Objec
     flat
 }
 
-fn object(part: &Part, shape: Shape, material: u32) -> Object {
+fn object(part: &MeshPart, shape: Shape, material: u32) -> Object {
     let primitive = Primitive::new(shape, DAffine3::IDENTITY, MaterialId(material));
     Object { name: part.name.clone(), solid: Solid::Primitive(primitive) }
 }

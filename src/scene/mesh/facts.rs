@@ -1,9 +1,10 @@
 //! What a mesh is, for the person who checks it.
 
 use std::fmt;
+use std::sync::Arc;
 
 use crate::math::{Bounds, DVec3};
-use crate::scene::UpAxis;
+use crate::scene::{Mesh, UpAxis};
 
 use super::topology::Topology;
 
@@ -12,6 +13,8 @@ use super::topology::Topology;
 pub struct MeshFacts {
     /// The format, as in `binary STL`.
     pub format: &'static str,
+    /// The unit of its places and lengths, of formats that name one.
+    pub unit: Option<&'static str>,
     /// The axis that is up.
     pub up: UpAxis,
     /// The part's name.
@@ -35,6 +38,8 @@ pub struct MeshFacts {
     pub area: f64,
     /// How far it reaches along each axis.
     pub size: DVec3,
+    /// Its triangles, as they are turned in the scene; none where they have no area.
+    pub mesh: Option<Arc<Mesh>>,
 }
 
 impl MeshFacts {
@@ -52,6 +57,7 @@ impl MeshFacts {
         let has_volume = topology.is_closed() && topology.is_oriented && f64::is_finite(volume);
         Self {
             format: "",
+            unit: None,
             up: UpAxis::Z,
             name: None,
             triangles: triangles.len(),
@@ -63,12 +69,21 @@ impl MeshFacts {
             volume: has_volume.then_some(volume),
             area,
             size: 2.0 * bounds.half(),
+            mesh: None,
         }
     }
 
     /// Whether every edge is shared by an even number of triangles.
     pub const fn is_closed(&self) -> bool {
         self.open_edges == 0
+    }
+}
+
+impl MeshFacts {
+    /// A point of the scene in the file's own coordinates, to six digits.
+    pub fn place(&self, point: DVec3) -> String {
+        let [x, y, z] = self.up.turned_back(point).to_array().map(figure);
+        format!("[{x}, {y}, {z}]")
     }
 }
 
@@ -98,6 +113,9 @@ impl fmt::Display for MeshFacts {
             UpAxis::Z => "z",
         };
         write!(f, "{}, {up} up", self.format)?;
+        if let Some(unit) = self.unit {
+            write!(f, ", in {unit}")?;
+        }
         if let Some(name) = &self.name {
             write!(f, ", `{name}`")?;
         }

@@ -20,6 +20,13 @@ pub enum MeshPlace {
     Whole,
     /// Bytes of a text.
     Text(Range<usize>),
+    /// A line of a file within the file.
+    Within {
+        /// Its name.
+        part: String,
+        /// The line, from 1.
+        line: usize,
+    },
     /// A byte of a binary file, counted from 0, and what it is a part of, as in `triangle 3`.
     Byte {
         /// The offset.
@@ -70,11 +77,45 @@ pub enum MeshFault {
         known: String,
     },
     /// More corners than can be numbered.
-    #[error("the mesh has more than {} corners", u32::MAX)]
+    #[error("the mesh has more corners or faces than can be numbered")]
     TooMany,
     /// The format has it, the reader does not.
     #[error("{0}, which ray13 does not read")]
     Unsupported(String),
+    /// An archive does not have a file that it should.
+    #[error("the archive has no `{0}`")]
+    NoEntry(String),
+    /// A part of an archive is more than may be read.
+    #[error("`{what}` in the archive takes more than {room} bytes, which is all that may be read of it")]
+    TooLarge {
+        /// Its name.
+        what: String,
+        /// Bytes that there may be.
+        room: u64,
+    },
+    /// A part of an archive is not what its sum says.
+    #[error("`{0}` in the archive is damaged")]
+    Damaged(String),
+    /// A text is no XML.
+    #[error("this is no XML: {0}")]
+    NoXml(String),
+    /// An object that is named is not there.
+    #[error("an object `{0}` is named, which there is not")]
+    NoObject(String),
+    /// What a file stands for takes this many bytes, which there are not.
+    #[error("it takes about {0} bytes of memory")]
+    NoRoom(u64),
+    /// A mesh that is wanted as a solid has an edge that nothing meets.
+    #[error("the mesh is not closed: nothing meets its edge from {from} to {to}")]
+    Open {
+        /// An end, as the file has it.
+        from: String,
+        /// The other.
+        to: String,
+    },
+    /// A mesh that is wanted as a solid is closed, and nothing lies inside.
+    #[error("the mesh encloses nothing: its faces lie on each other")]
+    Hollow,
     /// Coordinates too large.
     #[error("the mesh reaches farther than {:e} from the origin", crate::scene::REACH)]
     TooFar,
@@ -98,13 +139,35 @@ impl MeshFault {
 }
 
 impl MeshError {
+    /// The error of a text as that of the archive that has it, in a file of this name.
+    pub fn within(self, part: &str, text: &[u8]) -> Self {
+        match self.place {
+            MeshPlace::Text(span) => {
+                let place = MeshPlace::Within { part: part.to_owned(), line: line(text, span.start) };
+                Self { place, ..self }
+            }
+            _ => self,
+        }
+    }
+
+    /// The error in one sentence, with its place, for who speaks of several files.
+    pub fn sentence(&self, bytes: &[u8]) -> String {
+        match &self.place {
+            MeshPlace::Whole => self.fault.to_string(),
+            MeshPlace::Byte { offset, part } => format!("{part}, at byte {offset}: {}", self.fault),
+            MeshPlace::Within { part, line } => format!("{part}, line {line}: {}", self.fault),
+            MeshPlace::Text(span) => format!("line {}: {}", line(bytes, span.start), self.fault),
+        }
+    }
+
     /// The error as a person is told it; `bytes` are the file's.
     pub fn told(self, name: &str, bytes: &[u8]) -> Diagnostics {
         let whole = |message| Diagnostics::whole(name, Diagnostic::error(0..0, message));
         match self.place {
-            MeshPlace::Whole => whole(self.fault.to_string()),
-            MeshPlace::Byte { offset, part } => whole(format!("{part}, at byte {offset}: {}", self.fault)),
-            MeshPlace::Text(span) => match std::str::from_utf8(bytes) {
+            MeshPlace::Whole | MeshPlace::Byte { .. } | MeshPlace::Within { .. } => {
+                whole(self.sentence(bytes))
+            }
+            MeshPlace::Text(ref span) => match std::str::from_utf8(bytes) {
                 Ok(text) if !span.is_empty() => {
                     // What is missing at an end is told at the last byte, which may be within a character.
                     let start = (0..=span.start).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0);
@@ -114,12 +177,13 @@ impl MeshError {
                     Diagnostics { source: text.into(), ..Diagnostics::whole(name, error) }
                 }
                 // A comment in another encoding is no reason not to read a mesh.
-                _ => {
-                    let before = &bytes[..span.start.min(bytes.len())];
-                    let line = before.split(|&byte| byte == b'\n').count();
-                    whole(format!("line {line}: {}", self.fault))
-                }
+                _ => whole(self.sentence(bytes)),
             },
         }
     }
+}
+
+/// The line of a byte of a text, from 1.
+fn line(text: &[u8], at: usize) -> usize {
+    text[..at.min(text.len())].split(|&byte| byte == b'\n').count()
 }

@@ -1,4 +1,4 @@
-//! Mesh files: STL, OFF, PLY and OBJ.
+//! Mesh files: STL, OFF, PLY, OBJ, 3MF and AMF.
 //!
 //! Bytes → polygons ([`polygons`]), by a reader for each format → objects ([`assemble`]). Readers stop at the
 //! first mistake, and take memory for what there is, not for what the file says there is. `docs/meshes.md`
@@ -7,11 +7,14 @@
 mod assemble;
 mod facts;
 mod fault;
+mod formats;
 mod index;
 mod obj;
+mod objects;
 mod off;
 mod ply;
 mod polygons;
+mod solids;
 mod stl;
 #[cfg(test)]
 mod tests;
@@ -20,33 +23,12 @@ mod words;
 
 use super::memory::too_little;
 use super::{Diagnostics, Format, ReadOptions, Scene, UpAxis};
+use fault::{MeshError, MeshFault};
+use formats::{polygons, without_mark};
 
 pub use facts::MeshFacts;
-
-/// The format of a mesh by its content, whatever its name.
-pub(super) fn format_of(bytes: &[u8]) -> Option<Format> {
-    let bytes = without_mark(bytes);
-    if ply::is_ply(bytes) {
-        Some(Format::Ply)
-    } else if stl::is_binary(bytes) || stl::is_text(bytes) {
-        Some(Format::Stl)
-    } else if off::is_off(bytes) {
-        Some(Format::Off)
-    } else if obj::is_obj(bytes) {
-        Some(Format::Obj)
-    } else {
-        None
-    }
-}
-
-/// What is behind the byte order mark that some editors put before a text. The header of a binary STL may be
-/// anything.
-fn without_mark(bytes: &[u8]) -> &[u8] {
-    match bytes.strip_prefix("\u{feff}".as_bytes()) {
-        Some(text) if !stl::is_binary(bytes) => text,
-        _ => bytes,
-    }
-}
+pub(super) use formats::format_of;
+pub(super) use solids::{MeshSolids, NoSolids, solids};
 
 /// Reads a scene of a mesh; `None` where the format is another.
 pub(super) fn read(
@@ -56,15 +38,12 @@ pub(super) fn read(
     options: &ReadOptions,
 ) -> Option<Result<Scene, Diagnostics>> {
     let bytes = without_mark(bytes);
-    let polygons = match format {
-        Format::Stl => stl::read(bytes),
-        Format::Off => off::read(bytes),
-        Format::Ply => ply::read(bytes),
-        Format::Obj => obj::read(bytes, options),
-        Format::Language | Format::Nff => return None,
-    };
-    let polygons = match polygons {
+    let room = options.memory.map_or(u64::MAX, |limit| limit.saturating_sub(bytes.len() as u64));
+    let polygons = match polygons(bytes, format, Some(options), room)? {
         Ok(polygons) => polygons,
+        Err(MeshError { fault: MeshFault::NoRoom(needed), .. }) => {
+            return Some(Err(Diagnostics::whole(name, too_little(options.memory.unwrap_or(room), needed))));
+        }
         Err(error) => return Some(Err(error.told(name, bytes))),
     };
     let needed = bytes.len() as u64 + assemble::bytes(&polygons);

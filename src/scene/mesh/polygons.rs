@@ -1,7 +1,5 @@
 //! What every mesh format gives: corners, and polygons that name them, in groups.
 
-use std::path::PathBuf;
-
 use crate::math::DVec3;
 use crate::scene::Material;
 
@@ -12,6 +10,8 @@ use super::fault::MeshFault;
 pub struct PolygonMesh {
     /// What people call the format, as in `binary STL`.
     pub format: &'static str,
+    /// The unit that the file names, of those that do.
+    pub unit: Option<&'static str>,
     /// The corners; finite.
     pub points: Vec<DVec3>,
     /// Indices into `points`, polygon after polygon.
@@ -24,8 +24,6 @@ pub struct PolygonMesh {
     pub groups: Vec<Option<String>>,
     /// The materials; at least one.
     pub materials: Vec<Material>,
-    /// The files that were read beside the mesh.
-    pub libraries: Vec<PathBuf>,
     /// What was read otherwise than it is written.
     pub notes: Vec<String>,
 }
@@ -46,13 +44,13 @@ impl Default for PolygonMesh {
     fn default() -> Self {
         Self {
             format: "",
+            unit: None,
             points: Vec::new(),
             corners: Vec::new(),
             ends: Vec::new(),
             runs: vec![FaceRun { first: 0, group: 0, material: 0 }],
             groups: vec![None],
             materials: vec![Material::default()],
-            libraries: Vec::new(),
             notes: Vec::new(),
         }
     }

@@ -4,6 +4,7 @@
 mod mesh_files;
 mod mutations;
 mod obj;
+mod objects;
 mod off;
 mod parts;
 mod ply;

@@ -318,7 +318,7 @@ impl<'c, 'a> BoundArguments<'c, 'a> {
 pub fn refuse(word: &Word, error: Diagnostic, lost: Lost, sink: &mut Sink) -> Lost {
     let name = word.name;
     let what = match word.meaning {
-        Meaning::Solid(_) | Meaning::Figure(_) | Meaning::Form(_) if sink.leaves_out() => {
+        Meaning::Solid(_) | Meaning::Figure(_) | Meaning::Form(_) | Meaning::Import if sink.leaves_out() => {
             format!("`{name}` is left out")
         }
         Meaning::Map(_) if sink.leaves_out() => format!("what `{name}` holds is left out"),

@@ -40,6 +40,7 @@ impl Builder {
         let is_faceted = context.space == FormSpace::Faceted;
         match word.meaning {
             Meaning::Figure(kind) => self.figure(kind, word, call, context),
+            Meaning::Import => self.import(word, call, context),
             Meaning::Solid(_) if matches!(context.space, FormSpace::Extruded { .. }) => {
                 Err(self.solid_in_drawing(Origin::of(word, call)))
             }

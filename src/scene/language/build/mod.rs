@@ -11,6 +11,8 @@ mod form;
 mod forms;
 mod frame;
 mod frames;
+mod import;
+mod imports;
 mod lost;
 mod maps;
 mod materials;
@@ -36,6 +38,7 @@ use crate::scene::{Diagnostic, ReadOptions, Scene, Solid};
 use context::Context;
 use facets::Polygons;
 use frame::OpenCall;
+use imports::Imports;
 use materials::Surfaces;
 use pieces::Piece;
 use survey::{Survey, is_definition};
@@ -61,6 +64,7 @@ pub struct Builder {
     has_world: bool,
     polygons: Polygons,
     clipper: EarClipper,
+    imports: Imports,
     /// What is known of the whole file.
     survey: Survey,
     /// The calls that are open, the outermost first; below them all the scene itself.
@@ -86,6 +90,7 @@ impl Builder {
             has_world: false,
             polygons: Polygons::default(),
             clipper: EarClipper::default(),
+            imports: Imports::new(options),
             survey: Survey::default(),
             frames: vec![OpenCall::scene(Rc::new(Context::default()))],
             solids: Vec::new(),

@@ -52,7 +52,7 @@ impl Builder {
         self.make_room();
         let start = self.solids.len();
         match word.meaning {
-            Meaning::Solid(_) | Meaning::Figure(_) => {
+            Meaning::Solid(_) | Meaning::Figure(_) | Meaning::Import => {
                 let built = match self.leaf(word, call, &context) {
                     // The most frequent of all: what is an object at once waits for nobody.
                     Ok(Made::Solid(solid)) if is_object && call.is_ended => {

@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 use std::fs::{self, File};
 use std::io::{self, Read};
-use std::path::{Component, Path, PathBuf};
+use std::path::{Component, Path};
 
 use crate::math::DVec3;
 use crate::scene::{Material, ReadOptions};
@@ -20,8 +20,6 @@ pub struct MaterialLibrary {
     pub materials: Vec<Material>,
     /// The index of the one that faces get.
     pub current: u32,
-    /// The files that were read.
-    pub files: Vec<PathBuf>,
     /// What is not as the file says.
     pub notes: Vec<String>,
     known: HashMap<Vec<u8>, u32>,
@@ -34,7 +32,6 @@ impl Default for MaterialLibrary {
         Self {
             materials: vec![Material::default()],
             current: 0,
-            files: Vec::new(),
             notes: Vec::new(),
             known: HashMap::new(),
             missed: HashSet::new(),
@@ -69,11 +66,7 @@ impl MaterialLibrary {
                 if let Some(files) = &options.files {
                     files.add(&file);
                 }
-                let bytes = read(&file).map_err(|error| error.to_string());
-                if bytes.is_ok() && !self.files.contains(&file) {
-                    self.files.push(file);
-                }
-                bytes
+                read(&file).map_err(|error| error.to_string())
             }
         };
         match bytes {
@@ -133,6 +126,7 @@ fn read(path: &Path) -> io::Result<Vec<u8>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::FilesRead;
 
     #[test]
     fn colours_are_those_of_the_file() {
@@ -153,7 +147,12 @@ mod tests {
     fn only_what_lies_beside_is_read() {
         let mut library = MaterialLibrary::default();
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-        let options = ReadOptions { folder: Some(folder.clone()), ..ReadOptions::default() };
+        let files = FilesRead::default();
+        let options = ReadOptions {
+            folder: Some(folder.clone()),
+            files: Some(files.clone()),
+            ..ReadOptions::default()
+        };
         for name in ["../README.md", "/etc/hostname", "scene/mod.rs", "", "scene", "no such file"] {
             library.notes.clear();
             library.load(name.as_bytes(), &options);
@@ -161,11 +160,10 @@ mod tests {
         }
         assert_eq!(library.materials.len(), 1);
         library.notes.clear();
-        assert!(library.files.is_empty());
         for _ in 0..2 {
             library.load(b"./lib.rs", &options);
         }
-        assert_eq!(library.files, [folder.join("lib.rs")]);
+        assert!(files.all().contains(&folder.join("lib.rs")));
         assert_eq!(library.notes, Vec::<String>::new());
     }
 }

@@ -72,8 +72,8 @@ pub fn is_obj(bytes: &[u8]) -> bool {
     false
 }
 
-/// Reads a file. Its materials are looked for in the folder that the options name.
-pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<PolygonMesh, MeshError> {
+/// Reads a file. Its materials are looked for in the folder that the options name; nowhere without options.
+pub fn read(bytes: &[u8], options: Option<&ReadOptions>) -> Result<PolygonMesh, MeshError> {
     let mut reader = Reader {
         mesh: PolygonMesh::of("OBJ"),
         groups: Groups::default(),
@@ -85,9 +85,15 @@ pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<PolygonMesh, MeshErro
         }
     }
     reader.mesh.materials = reader.library.materials;
-    reader.mesh.libraries = reader.library.files;
     reader.mesh.notes = reader.library.notes;
     Ok(reader.mesh)
+}
+
+/// The longest name that is kept, in bytes: that of an object is there once for each of its groups.
+const LONGEST: usize = 100;
+
+fn shortened(name: &[u8]) -> &[u8] {
+    &name[..name.len().min(LONGEST)]
 }
 
 struct Reader {
@@ -124,7 +130,7 @@ impl Reader {
         &mut self,
         word: MeshWord<'_>,
         words: &mut MeshWords<'_>,
-        options: &ReadOptions,
+        options: Option<&ReadOptions>,
     ) -> Result<(), MeshError> {
         match word.bytes {
             b"v" => {
@@ -134,19 +140,20 @@ impl Reader {
             }
             b"f" => self.face(word, words)?,
             b"o" => {
-                self.groups.object = words.rest_of_line().to_vec();
+                self.groups.object = shortened(words.rest_of_line()).to_vec();
                 self.groups.group.clear();
                 self.groups.is_new = true;
             }
             b"g" => {
-                self.groups.group = words.rest_of_line().to_vec();
+                self.groups.group = shortened(words.rest_of_line()).to_vec();
                 self.groups.is_new = true;
             }
-            b"usemtl" => {
+            b"usemtl" if options.is_some() => {
                 self.library.choose(words.rest_of_line());
                 self.groups.is_new = true;
             }
-            b"mtllib" => self.library.load(words.rest_of_line(), options),
+            b"mtllib" => options.into_iter().for_each(|it| self.library.load(words.rest_of_line(), it)),
+            b"usemtl" => {}
             other => {
                 if !IGNORED.iter().any(|ignored| ignored.as_bytes() == other) {
                     let wanted = "a statement of OBJ, such as `v`, `f` or `o`";

@@ -35,6 +35,9 @@ const PIECES: [&[u8]; 24] = [
     b"\x7f\xff\xff\xff",
 ];
 
+const FORMATS: [Format; 6] =
+    [Format::Stl, Format::Off, Format::Ply, Format::Obj, Format::ThreeMf, Format::Amf];
+
 fn changed() -> impl Strategy<Value = Vec<u8>> {
     let change = (any::<Index>(), any::<Index>(), select(&PIECES[..]), 0..5);
     let mesh = prop_oneof![Just(MeshText::brick()), Just(MeshText::tetrahedron())];
@@ -91,14 +94,14 @@ proptest! {
     fn a_changed_file_has_an_answer(bytes in changed()) {
         answers(&bytes, &ReadOptions::default());
         // As another format than it is, too.
-        for format in [Format::Stl, Format::Off, Format::Ply, Format::Obj] {
+        for format in FORMATS {
             answers(&bytes, &ReadOptions { format: Some(format), ..options() });
         }
     }
 
     #[test]
     fn any_bytes_have_an_answer(bytes in prop::collection::vec(any::<u8>(), 0..300)) {
-        for format in [Format::Stl, Format::Off, Format::Ply, Format::Obj] {
+        for format in FORMATS {
             answers(&bytes, &ReadOptions { format: Some(format), ..options() });
         }
     }

@@ -1,0 +1,195 @@
+//! XML as files of models have it: elements and their text, with the place of each. What could be expanded,
+//! entities of a document type, is an error.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use quick_xml::Reader;
+use quick_xml::XmlVersion;
+use quick_xml::escape::resolve_predefined_entity;
+use quick_xml::events::{BytesEnd, BytesStart, Event};
+
+use super::super::fault::{MeshError, MeshFault};
+
+/// Elements are nested no deeper: models have ten levels.
+const DEEPEST: usize = 64;
+
+/// What comes next in a text.
+#[derive(Clone, Debug)]
+pub enum XmlEvent<'a> {
+    /// An element begins.
+    Open(XmlElement<'a>),
+    /// The innermost element ends.
+    Close(XmlEnd<'a>),
+    /// Text without blanks around it.
+    Text(Cow<'a, str>),
+    /// The end of the text.
+    End,
+}
+
+/// An element that begins.
+#[derive(Clone, Debug)]
+pub struct XmlElement<'a> {
+    tag: BytesStart<'a>,
+    /// Its place in the text.
+    pub place: Range<usize>,
+}
+
+/// The end of an element.
+#[derive(Clone, Debug)]
+pub struct XmlEnd<'a>(BytesEnd<'a>);
+
+/// The events of a text.
+pub struct XmlText<'a> {
+    reader: Reader<&'a [u8]>,
+    depth: usize,
+    /// The place of the event before.
+    pub place: Range<usize>,
+}
+
+impl<'a> XmlText<'a> {
+    /// Those of a text.
+    pub fn new(bytes: &'a [u8]) -> Result<Self, MeshError> {
+        let bytes = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
+        let text = std::str::from_utf8(bytes).map_err(|error| {
+            let at = error.valid_up_to();
+            MeshFault::Unexpected("UTF-8 text".to_owned()).at(at..at + 1)
+        })?;
+        let mut reader = Reader::from_str(text);
+        let config = reader.config_mut();
+        config.expand_empty_elements = true;
+        config.trim_text(true);
+        Ok(Self { reader, depth: 0, place: 0..0 })
+    }
+
+    /// The next event.
+    pub fn next(&mut self) -> Result<XmlEvent<'a>, MeshError> {
+        loop {
+            let start = self.reader.buffer_position() as usize;
+            let event = self.reader.read_event().map_err(|error| {
+                let at = self.reader.error_position() as usize;
+                MeshFault::NoXml(error.to_string()).at(at..at + 1)
+            })?;
+            self.place = start..(self.reader.buffer_position() as usize).max(start + 1);
+            match event {
+                Event::Start(tag) => {
+                    self.depth += 1;
+                    if self.depth > DEEPEST {
+                        let what = format!("elements are nested deeper than {DEEPEST}");
+                        return Err(MeshFault::Unsupported(what).at(self.place.clone()));
+                    }
+                    return Ok(XmlEvent::Open(XmlElement { tag, place: self.place.clone() }));
+                }
+                Event::End(tag) => {
+                    self.depth = self.depth.saturating_sub(1);
+                    return Ok(XmlEvent::Close(XmlEnd(tag)));
+                }
+                Event::Text(text) => return Ok(XmlEvent::Text(text.xml_content(XmlVersion::Implicit1_0))),
+                Event::CData(text) => return Ok(XmlEvent::Text(text.xml_content(XmlVersion::Implicit1_0))),
+                Event::GeneralRef(name) => {
+                    let character = name.resolve_char_ref().ok().flatten();
+                    if let Some(character) = character {
+                        return Ok(XmlEvent::Text(Cow::Owned(character.to_string())));
+                    }
+                    match resolve_predefined_entity(&name) {
+                        Some(text) => return Ok(XmlEvent::Text(Cow::Borrowed(text))),
+                        None => return Err(self.no_entity(&name)),
+                    }
+                }
+                Event::DocType(_) => {
+                    let what = "a document type, which may define entities".to_owned();
+                    return Err(MeshFault::Unsupported(what).at(self.place.clone()));
+                }
+                // Empty elements come as a start and an end.
+                Event::Comment(_) | Event::Decl(_) | Event::PI(_) | Event::Empty(_) => {}
+                Event::Eof if self.depth > 0 => {
+                    return Err(MeshFault::CutOff("the end of an element".to_owned()).at(self.place.clone()));
+                }
+                Event::Eof => return Ok(XmlEvent::End),
+            }
+        }
+    }
+
+    fn no_entity(&self, name: &str) -> MeshError {
+        MeshFault::Unsupported(format!("an entity `{name}`")).at(self.place.clone())
+    }
+}
+
+impl XmlEnd<'_> {
+    /// The name of the element, without a prefix.
+    pub fn name(&self) -> &str {
+        local(self.0.name().0)
+    }
+}
+
+fn local(name: &str) -> &str {
+    name.rsplit_once(':').map_or(name, |(_, local)| local)
+}
+
+impl XmlElement<'_> {
+    /// Its name, without a prefix.
+    pub fn name(&self) -> &str {
+        local(self.tag.name().0)
+    }
+
+    /// The value of an attribute by its name without a prefix; the first of several.
+    pub fn attribute(&self, name: &str) -> Result<Option<Cow<'_, str>>, MeshError> {
+        let wrong = |why: &dyn std::fmt::Display| MeshFault::NoXml(why.to_string()).at(self.place.clone());
+        for attribute in self.tag.attributes().with_checks(false) {
+            let attribute = attribute.map_err(|error| wrong(&error))?;
+            if attribute.key.local_name().as_ref() == name {
+                let value =
+                    attribute.normalized_value(XmlVersion::Implicit1_0).map_err(|error| wrong(&error))?;
+                return Ok(Some(value));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The finite number that an attribute must be.
+    pub fn number(&self, name: &str) -> Result<f64, MeshError> {
+        number(&self.needed(name)?, name).map_err(|fault| fault.at(self.place.clone()))
+    }
+
+    /// The whole number that an attribute must be.
+    pub fn index(&self, name: &str) -> Result<i64, MeshError> {
+        index(&self.needed(name)?, name).map_err(|fault| fault.at(self.place.clone()))
+    }
+
+    fn needed(&self, name: &str) -> Result<Cow<'_, str>, MeshError> {
+        let missing = || MeshFault::Unexpected(format!("an attribute `{name}`")).at(self.place.clone());
+        self.attribute(name)?.ok_or_else(missing)
+    }
+}
+
+/// The finite number that a word is.
+pub fn number(word: &str, what: &str) -> Result<f64, MeshFault> {
+    match word.trim().parse::<f64>() {
+        Ok(number) if number.is_finite() => Ok(number),
+        Ok(_) => Err(MeshFault::NotFinite(format!("`{what}`"))),
+        Err(_) => Err(MeshFault::NoNumber(format!("`{what}`"))),
+    }
+}
+
+/// The whole number that a word is.
+pub fn index(word: &str, what: &str) -> Result<i64, MeshFault> {
+    word.trim().parse().map_err(|_| MeshFault::NoNumber(format!("`{what}`")))
+}
+
+/// The name of the outermost element of a text that begins as XML does; none of any other.
+pub fn outermost(bytes: &[u8]) -> Option<String> {
+    // So far reach a declaration and comments.
+    let head = &bytes[..bytes.len().min(4096)];
+    if !head.trim_ascii_start().starts_with(b"<") && !head.starts_with("\u{feff}".as_bytes()) {
+        return None;
+    }
+    let whole = match std::str::from_utf8(head) {
+        Ok(_) => head,
+        Err(error) => &head[..error.valid_up_to()],
+    };
+    let mut text = XmlText::new(whole).ok()?;
+    match text.next() {
+        Ok(XmlEvent::Open(element)) => Some(element.name().to_owned()),
+        _ => None,
+    }
+}

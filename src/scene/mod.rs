@@ -5,6 +5,7 @@ mod degrees;
 mod diagnostic;
 mod embedded;
 mod language;
+mod lettering;
 mod memory;
 mod mesh;
 mod model;

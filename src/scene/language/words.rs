@@ -130,6 +130,37 @@ pub static WORDS: &[Word] = &[
         "What is inside of one or more outlines.",
     ),
     word(
+        "text",
+        Meaning::Figure(FigureWord::Text),
+        &[
+            placed("text", Takes::AnyText, "\"\"", "the letters, in one line"),
+            placed("size", Takes::Number, "10", "about the height of a capital letter"),
+            placed(
+                "font",
+                Takes::AnyText,
+                "\"Liberation Sans\"",
+                "family and style, as in \"DejaVu Sans:style=Bold\"",
+            ),
+            named(
+                "direction",
+                Takes::AnyText,
+                "–",
+                "\"ltr\", \"rtl\", \"ttb\" or \"btt\": the way they are written; by the letters where it is not given",
+            ),
+            named("language", Takes::AnyText, "\"en\"", "by which some fonts choose forms"),
+            named("script", Takes::AnyText, "–", "such as \"Latn\"; by the letters where it is not given"),
+            named("halign", Takes::AnyText, "\"left\"", "\"left\", \"center\" or \"right\""),
+            named(
+                "valign",
+                Takes::AnyText,
+                "\"baseline\"",
+                "\"baseline\", \"bottom\", \"center\" or \"top\"",
+            ),
+            named("spacing", Takes::Number, "1", "by what the way from letter to letter is multiplied"),
+        ],
+        "Letters, in a font of the machine.",
+    ),
+    word(
         "linear_extrude",
         Meaning::Form(FormWord::LinearExtrude),
         &[
@@ -315,11 +346,7 @@ pub static WORDS: &[Word] = &[
 ];
 
 /// Words of OpenSCAD that ray13 knows and can not show, and why.
-pub static UNSUPPORTED: &[(&str, &str)] = &[
-    ("roof", "only OpenSCAD can work its shape out"),
-    ("text", "letters are not drawn yet"),
-    ("surface", OTHER_FILE),
-    ("import", OTHER_FILE),
-];
+pub static UNSUPPORTED: &[(&str, &str)] =
+    &[("roof", "only OpenSCAD can work its shape out"), ("surface", OTHER_FILE), ("import", OTHER_FILE)];
 
 const OTHER_FILE: &str = "it takes its shape from another file";

@@ -11,7 +11,7 @@ mod sums;
 mod sweep;
 
 pub use arcs::{Fragments, MOST_CORNERS, corners};
-pub use clip::{Join, combined, filled, grown};
+pub use clip::{Join, combined, filled, grown, wound};
 pub use convex_hull::{hull_of_figures, hull_of_solid};
 pub use faceted::faceted;
 pub use figure::{Figure, FigureOperator, Region};

@@ -301,13 +301,17 @@ impl Builder {
 
     /// The error of what a word can not do.
     fn not_yet(&mut self, why: &str, origin: Origin) -> Lost {
+        self.can_not_be_shown(why, "--skip-unsupported shows the rest of the scene", origin)
+    }
+
+    /// The same with other advice.
+    pub(super) fn can_not_be_shown(&mut self, why: &str, help: &str, origin: Origin) -> Lost {
         let message = format!("`{}` can not be shown: {why}", origin.word.name);
         if self.skip_unsupported {
             self.sink.note(Diagnostic::note(origin.name, message));
             return Lost::Missing;
         }
-        let error = Diagnostic::error(origin.name, message);
-        self.sink.report(error.help("--skip-unsupported shows the rest of the scene")).into()
+        self.sink.report(Diagnostic::error(origin.name, message).help(help)).into()
     }
 }
 

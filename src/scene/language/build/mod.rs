@@ -11,6 +11,7 @@ mod form;
 mod forms;
 mod frame;
 mod frames;
+mod letters;
 mod lost;
 mod maps;
 mod materials;
@@ -30,6 +31,7 @@ use super::nearest::quoted;
 use super::syntax::{Call, SyntaxEvent};
 use super::vocabulary::Word;
 use crate::scene::diagnostic::Sink;
+use crate::scene::lettering::FontLibrary;
 use crate::scene::memory::Memory;
 use crate::scene::triangulation::EarClipper;
 use crate::scene::{Diagnostic, ReadOptions, Scene, Solid};
@@ -61,6 +63,7 @@ pub struct Builder {
     has_world: bool,
     polygons: Polygons,
     clipper: EarClipper,
+    fonts: FontLibrary,
     /// What is known of the whole file.
     survey: Survey,
     /// The calls that are open, the outermost first; below them all the scene itself.
@@ -86,6 +89,7 @@ impl Builder {
             has_world: false,
             polygons: Polygons::default(),
             clipper: EarClipper::default(),
+            fonts: FontLibrary::default(),
             survey: Survey::default(),
             frames: vec![OpenCall::scene(Rc::new(Context::default()))],
             solids: Vec::new(),

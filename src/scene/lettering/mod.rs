@@ -1,0 +1,11 @@
+//! Letters: lines of text as outlines, in the fonts of the machine.
+
+mod curve_pen;
+mod letters;
+mod library;
+mod likeness;
+mod request;
+mod vertical;
+
+pub use letters::{AlignedAcross, AlignedUp, NotWritten, TextLine, WrittenText, written};
+pub use library::FontLibrary;

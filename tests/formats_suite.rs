@@ -22,6 +22,7 @@ mod formats {
     mod openscad_examples;
     mod openscad_letters;
     mod spd;
+    mod surfaces;
 }
 
 #[test]

@@ -46,6 +46,11 @@ impl Memory {
         self.taken = self.taken.saturating_add(bytes);
     }
 
+    /// Bytes that may still be taken.
+    pub fn room(&self) -> u64 {
+        self.limit.saturating_sub(self.taken)
+    }
+
     /// Whether there is room for so much more.
     pub fn has_room_for(&self, bytes: u64) -> bool {
         self.taken.saturating_add(bytes) <= self.limit

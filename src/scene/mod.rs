@@ -1,9 +1,11 @@
 //! Stage 1, OBJECTS: bytes in, [`Scene`] out. Kind, place, size and surface of every solid.
 
+mod beside;
 mod content;
 mod degrees;
 mod diagnostic;
 mod embedded;
+mod heightmap;
 mod language;
 mod lettering;
 mod memory;

@@ -9,20 +9,18 @@ use crate::support::openscad::{exported, in_parallel, is_missing};
 const FOLDER: &str = "/usr/share/openscad/examples";
 
 /// Those that do not open, and a word of why.
-const NOT_YET: [(&str, &str); 13] = [
+const NOT_YET: [(&str, &str); 11] = [
     ("GEB", "projection"),
     ("echo", "empty"),
     ("example007", "import"),
     ("example008", "import"),
     ("example009", "import"),
-    ("example010", "surface"),
     ("example012", "import"),
     ("example013", "import"),
     ("example015", "import"),
     ("example016", "import"),
     ("example021", "projection"),
     ("projection", "import"),
-    ("surface_image", "surface"),
 ];
 
 fn programs() -> Vec<PathBuf> {

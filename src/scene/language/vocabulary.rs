@@ -56,6 +56,7 @@ pub enum SolidWord {
     Cylinder,
     Cone,
     Polyhedron,
+    Surface,
 }
 
 /// Words for plane figures.

@@ -100,6 +100,23 @@ pub static WORDS: &[Word] = &[
         "A solid with flat faces. They must close: every edge belongs to two faces.",
     ),
     word(
+        "surface",
+        Meaning::Solid(SolidWord::Surface),
+        &[
+            placed(
+                "file",
+                Takes::Text,
+                "–",
+                "a PNG picture, or a table of numbers; in the folder of the scene",
+            ),
+            CENTER,
+            CONVEXITY,
+            named("invert", Takes::Flag, "false", "whether dark is high in a picture"),
+            named("timestamp", Takes::Ignored, "–", "without effect"),
+        ],
+        "The solid under the heights of a file, one unit apart.",
+    ),
+    word(
         "circle",
         Meaning::Figure(FigureWord::Circle),
         &[
@@ -347,6 +364,6 @@ pub static WORDS: &[Word] = &[
 
 /// Words of OpenSCAD that ray13 knows and can not show, and why.
 pub static UNSUPPORTED: &[(&str, &str)] =
-    &[("roof", "only OpenSCAD can work its shape out"), ("surface", OTHER_FILE), ("import", OTHER_FILE)];
+    &[("roof", "only OpenSCAD can work its shape out"), ("import", OTHER_FILE)];
 
 const OTHER_FILE: &str = "it takes its shape from another file";

@@ -20,6 +20,7 @@ mod origin;
 mod pieces;
 mod polyhedron;
 mod solids;
+mod surface;
 mod survey;
 mod views;
 
@@ -30,6 +31,7 @@ use super::dictionary::{Known, look_up, nearest_word};
 use super::nearest::quoted;
 use super::syntax::{Call, SyntaxEvent};
 use super::vocabulary::Word;
+use crate::scene::beside::SceneFolder;
 use crate::scene::diagnostic::Sink;
 use crate::scene::lettering::FontLibrary;
 use crate::scene::memory::Memory;
@@ -64,6 +66,7 @@ pub struct Builder {
     polygons: Polygons,
     clipper: EarClipper,
     fonts: FontLibrary,
+    folder: SceneFolder,
     /// What is known of the whole file.
     survey: Survey,
     /// The calls that are open, the outermost first; below them all the scene itself.
@@ -90,6 +93,7 @@ impl Builder {
             polygons: Polygons::default(),
             clipper: EarClipper::default(),
             fonts: FontLibrary::default(),
+            folder: SceneFolder::of(options),
             survey: Survey::default(),
             frames: vec![OpenCall::scene(Rc::new(Context::default()))],
             solids: Vec::new(),

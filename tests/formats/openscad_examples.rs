@@ -9,8 +9,7 @@ use crate::support::openscad::{exported, in_parallel, is_missing};
 const FOLDER: &str = "/usr/share/openscad/examples";
 
 /// Those that do not open, and a word of why.
-const NOT_YET: [(&str, &str); 11] = [
-    ("GEB", "projection"),
+const NOT_YET: [(&str, &str); 9] = [
     ("echo", "empty"),
     ("example007", "import"),
     ("example008", "import"),
@@ -19,7 +18,6 @@ const NOT_YET: [(&str, &str); 11] = [
     ("example013", "import"),
     ("example015", "import"),
     ("example016", "import"),
-    ("example021", "projection"),
     ("projection", "import"),
 ];
 

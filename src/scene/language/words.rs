@@ -187,7 +187,12 @@ pub static WORDS: &[Word] = &[
             named("slices", Takes::Positive, "–", "in how many steps it is turned and scaled"),
             named("scale", Takes::FlatFactor, "1", "by what it is scaled on the way"),
             named("v", Takes::Point, "[0, 0, 1]", "the direction of the way; its length is that of `height`"),
-            named("segments", Takes::Ignored, "–", "without effect"),
+            named(
+                "segments",
+                Takes::NotNegative,
+                "–",
+                "how many sides an outline has at least, where it is turned or scaled",
+            ),
             named("convexity", Takes::Ignored, "–", "without effect"),
         ],
         "The solid that a figure sweeps on its way up.",

@@ -13,6 +13,7 @@ mod frame;
 mod frames;
 mod letters;
 mod lost;
+mod made;
 mod maps;
 mod materials;
 mod operators;
@@ -35,6 +36,7 @@ use crate::scene::beside::SceneFolder;
 use crate::scene::diagnostic::Sink;
 use crate::scene::lettering::FontLibrary;
 use crate::scene::memory::Memory;
+use crate::scene::profile::WorkLeft;
 use crate::scene::triangulation::EarClipper;
 use crate::scene::{Diagnostic, ReadOptions, Scene, Solid};
 use context::Context;
@@ -66,6 +68,7 @@ pub struct Builder {
     polygons: Polygons,
     clipper: EarClipper,
     fonts: FontLibrary,
+    work: WorkLeft,
     folder: SceneFolder,
     /// What is known of the whole file.
     survey: Survey,
@@ -93,6 +96,7 @@ impl Builder {
             polygons: Polygons::default(),
             clipper: EarClipper::default(),
             fonts: FontLibrary::default(),
+            work: WorkLeft::default(),
             folder: SceneFolder::of(options),
             survey: Survey::default(),
             frames: vec![OpenCall::scene(Rc::new(Context::default()))],

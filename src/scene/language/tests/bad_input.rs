@@ -84,7 +84,7 @@ fn unsupported_words_can_be_left_out() {
     assert_eq!(
         scene.notes,
         [
-            "`roof` is left out: only OpenSCAD can work its shape out (2 times, in lines 2 and 3)",
+            "line 2: `roof` is left out: only OpenSCAD can work its shape out (2 times, in lines 2 and 3)",
             "line 3: a hole of `difference` stays filled: what cuts it is left out"
         ]
     );

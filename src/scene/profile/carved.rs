@@ -6,6 +6,7 @@ use manifold_rust::manifold::Manifold;
 use manifold_rust::types::{BooleanEngine, Error, MeshGL64, OpType};
 
 use super::of_mesh::of_mesh;
+use super::orientation::oriented;
 use super::work::{TooMuchWork, WorkLeft};
 use crate::math::{Bounds, DVec3};
 use crate::scene::{Mesh, Primitive, Shape, Solid};
@@ -19,7 +20,7 @@ const MERGED: f64 = 1e-12;
 pub enum NotCarved {
     /// It would take too long.
     TooMuch,
-    /// The faces of a mesh do not all go round the same way, or the library has failed.
+    /// A mesh has no inside and outside, or the library has failed.
     Failed,
 }
 
@@ -110,14 +111,11 @@ fn manifold(part: Part<'_>, scale: f64) -> Result<Manifold, NotCarved> {
     };
     let Shape::Mesh(mesh) = &primitive.shape else { return Err(NotCarved::Failed) };
     let points: Vec<DVec3> = mesh.points.iter().map(|&p| primitive.map.transform_point3(p) * scale).collect();
-    let corner = |triangle: &[u32; 3]| triangle.map(|i| points[i as usize]);
-    let volume: f64 = mesh.triangles.iter().map(corner).map(|[a, b, c]| a.dot(b.cross(c))).sum();
-    // Counter-clockwise seen from outside.
-    let turned = |&[a, b, c]: &[u32; 3]| if volume < 0.0 { [a, c, b] } else { [a, b, c] };
+    let triangles = oriented(&points, &mesh.triangles).ok_or(NotCarved::Failed)?;
     let given = MeshGL64 {
         num_prop: 3,
         vert_properties: points.iter().flat_map(DVec3::to_array).collect(),
-        tri_verts: mesh.triangles.iter().flat_map(turned).map(u64::from).collect(),
+        tri_verts: triangles.into_iter().flatten().map(u64::from).collect(),
         ..MeshGL64::default()
     };
     let manifold = Manifold::from_mesh_gl64_robust(&given);

@@ -8,6 +8,7 @@ mod convex_hull;
 mod faceted;
 mod figure;
 mod of_mesh;
+mod orientation;
 mod section;
 mod sums;
 mod sweep;

@@ -167,6 +167,15 @@ fn what_is_cut_is_measured_by_what_is_left_of_it() {
     assert_volume(&format!("hull() {{ {half} translate([0, 0, 3]) cube([2, 2, 1]); }}"), 12.0);
     assert_volume("hull() intersection() { cube([4, 1, 1]); translate([3, 0, 0]) cube(2); }", 1.0);
     assert_volume(&format!("linear_extrude(2) projection() rotate([90, 0, 0]) {half}"), 4.0);
+    // What is swept, and a ring that is hollow.
+    let cut = "difference() { linear_extrude(2) polygon([[0,0],[2,0],[2,2],[0,2],[0,1]]); translate([-1,-1,1]) cube(9); }";
+    assert_volume(&format!("hull() {cut}"), 4.0);
+    let ring =
+        "rotate_extrude($fn = 16) translate([5, 0]) difference() { circle(2, $fn = 8); circle(1, $fn = 8); }";
+    let quarter = scene(&format!(
+        "resize([0, 0, 8]) intersection() {{ {ring} translate([0, 0, 1]) cube([9, 9, 9]); }}"
+    ));
+    assert_eq!(primitives(&quarter).len(), 2);
     // A frame: its shadow has a hole, and so has its sum.
     let frame = "difference() { cube([4, 4, 1]); translate([1, 1, -1]) cube([2, 2, 3]); }";
     assert_volume(&format!("linear_extrude(2) projection() {frame}"), 24.0);

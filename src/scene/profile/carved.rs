@@ -54,9 +54,9 @@ pub fn united_meshes(solid: &Solid, work: &mut WorkLeft) -> Result<Solid, NotCar
     let meshes = parts.into_iter().filter_map(|part| match part {
         Part::Own(primitive) => Some(Solid::Primitive(primitive.clone())),
         Part::Carved(carved) => {
-            let mesh = mesh_of(&carved, scale);
+            let mesh = mesh_of(&carved.manifold, scale);
             let primitive = of_mesh(mesh).with_map_error(error);
-            (!carved.is_empty()).then_some(Solid::Primitive(primitive))
+            (!carved.manifold.is_empty()).then_some(Solid::Primitive(primitive))
         }
     });
     Ok(Solid::Union(meshes.collect()))
@@ -66,8 +66,18 @@ pub fn united_meshes(solid: &Solid, work: &mut WorkLeft) -> Result<Solid, NotCar
 enum Part<'s> {
     /// A primitive as it was.
     Own(&'s Primitive),
-    Carved(Box<Manifold>),
+    Carved(Box<Body>),
 }
+
+/// A solid as the library has it.
+struct Body {
+    manifold: Manifold,
+    /// Whether each edge belongs to two triangles: the library is quicker with those by far.
+    is_paired: bool,
+}
+
+/// How many times as long a triangle takes where edges are not paired.
+const OF_UNPAIRED: usize = 20;
 
 fn carve<'s>(solid: &'s Solid, scale: f64, work: &mut WorkLeft) -> Result<Vec<Part<'s>>, NotCarved> {
     solid.fold(&mut |primitive| Ok(vec![Part::Own(primitive)]), &mut |solid, operands| {
@@ -82,7 +92,7 @@ fn carve<'s>(solid: &'s Solid, scale: f64, work: &mut WorkLeft) -> Result<Vec<Pa
         let carved = operands.try_fold(first, |carved, operand| match operator {
             // What is cut away may as well be cut away part by part.
             OpType::Subtract => operand.into_iter().try_fold(carved, |carved, part| {
-                joined(&carved, &manifold(part, scale)?, OpType::Subtract, work)
+                joined(&carved, &body(part, scale)?, OpType::Subtract, work)
             }),
             _ => joined(&carved, &whole(operand, scale, work)?, OpType::Intersect, work),
         })?;
@@ -91,20 +101,29 @@ fn carve<'s>(solid: &'s Solid, scale: f64, work: &mut WorkLeft) -> Result<Vec<Pa
 }
 
 /// The union of parts.
-fn whole(parts: Vec<Part<'_>>, scale: f64, work: &mut WorkLeft) -> Result<Manifold, NotCarved> {
+fn whole(parts: Vec<Part<'_>>, scale: f64, work: &mut WorkLeft) -> Result<Body, NotCarved> {
     let mut parts = parts.into_iter();
-    let Some(first) = parts.next() else { return Ok(Manifold::empty()) };
-    let first = manifold(first, scale)?;
-    parts.try_fold(first, |all, part| joined(&all, &manifold(part, scale)?, OpType::Add, work))
+    let Some(first) = parts.next() else {
+        return Ok(Body { manifold: Manifold::empty(), is_paired: true });
+    };
+    let first = body(first, scale)?;
+    parts.try_fold(first, |all, part| joined(&all, &body(part, scale)?, OpType::Add, work))
 }
 
-fn joined(a: &Manifold, b: &Manifold, operator: OpType, work: &mut WorkLeft) -> Result<Manifold, NotCarved> {
-    work.spend(a.num_tri() + b.num_tri())?;
-    let joined = a.boolean_with_engine(b, operator, BooleanEngine::Auto);
-    if joined.status() == Error::NoError { Ok(joined) } else { Err(NotCarved::Failed) }
+fn joined(a: &Body, b: &Body, operator: OpType, work: &mut WorkLeft) -> Result<Body, NotCarved> {
+    let is_paired = a.is_paired && b.is_paired;
+    let (engine, times) =
+        if is_paired { (BooleanEngine::Exact, 1) } else { (BooleanEngine::Robust, OF_UNPAIRED) };
+    work.spend((a.manifold.num_tri() + b.manifold.num_tri()).saturating_mul(times))?;
+    let manifold = a.manifold.boolean_with_engine(&b.manifold, operator, engine);
+    if manifold.status() == Error::NoError {
+        Ok(Body { manifold, is_paired })
+    } else {
+        Err(NotCarved::Failed)
+    }
 }
 
-fn manifold(part: Part<'_>, scale: f64) -> Result<Manifold, NotCarved> {
+fn body(part: Part<'_>, scale: f64) -> Result<Body, NotCarved> {
     let primitive = match part {
         Part::Carved(carved) => return Ok(*carved),
         Part::Own(primitive) => primitive,
@@ -118,8 +137,16 @@ fn manifold(part: Part<'_>, scale: f64) -> Result<Manifold, NotCarved> {
         tri_verts: triangles.into_iter().flatten().map(u64::from).collect(),
         ..MeshGL64::default()
     };
+    let manifold = Manifold::from_mesh_gl64(&given);
+    if manifold.status() == Error::NoError {
+        return Ok(Body { manifold, is_paired: true });
+    }
     let manifold = Manifold::from_mesh_gl64_robust(&given);
-    if manifold.status() == Error::NoError { Ok(manifold) } else { Err(NotCarved::Failed) }
+    if manifold.status() == Error::NoError {
+        Ok(Body { manifold, is_paired: false })
+    } else {
+        Err(NotCarved::Failed)
+    }
 }
 
 fn mesh_of(manifold: &Manifold, scale: f64) -> Mesh {
@@ -152,8 +179,8 @@ pub fn sum_of_hollows(a: &Mesh, b: &Mesh, work: &mut WorkLeft) -> Result<Mesh, N
         return Err(NotCarved::Failed);
     }
     let scale = libm::ldexp(1.0, -libm::ilogb(size).clamp(-1000, 1000));
-    let of = |mesh: &Mesh| manifold(Part::Own(&of_mesh(mesh.clone())), scale);
-    let sum = || Ok(of(a)?.minkowski_sum(&of(b)?));
+    let of = |mesh: &Mesh| body(Part::Own(&of_mesh(mesh.clone())), scale);
+    let sum = || Ok(of(a)?.manifold.minkowski_sum(&of(b)?.manifold));
     let sum: Manifold = catch_unwind(AssertUnwindSafe(sum)).unwrap_or(Err(NotCarved::Failed))?;
     if sum.status() == Error::NoError { Ok(mesh_of(&sum, scale)) } else { Err(NotCarved::Failed) }
 }

@@ -1,4 +1,5 @@
-//! The examples that OpenSCAD's package brings: which of them open whole, when that program has exported them.
+//! The examples that OpenSCAD's package brings: which of them open whole, when that program has exported
+//! them.
 
 use std::path::{Path, PathBuf};
 

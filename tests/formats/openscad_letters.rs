@@ -5,8 +5,8 @@ use ray13::scene::{ReadOptions, Shape, Solid, read};
 
 use crate::support::openscad::{exported_text, in_parallel, is_missing};
 
-/// Texts, and by how much of their size a corner may be elsewhere: OpenSCAD writes six digits, and fits letters
-/// of lines from top to bottom to dots.
+/// Texts, and by how much of their size a corner may be elsewhere: OpenSCAD writes six digits, and fits
+/// letters of lines from top to bottom to dots.
 const TEXTS: [(&str, f64); 14] = [
     ("text(\"Hg\", size = 10, $fn = 16);", 1e-5),
     ("text(\"AVATo Te\", size = 10, halign = \"center\", valign = \"center\", $fn = 32);", 1e-5),

@@ -14,8 +14,8 @@ pub fn is_missing() -> bool {
     is_missing
 }
 
-/// What it writes of a program, in the format of this ending; none where it says that the program makes nothing of
-/// that kind.
+/// What it writes of a program, in the format of this ending; none where it says that the program makes
+/// nothing of that kind.
 pub fn exported(program: &Path, ending: &str) -> Option<Vec<u8>> {
     static NEXT: AtomicUsize = AtomicUsize::new(0);
     let name = format!("openscad-{}-{}.{ending}", std::process::id(), NEXT.fetch_add(1, Ordering::Relaxed));

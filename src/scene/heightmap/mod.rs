@@ -38,8 +38,8 @@ pub enum NoHeights {
 pub const OF_HEIGHT: u64 = 200;
 
 impl Heightmap {
-    /// Reads a PNG picture, of which `is_inverted` is OpenSCAD's `invert`, or a table of numbers; of at most so many
-    /// heights.
+    /// Reads a PNG picture, of which `is_inverted` is OpenSCAD's `invert`, or a table of numbers; of at most
+    /// so many heights.
     pub fn read(bytes: &[u8], is_inverted: bool, most: usize) -> Result<HeightFile, NoHeights> {
         if bytes.starts_with(b"\x89PNG\r\n\x1a\n") {
             let map = picture::heights(bytes, is_inverted, most)?;
@@ -59,8 +59,8 @@ impl Heightmap {
         self.heights.len() / self.columns.max(1)
     }
 
-    /// The solid between the heights and a plane, which is 1 below the least of them, but not above 0; none where it
-    /// has no area. Its first place is at the origin, or its middle is.
+    /// The solid between the heights and a plane, which is 1 below the least of them, but not above 0; none
+    /// where it has no area. Its first place is at the origin, or its middle is.
     pub fn mesh(&self, is_centred: bool) -> Option<Mesh> {
         let (rows, columns) = (self.rows(), self.columns);
         if rows < 2 || columns < 2 {

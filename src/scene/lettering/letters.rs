@@ -1,4 +1,5 @@
-//! A line of text to outlines: shaped by `harfrust`, drawn by `skrifa`, in the numbers of OpenSCAD's renderer.
+//! A line of text to outlines: shaped by `harfrust`, drawn by `skrifa`, in the numbers of OpenSCAD's
+//! renderer.
 
 use std::str::FromStr;
 use std::sync::Arc;
@@ -10,19 +11,9 @@ use skrifa::{FontRef, GlyphId, MetadataProvider};
 
 use super::curve_pen::CurvePen;
 use super::library::{ChosenFont, FontLibrary};
+use super::scale::{EM, OF_WAYS, UNIT};
 use super::vertical::EvenColumns;
 use crate::math::DVec2;
-
-/// OpenSCAD draws letters at a size of 10⁵ points, 100 dots to the inch, and takes the result by the 10⁵th part:
-/// a text of size 1 is set in a font whose em is 100/72. FreeType has that as 138 889, in 64ths of a dot.
-pub const EM: i32 = 138_889;
-
-/// The unit of the coordinates that FreeType gives for that size.
-const UNIT: f64 = 1e-5;
-
-/// What OpenSCAD 2021.01 takes ways and heights by, but not outlines: it counts 1 024 of FreeType's units to a
-/// thousand. Letters stand 2 % closer than in their font.
-const OF_WAYS: f64 = 1000.0 / 1024.0;
 
 /// Where a text is along x.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -78,7 +69,8 @@ pub struct TextLine<'t> {
 /// What was written.
 #[derive(Clone, Debug)]
 pub struct WrittenText {
-    /// The outlines of all letters; a point is inside where they go round it more often one way than the other.
+    /// The outlines of all letters; a point is inside where they go round it more often one way than the
+    /// other.
     pub outlines: Vec<Vec<DVec2>>,
     /// The font it is written in.
     pub font: ChosenFont,
@@ -113,7 +105,8 @@ pub fn written(
     let columns = EvenColumns::of(&font);
     let glyphs = shaped(line, &bytes, chosen.index, columns).ok_or(NotWritten::Unreadable)?;
     let collection = font.outline_glyphs();
-    // As FreeType does unasked, letters are fitted to the dots of that size: half a dot is 0.0003 of the size.
+    // As FreeType does unasked, letters are fitted to the dots of that size: half a dot is 0.0003 of the
+    // size.
     let size = Size::new(EM as f32 / 64.0);
     let hinting = HintingInstance::new(&collection, size, LocationRef::default(), HintingOptions::default());
     let mut drawn = Vec::with_capacity(glyphs.list.len());

@@ -1,5 +1,5 @@
-//! Which fonts stand for one that is not there: those of the same widths, then those that fontconfig prefers for
-//! Latin text of the same kind.
+//! Which fonts stand for one that is not there: those of the same widths, then those that fontconfig prefers
+//! for Latin text of the same kind.
 
 use super::request::key;
 

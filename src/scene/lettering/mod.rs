@@ -5,6 +5,7 @@ mod letters;
 mod library;
 mod likeness;
 mod request;
+mod scale;
 mod vertical;
 
 pub use letters::{AlignedAcross, AlignedUp, NotWritten, TextLine, WrittenText, written};

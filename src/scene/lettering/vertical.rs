@@ -1,11 +1,11 @@
-//! Lines from top to bottom in fonts that say nothing of them: as FreeType has it, each letter is in the middle of a
-//! way that is as long as the font is high.
+//! Lines from top to bottom in fonts that say nothing of them: as FreeType has it, each letter is in the
+//! middle of a way that is as long as the font is high.
 
 use harfrust::{FontFuncs, GlyphId, ShaperFont};
 use skrifa::FontRef;
 use skrifa::raw::TableProvider;
 
-use super::letters::EM;
+use super::scale::EM;
 
 /// The way from letter to letter of a font without vertical metrics, at a size of [`EM`].
 #[derive(Clone, Copy, Debug)]

@@ -1,4 +1,5 @@
-//! What is cut, and what several have in common, as meshes: for what is made of a surface that no primitive has.
+//! What is cut, and what several have in common, as meshes: for what is made of a surface that no primitive
+//! has.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -30,7 +31,8 @@ impl From<TooMuchWork> for NotCarved {
     }
 }
 
-/// A solid of meshes as a union of meshes only: where it is none, a step of work is a triangle that an operator meets.
+/// A solid of meshes as a union of meshes only: where it is none, a step of work is a triangle that an
+/// operator meets.
 pub fn united_meshes(solid: &Solid, work: &mut WorkLeft) -> Result<Solid, NotCarved> {
     let mut is_union = true;
     let mut bounds = Bounds::EMPTY;

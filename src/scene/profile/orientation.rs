@@ -1,4 +1,5 @@
-//! Which way round the triangles of a mesh go. To rays it is all the same; who works out surfaces asks for it.
+//! Which way round the triangles of a mesh go. To rays it is all the same; who works out surfaces asks for
+//! it.
 
 use std::collections::HashMap;
 
@@ -10,8 +11,8 @@ const MOST_PARTS: usize = 64;
 /// A direction along which no edge of a mesh as people make them lies.
 const ODD: DVec3 = DVec3::new(0.481_753, 0.300_461, 0.823_197);
 
-/// The triangles of a closed mesh, each counter-clockwise seen from outside; none where that can not be, as on
-/// Klein's bottle, and of more than 64 parts that do not hang together.
+/// The triangles of a closed mesh, each counter-clockwise seen from outside; none where that can not be, as
+/// on Klein's bottle, and of more than 64 parts that do not hang together.
 pub fn oriented(points: &[DVec3], triangles: &[[u32; 3]]) -> Option<Vec<[u32; 3]>> {
     let mut edges = HashMap::<[u32; 2], Vec<usize>>::new();
     let sides = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [c, a]];

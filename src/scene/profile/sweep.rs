@@ -103,8 +103,8 @@ impl LinearSweep {
 }
 
 impl LinearSweep {
-    /// The figure with its longest sides cut, until each outline has so many of them, as OpenSCAD does it: sides that are
-    /// equally long are cut together, or not at all.
+    /// The figure with its longest sides cut, until each outline has so many of them, as OpenSCAD does it:
+    /// sides that are equally long are cut together, or not at all.
     fn segmented(&self, figure: &Figure, slices: f64) -> Figure {
         let Some(wanted) = self.segments else { return figure.clone() };
         let at = |share: f64| Layer {

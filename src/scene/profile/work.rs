@@ -1,12 +1,12 @@
-//! How much may be worked out for a scene: one measure for all of its words, so that many, or nested ones, take no
-//! longer than one that is large.
+//! How much may be worked out for a scene: one measure for all of its words, so that many, or nested ones,
+//! take no longer than one that is large.
 
-/// So many steps a scene may take: hulls, sums, shadows, and what is carved, of a thousand parts as people make
-/// them. All of them take five seconds or so.
+/// So many steps a scene may take: hulls, sums, shadows, and what is carved, of a thousand parts as people
+/// make them. All of them take five seconds or so.
 const OF_SCENE: u64 = 2_000_000;
 
-/// The steps that are left. A step is about what a corner takes on its way into a hull, or a triangle through an
-/// operator: one to three microseconds.
+/// The steps that are left. A step is about what a corner takes on its way into a hull, or a triangle through
+/// an operator: one to three microseconds.
 #[derive(Clone, Debug)]
 pub struct WorkLeft {
     steps: u64,

@@ -205,7 +205,7 @@ fn faces_in_one_plane_are_carved_whole() {
         let text = format!("scale({scale}) hull() difference() {{ cube(2); translate([0, 0, 1]) cube(2); }}");
         let hull = mesh(&scene(&text));
         let size = hull.points.iter().map(|p| p.max_element()).fold(0.0, f64::max);
-        assert!(hull.points.iter().all(|p| p.z <= 0.500001 * size), "{text}: {hull:?}");
+        assert!(hull.points.iter().all(|p| p.z <= 0.500_001 * size), "{text}: {hull:?}");
     }
 }
 

@@ -3,10 +3,10 @@
 
 /// So many steps a scene may take: hulls, sums, shadows, and what is carved, of a thousand parts as people
 /// make them. All of them take five seconds or so.
-const OF_SCENE: u64 = 2_000_000;
+const OF_SCENE: u64 = 6_000_000;
 
-/// The steps that are left. A step is about what a corner takes on its way into a hull, or a triangle through
-/// an operator: one to three microseconds.
+/// The steps that are left. A step is about what a sum of two corners takes on its way into a hull: a
+/// microsecond, or less.
 #[derive(Clone, Debug)]
 pub struct WorkLeft {
     steps: u64,

@@ -27,7 +27,9 @@ impl Builder {
         let is_flat = solids.is_empty();
         if !matches!(form, Form::Operator(_)) || is_flat {
             let of_figures = figures.iter().map(Figure::count).sum::<usize>();
-            self.spend(of_figures + solids.iter().map(count_of_corners).sum::<usize>(), origin)?;
+            let count = of_figures + solids.iter().map(count_of_corners).sum::<usize>();
+            // A corner that ends up in a hull takes longer than a sum that does not.
+            self.spend(count.saturating_mul(3), origin)?;
         }
         match form {
             Form::Operator(operator) if is_flat => {

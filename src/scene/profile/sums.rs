@@ -107,7 +107,8 @@ fn sum(points: &[DVec3], others: &[DVec3]) -> Option<Mesh> {
 /// The sum of a part that is not convex and one that is: that of its surface, triangle by triangle, and what
 /// is within, which is in the part moved to any one point of the other.
 fn hollow(part: &Part, convex: &Part, sums: &mut Vec<Mesh>, work: &mut WorkLeft) -> Result<(), TooMuchWork> {
-    work.spend(part.mesh.triangles.len().saturating_mul(3 * convex.mesh.points.len()))?;
+    // Three sums for each corner of the convex part, of which most end up in a hull of their own.
+    work.spend(part.mesh.triangles.len().saturating_mul(9 * convex.mesh.points.len()))?;
     for triangle in &part.mesh.triangles {
         let corners = triangle.map(|i| part.mesh.points[i as usize]);
         sums.extend(sum(&corners, &convex.mesh.points));

@@ -5,6 +5,7 @@ mod support {
     pub mod beside;
     pub mod cases;
     pub mod mesh_files;
+    pub mod openscad;
     pub mod oracle;
     pub mod rays;
     pub mod request;
@@ -20,7 +21,10 @@ mod formats {
     mod memory;
     mod meshes;
     mod nff;
+    mod openscad_examples;
+    mod openscad_letters;
     mod spd;
+    mod surfaces;
 }
 
 #[test]

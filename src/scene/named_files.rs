@@ -50,6 +50,20 @@ pub enum NoNamedFile {
     Io(#[from] io::Error),
 }
 
+impl NoNamedFile {
+    /// What to do about it, where that is not plain.
+    pub fn help(&self) -> Option<String> {
+        match self {
+            Self::Outside { folder } => Some(format!(
+                "what a scene names elsewhere is read where you allow it: --root {}",
+                folder.display()
+            )),
+            Self::NoFolder => Some("read the scene from a file".to_owned()),
+            _ => None,
+        }
+    }
+}
+
 impl NamedFiles {
     /// Those of a scene that is read with these options.
     pub fn new(options: &ReadOptions) -> Self {

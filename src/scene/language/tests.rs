@@ -7,6 +7,7 @@ mod figures;
 mod hostile;
 mod language;
 mod leaves;
+mod letters;
 mod nesting;
 mod polyhedra;
 

@@ -58,6 +58,7 @@ pub enum SolidWord {
     Cylinder,
     Cone,
     Polyhedron,
+    Surface,
 }
 
 /// Words for plane figures.
@@ -66,6 +67,7 @@ pub enum FigureWord {
     Circle,
     Square,
     Polygon,
+    Text,
 }
 
 /// Words that make something new of what their children are.
@@ -127,6 +129,8 @@ pub enum Takes {
     Flag,
     /// A text that is not empty.
     Text,
+    /// A text that may be empty.
+    AnyText,
     /// `[x, y, z]`.
     Point,
     /// `[x, y, z]` or `[x, y]`.
@@ -182,7 +186,7 @@ impl Takes {
             Self::NotNegative => "a number, 0 or more",
             Self::Share => "a number from 0 to 1",
             Self::Flag => "true or false",
-            Self::Text => "a text in double quotes",
+            Self::Text | Self::AnyText => "a text in double quotes",
             Self::Point => "[x, y, z]",
             Self::Offset => "[x, y, z] or [x, y]",
             Self::Size => "a number or [x, y, z], above 0",

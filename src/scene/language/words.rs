@@ -116,6 +116,23 @@ pub static WORDS: &[Word] = &[
         "The solids of a mesh file (docs/meshes.md). They must close: every edge belongs to two faces.",
     ),
     word(
+        "surface",
+        Meaning::Solid(SolidWord::Surface),
+        &[
+            placed(
+                "file",
+                Takes::Text,
+                "–",
+                "a PNG picture, or a table of numbers; in the folder of the scene",
+            ),
+            CENTER,
+            CONVEXITY,
+            named("invert", Takes::Flag, "false", "whether dark is high in a picture"),
+            named("timestamp", Takes::Ignored, "–", "without effect"),
+        ],
+        "The solid under the heights of a file, one unit apart.",
+    ),
+    word(
         "circle",
         Meaning::Figure(FigureWord::Circle),
         &[
@@ -146,6 +163,37 @@ pub static WORDS: &[Word] = &[
         "What is inside of one or more outlines.",
     ),
     word(
+        "text",
+        Meaning::Figure(FigureWord::Text),
+        &[
+            placed("text", Takes::AnyText, "\"\"", "the letters, in one line"),
+            placed("size", Takes::Number, "10", "about the height of a capital letter"),
+            placed(
+                "font",
+                Takes::AnyText,
+                "\"Liberation Sans\"",
+                "family and style, as in \"DejaVu Sans:style=Bold\"",
+            ),
+            named(
+                "direction",
+                Takes::AnyText,
+                "–",
+                "\"ltr\", \"rtl\", \"ttb\" or \"btt\": the way they are written; by the letters where it is not given",
+            ),
+            named("language", Takes::AnyText, "\"en\"", "by which some fonts choose forms"),
+            named("script", Takes::AnyText, "–", "such as \"Latn\"; by the letters where it is not given"),
+            named("halign", Takes::AnyText, "\"left\"", "\"left\", \"center\" or \"right\""),
+            named(
+                "valign",
+                Takes::AnyText,
+                "\"baseline\"",
+                "\"baseline\", \"bottom\", \"center\" or \"top\"",
+            ),
+            named("spacing", Takes::Number, "1", "by what the way from letter to letter is multiplied"),
+        ],
+        "Letters, in a font of the machine.",
+    ),
+    word(
         "linear_extrude",
         Meaning::Form(FormWord::LinearExtrude),
         &[
@@ -155,7 +203,12 @@ pub static WORDS: &[Word] = &[
             named("slices", Takes::Positive, "–", "in how many steps it is turned and scaled"),
             named("scale", Takes::FlatFactor, "1", "by what it is scaled on the way"),
             named("v", Takes::Point, "[0, 0, 1]", "the direction of the way; its length is that of `height`"),
-            named("segments", Takes::Ignored, "–", "without effect"),
+            named(
+                "segments",
+                Takes::NotNegative,
+                "–",
+                "how many sides an outline has at least, where it is turned or scaled",
+            ),
             named("convexity", Takes::Ignored, "–", "without effect"),
         ],
         "The solid that a figure sweeps on its way up.",
@@ -331,8 +384,4 @@ pub static WORDS: &[Word] = &[
 ];
 
 /// Words of OpenSCAD that ray13 knows and can not show, and why.
-pub static UNSUPPORTED: &[(&str, &str)] = &[
-    ("roof", "only OpenSCAD can work its shape out"),
-    ("text", "letters are not drawn yet"),
-    ("surface", "heights are not read from another file yet"),
-];
+pub static UNSUPPORTED: &[(&str, &str)] = &[("roof", "only OpenSCAD can work its shape out")];

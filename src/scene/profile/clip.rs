@@ -115,12 +115,21 @@ impl Grid {
 /// What is inside of paths by OpenSCAD's rule: where an odd number of them lie around. `error` is how far
 /// their corners may be off their places.
 pub fn filled(paths: &[Vec<DVec2>], error: f64) -> Result<Figure, Tangled> {
+    inside(paths, FillRule::EvenOdd, error)
+}
+
+/// What is inside of paths by the rule of letters: where they go round more often one way than the other.
+pub fn wound(paths: &[Vec<DVec2>], error: f64) -> Result<Figure, Tangled> {
+    inside(paths, FillRule::NonZero, error)
+}
+
+fn inside(paths: &[Vec<DVec2>], rule: FillRule, error: f64) -> Result<Figure, Tangled> {
     if is_tangled(paths.iter()) {
         return Err(Tangled);
     }
     let mut grid = Grid::new(paths.iter().flatten().map(|p| p.abs().max_element()).fold(0.0, f64::max));
     let subjects: Paths64 = paths.iter().map(|path| grid.inward(path)).collect();
-    let figure = grid.clipped(ClipType::Union, FillRule::EvenOdd, &subjects, &Paths64::new());
+    let figure = grid.clipped(ClipType::Union, rule, &subjects, &Paths64::new());
     Ok(Figure { error: figure.error + error, ..figure })
 }
 

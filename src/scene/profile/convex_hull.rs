@@ -6,8 +6,9 @@ use std::collections::{HashMap, HashSet};
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
 use super::figure::Figure;
+use super::of_mesh::of_mesh;
 use crate::math::{DVec2, DVec3};
-use crate::scene::{Mesh, Shape, Solid};
+use crate::scene::{Mesh, Primitive, Shape, Solid};
 
 /// The smallest convex figure around some; none where that has no area.
 pub fn hull_of_figures(figures: &[Figure]) -> Option<Figure> {
@@ -40,14 +41,15 @@ pub fn outline(mut points: Vec<DVec2>) -> Option<Vec<DVec2>> {
 }
 
 /// The smallest convex solid around all corners of meshes; none where it has no volume.
-pub fn hull_of_solid(solid: &Solid) -> Option<Mesh> {
-    let mut points = Vec::new();
+pub fn hull_of_solid(solid: &Solid) -> Option<Primitive> {
+    let (mut points, mut error) = (Vec::new(), DVec3::ZERO);
     solid.visit(&mut |primitive| {
         if let Shape::Mesh(mesh) = &primitive.shape {
+            error = error.max(primitive.map_error());
             points.extend(mesh.points.iter().map(|&p| primitive.map.transform_point3(p)));
         }
     });
-    hull(points)
+    Some(of_mesh(hull(points)?).with_map_error(error))
 }
 
 /// The smallest convex solid around points; none where it has no volume.

@@ -4,20 +4,12 @@ use super::clip::{Tangled, combined, covered, filled};
 use super::convex_hull::outline;
 use super::figure::{Figure, FigureOperator};
 use super::sums::is_convex;
+use super::work::{TooMuchWork, WorkLeft};
 use crate::math::{DVec2, DVec3};
 use crate::scene::{Mesh, Primitive, Shape, Solid};
 
-/// Why there is no shadow.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NoShadow {
-    /// What is cut away from a solid shows in its shadow or does not: only the surface of the whole tells.
-    Cut,
-    /// It would take too long.
-    TooMany,
-}
-
-/// More triangles than this are not put together to a shadow.
-const MOST_TRIANGLES: usize = 20_000;
+/// Steps that a triangle takes until it is part of a shadow.
+const OF_OUTLINE: usize = 200;
 
 /// What the plane z = 0 cuts of a solid of meshes.
 pub fn section(solid: &Solid) -> Result<Figure, Tangled> {
@@ -90,26 +82,20 @@ fn cut(primitive: &Primitive) -> Vec<Vec<DVec2>> {
 }
 
 /// The shadow of a union of meshes, along z.
-pub fn shadow(solid: &Solid) -> Result<Figure, NoShadow> {
-    let (mut is_union, mut outlines) = (true, Vec::new());
-    solid.fold(
-        &mut |primitive| {
-            let Some(mesh) = placed(primitive) else { return };
-            let flat: Vec<DVec2> = mesh.points.iter().map(|p| p.truncate()).collect();
-            if is_convex(&mesh) {
-                outlines.extend(outline(flat));
-            } else {
-                let corners = |triangle: &[u32; 3]| triangle.map(|i| flat[i as usize]).to_vec();
-                outlines.extend(mesh.triangles.iter().filter_map(|triangle| outline(corners(triangle))));
-            }
-        },
-        &mut |solid, _| is_union &= matches!(solid, Solid::Union(_)),
-    );
-    if !is_union {
-        return Err(NoShadow::Cut);
-    }
-    if outlines.len() > MOST_TRIANGLES {
-        return Err(NoShadow::TooMany);
-    }
-    Ok(covered(&outlines))
+pub fn shadow(solid: &Solid, work: &mut WorkLeft) -> Result<Figure, TooMuchWork> {
+    let (mut outlines, mut error) = (Vec::new(), 0.0_f64);
+    solid.visit(&mut |primitive| {
+        let Some(mesh) = placed(primitive) else { return };
+        error = error.max(primitive.map_error().truncate().length());
+        let flat: Vec<DVec2> = mesh.points.iter().map(|p| p.truncate()).collect();
+        if is_convex(&mesh) {
+            outlines.extend(outline(flat));
+        } else {
+            let corners = |triangle: &[u32; 3]| triangle.map(|i| flat[i as usize]).to_vec();
+            outlines.extend(mesh.triangles.iter().filter_map(|triangle| outline(corners(triangle))));
+        }
+    });
+    work.spend(outlines.len().saturating_mul(OF_OUTLINE))?;
+    let figure = covered(&outlines);
+    Ok(Figure { error: figure.error + error, ..figure })
 }

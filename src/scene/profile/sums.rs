@@ -1,31 +1,32 @@
 //! Minkowski sums: every point of one added to every point of the other.
 
-use std::sync::Arc;
-
+use super::carved::{NotCarved, sum_of_hollows};
 use super::clip::covered;
 use super::convex_hull::{hull, outline};
 use super::figure::Figure;
-use crate::math::{Bounds, DAffine3, DVec2, DVec3};
+use super::of_mesh::of_mesh;
+use super::work::{TooMuchWork, WorkLeft};
+use crate::math::{Bounds, DVec2, DVec3};
 use crate::scene::triangulation::{EarClipper, triangulate_rings};
-use crate::scene::{MaterialId, Mesh, Primitive, Shape, Solid};
+use crate::scene::{Mesh, Shape, Solid};
 
-/// More sums of two corners than this are not computed.
-const MOST_SUMS: usize = 1_000_000;
-
-/// The sum of two figures; none where that is too much to compute.
-pub fn sum_of_figures(a: &Figure, b: &Figure, clipper: &mut EarClipper) -> Option<Figure> {
+/// The sum of two figures. A step of work is a sum of two corners.
+pub fn sum_of_figures(
+    a: &Figure,
+    b: &Figure,
+    clipper: &mut EarClipper,
+    work: &mut WorkLeft,
+) -> Result<Figure, TooMuchWork> {
     let (parts, others) = (convex_parts(a, clipper), convex_parts(b, clipper));
     let size = |parts: &[Vec<DVec2>]| parts.iter().map(Vec::len).sum::<usize>();
-    if size(&parts).saturating_mul(size(&others)) > MOST_SUMS {
-        return None;
-    }
+    work.spend(size(&parts).saturating_mul(size(&others)))?;
     let sums = parts.iter().flat_map(|part| {
         others.iter().filter_map(|other| {
             outline(part.iter().flat_map(|&p| other.iter().map(move |&q| p + q)).collect())
         })
     });
     let figure = covered(&sums.collect::<Vec<_>>());
-    Some(Figure { error: figure.error + a.error + b.error, ..figure })
+    Ok(Figure { error: figure.error + a.error + b.error, ..figure })
 }
 
 /// Convex outlines that cover a figure.
@@ -50,37 +51,53 @@ fn convex_parts(figure: &Figure, clipper: &mut EarClipper) -> Vec<Vec<DVec2>> {
 /// Why there is no sum of two solids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoSum {
-    /// Neither is made of convex parts.
-    NotConvex,
+    /// There is no surface of one of the two, or none of two of their parts that are not convex.
+    NotWorkedOut,
     /// It would take too long.
-    TooMany,
+    TooMuch,
 }
 
-/// The sum of two solids, of which one at least is made of convex parts.
-pub fn sum_of_solids(a: &Solid, b: &Solid) -> Result<Solid, NoSum> {
-    let (parts, others) = (parts(a)?, parts(b)?);
-    let size = |parts: &[Part]| parts.iter().map(|part| part.mesh.points.len()).sum::<usize>();
-    if size(&parts).saturating_mul(size(&others)) > MOST_SUMS {
-        return Err(NoSum::TooMany);
+impl From<TooMuchWork> for NoSum {
+    fn from(TooMuchWork: TooMuchWork) -> Self {
+        Self::TooMuch
     }
+}
+
+impl From<NotCarved> for NoSum {
+    fn from(why: NotCarved) -> Self {
+        match why {
+            NotCarved::TooMuch => Self::TooMuch,
+            NotCarved::Failed => Self::NotWorkedOut,
+        }
+    }
+}
+
+/// The sum of two unions of meshes. A step of work is a sum of two corners.
+pub fn sum_of_solids(a: &Solid, b: &Solid, work: &mut WorkLeft) -> Result<Solid, NoSum> {
+    let (parts, others) = (parts(a, work)?, parts(b, work)?);
+    let size = |parts: &[Part]| parts.iter().map(|part| part.mesh.points.len()).sum::<usize>();
+    work.spend(size(&parts).saturating_mul(size(&others)))?;
     let mut sums = Vec::new();
     for part in &parts {
         for other in &others {
             match (part.is_convex, other.is_convex) {
                 (true, true) => sums.extend(sum(&part.mesh.points, &other.mesh.points)),
-                (false, true) => hollow(part, other, &mut sums)?,
-                (true, false) => hollow(other, part, &mut sums)?,
-                (false, false) => return Err(NoSum::NotConvex),
+                (false, true) => hollow(part, other, &mut sums, work)?,
+                (true, false) => hollow(other, part, &mut sums, work)?,
+                (false, false) => sums.push(sum_of_hollows(&part.mesh, &other.mesh, work)?),
             }
         }
     }
-    let solid = |mesh: Mesh| Solid::Primitive(of_mesh(mesh));
+    let error = largest_error(a) + largest_error(b);
+    let solid = |mesh: Mesh| Solid::Primitive(of_mesh(mesh).with_map_error(error));
     Ok(Solid::Union(sums.into_iter().map(solid).collect()))
 }
 
-/// A mesh as a primitive of no material in particular.
-pub fn of_mesh(mesh: Mesh) -> Primitive {
-    Primitive::new(Shape::Mesh(Arc::new(mesh)), DAffine3::IDENTITY, MaterialId(0)).with_map_error(DVec3::ZERO)
+/// How far the corners of a solid may be off their places.
+fn largest_error(solid: &Solid) -> DVec3 {
+    let mut error = DVec3::ZERO;
+    solid.visit(&mut |primitive| error = error.max(primitive.map_error()));
+    error
 }
 
 fn sum(points: &[DVec3], others: &[DVec3]) -> Option<Mesh> {
@@ -89,10 +106,9 @@ fn sum(points: &[DVec3], others: &[DVec3]) -> Option<Mesh> {
 
 /// The sum of a part that is not convex and one that is: that of its surface, triangle by triangle, and what
 /// is within, which is in the part moved to any one point of the other.
-fn hollow(part: &Part, convex: &Part, sums: &mut Vec<Mesh>) -> Result<(), NoSum> {
-    if part.mesh.triangles.len().saturating_mul(convex.mesh.points.len()) > MOST_SUMS {
-        return Err(NoSum::TooMany);
-    }
+fn hollow(part: &Part, convex: &Part, sums: &mut Vec<Mesh>, work: &mut WorkLeft) -> Result<(), TooMuchWork> {
+    // Three sums for each corner of the convex part, of which most end up in a hull of their own.
+    work.spend(part.mesh.triangles.len().saturating_mul(9 * convex.mesh.points.len()))?;
     for triangle in &part.mesh.triangles {
         let corners = triangle.map(|i| part.mesh.points[i as usize]);
         sums.extend(sum(&corners, &convex.mesh.points));
@@ -110,7 +126,7 @@ struct Part {
 }
 
 /// The parts of a union.
-fn parts(solid: &Solid) -> Result<Vec<Part>, NoSum> {
+fn parts(solid: &Solid, work: &mut WorkLeft) -> Result<Vec<Part>, NoSum> {
     let mut is_union = true;
     let mut meshes = Vec::new();
     solid.fold(
@@ -123,17 +139,25 @@ fn parts(solid: &Solid) -> Result<Vec<Part>, NoSum> {
         &mut |solid, _| is_union &= matches!(solid, Solid::Union(_)),
     );
     if !is_union {
-        return Err(NoSum::NotConvex);
+        return Err(NoSum::NotWorkedOut);
     }
-    Ok(meshes.into_iter().map(|mesh| Part { is_convex: is_convex(&mesh), mesh }).collect())
+    let part = |mesh: Mesh| {
+        // Each corner is held against each triangle, which is quick.
+        work.spend(mesh.points.len().saturating_mul(mesh.triangles.len()) / 200)?;
+        Ok(Part { is_convex: is_convex(&mesh), mesh })
+    };
+    meshes.into_iter().map(part).collect()
 }
+
+/// More pairs of a corner and a triangle are not looked at.
+const MOST_HELD: usize = 100_000_000;
 
 /// Whether all corners are on one side of each triangle, up to what rounding made of those in its plane.
 pub fn is_convex(mesh: &Mesh) -> bool {
     // A cross product of differences and a product with a third, 8 half-ulps, of coordinates that were mapped
     // by 4 more.
     let within = 16.0 * f64::EPSILON * Bounds::around(mesh.points.iter().copied()).farthest().max_element();
-    let is_small = mesh.points.len().saturating_mul(mesh.triangles.len()) <= 100 * MOST_SUMS;
+    let is_small = mesh.points.len().saturating_mul(mesh.triangles.len()) <= MOST_HELD;
     is_small
         && mesh.triangles.iter().all(|triangle| {
             let [a, b, c] = triangle.map(|i| mesh.points[i as usize]);

@@ -1,9 +1,9 @@
 //! Solids that figures sweep: along z, turned and scaled slice by slice, or about z.
 
-use std::collections::HashMap;
+use std::collections::{BinaryHeap, HashMap};
 
 use super::arcs::{Fragments, MOST_CORNERS};
-use super::figure::Figure;
+use super::figure::{Figure, Region};
 use crate::math::{DVec2, DVec3};
 use crate::scene::triangulation::{EarClipper, cancel_pairs, triangulate_rings};
 use crate::scene::{Mesh, degrees};
@@ -21,6 +21,8 @@ pub struct LinearSweep {
     pub scale: DVec2,
     /// In how many slices; none leaves that to `fragments`.
     pub slices: Option<f64>,
+    /// How many sides an outline has at least, where it is turned or scaled; none leaves it as it is.
+    pub segments: Option<f64>,
     /// How fine curves are cut.
     pub fragments: Fragments,
 }
@@ -40,13 +42,18 @@ pub struct Revolution {
 pub fn prism(figure: &Figure, bottom: f64, top: f64, clipper: &mut EarClipper) -> Option<Mesh> {
     let slices = Some(1.0);
     let fragments = Fragments::default();
-    LinearSweep { bottom, top, twist: 0.0, scale: DVec2::ONE, slices, fragments }.mesh(figure, clipper)
+    let (twist, scale, segments) = (0.0, DVec2::ONE, None);
+    LinearSweep { bottom, top, twist, scale, slices, segments, fragments }.mesh(figure, clipper)
 }
 
 impl LinearSweep {
     /// The solid; none where it would have more than [`MOST_CORNERS`].
     pub fn mesh(&self, figure: &Figure, clipper: &mut EarClipper) -> Option<Mesh> {
         let slices = self.slices(figure);
+        if self.segments.is_some_and(|segments| segments > MOST_CORNERS) {
+            return None;
+        }
+        let figure = &self.segmented(figure, slices);
         if (slices + 1.0) * figure.count() as f64 > MOST_CORNERS {
             return None;
         }
@@ -93,6 +100,75 @@ impl LinearSweep {
             None => 1.0,
         }
     }
+}
+
+impl LinearSweep {
+    /// The figure with its longest sides cut, until each outline has so many of them, as OpenSCAD does it:
+    /// sides that are equally long are cut together, or not at all.
+    fn segmented(&self, figure: &Figure, slices: f64) -> Figure {
+        let Some(wanted) = self.segments else { return figure.clone() };
+        let at = |share: f64| Layer {
+            turn: -self.twist * share,
+            scale: DVec2::ONE - (DVec2::ONE - self.scale) * share,
+            z: 0.0,
+        };
+        let layers: Vec<Layer> = if self.scale.x == self.scale.y {
+            vec![at(if self.scale.x > 1.0 { 1.0 } else { 0.0 })]
+        } else {
+            (0..=slices.min(MOST_CORNERS) as usize).map(|slice| at(slice as f64 / slices)).collect()
+        };
+        let cut = |ring: &Vec<DVec2>| {
+            let ends = |i: usize| [ring[i], ring[(i + 1) % ring.len()]];
+            let length = |i: usize| {
+                let [from, to] = ends(i);
+                let way = |layer: &Layer| (layer.place(to) - layer.place(from)).length();
+                layers.iter().map(way).fold(0.0, f64::max)
+            };
+            let counts = counts_of_segments(&(0..ring.len()).map(length).collect::<Vec<_>>(), wanted);
+            let parts = |(i, &count): (usize, &u32)| {
+                let [from, to] = ends(i);
+                (0..count).map(move |part| {
+                    let share = f64::from(part) / f64::from(count);
+                    from * (1.0 - share) + to * share
+                })
+            };
+            counts.iter().enumerate().flat_map(parts).collect()
+        };
+        let region = |region: &Region| Region {
+            outer: cut(&region.outer),
+            holes: region.holes.iter().map(cut).collect(),
+        };
+        Figure { regions: figure.regions.iter().map(region).collect(), error: figure.error }
+    }
+}
+
+/// Into how many parts sides of these lengths are cut, so that there are at most `wanted` of them.
+fn counts_of_segments(lengths: &[f64], wanted: f64) -> Vec<u32> {
+    // By what a side would be, cut once more: between its parts as they are and as they would be.
+    let metric = |i: usize, count: u32| lengths[i] / (f64::from(count) + 0.5);
+    let mut counts = vec![1_u32; lengths.len()];
+    let order = |value: f64| value.max(0.0).to_bits();
+    let mut heap: BinaryHeap<(u64, usize)> = (0..lengths.len()).map(|i| (order(metric(i, 1)), i)).collect();
+    let mut total = lengths.len();
+    while (total as f64) < wanted {
+        let Some(&(largest, _)) = heap.peek() else { break };
+        let mut group = Vec::new();
+        while let Some(&(next, i)) = heap.peek()
+            && f64::from_bits(next) >= 0.999 * f64::from_bits(largest)
+        {
+            heap.pop();
+            group.push(i);
+        }
+        total += group.len();
+        if total as f64 > wanted {
+            break;
+        }
+        for i in group {
+            counts[i] += 1;
+            heap.push((order(metric(i, counts[i])), i));
+        }
+    }
+    counts
 }
 
 /// Below 0 where the first way is shorter by more than a rounding, above where the second is.

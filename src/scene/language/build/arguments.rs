@@ -251,6 +251,15 @@ impl<'c, 'a> BoundArguments<'c, 'a> {
         }
     }
 
+    /// A text that may be empty.
+    pub fn any_text(&self, name: &str, sink: &mut Sink) -> Result<Option<&'c str>, Lost> {
+        match self.get(name) {
+            None => Ok(None),
+            Some((_, Spanned { value: Value::Text(text), .. })) => Ok(Some(text)),
+            Some((parameter, value)) => Err(self.wrong(parameter, value, sink)),
+        }
+    }
+
     /// A point, or what the parameter takes in place of one: a number stands for three equal ones, two
     /// numbers for three whose last is `rest`.
     pub fn triple(&self, name: &str, rest: f64, sink: &mut Sink) -> Result<Option<DVec3>, Lost> {

@@ -76,6 +76,7 @@ impl Builder {
                 Flat::Rectangle(if is_centred { DVec2::ZERO } else { half }, half)
             }
             FigureWord::Polygon => Flat::Outlines(self.polygon(&arguments, origin)?),
+            FigureWord::Text => Flat::Outlines(self.text(&arguments, fragments, origin)?),
         };
         if context.space == FormSpace::Faceted {
             let figure = self.outlined(flat, fragments, origin)?;

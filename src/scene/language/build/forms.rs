@@ -1,21 +1,18 @@
 //! The words that make something new of what their children are.
 
 use super::Builder;
-use super::arguments::{BoundArguments, refuse};
+use super::arguments::BoundArguments;
 use super::context::{Context, FormSpace};
 use super::form::Form;
 use super::frame::OpenCall;
 use super::lost::Lost;
 use super::origin::Origin;
-use super::pieces::{Made, Piece, corners, united};
-use crate::math::{Bounds, DAffine3, DMat3, DVec2, DVec3};
+use super::pieces::{Made, Piece};
+use crate::math::{DAffine3, DMat3, DVec2, DVec3};
 use crate::scene::diagnostic::Sink;
 use crate::scene::language::syntax::TextSpan;
 use crate::scene::language::vocabulary::{FormWord, Meaning, OperatorWord, Word};
-use crate::scene::profile::{
-    Figure, FigureOperator, Fragments, Join, LinearSweep, NoRevolution, NoShadow, NoSum, Region, Revolution,
-    combined, grown, hull_of_figures, hull_of_solid, of_mesh, section, shadow, sum_of_figures, sum_of_solids,
-};
+use crate::scene::profile::{Fragments, Join, LinearSweep, Revolution};
 use crate::scene::{Diagnostic, Solid};
 
 /// The way along z of a `linear_extrude`.
@@ -30,7 +27,8 @@ pub fn sweep(
     let twist = arguments.number("twist", sink)?.unwrap_or(0.0);
     let scale = arguments.triple("scale", 1.0, sink)?.unwrap_or(DVec3::ONE).truncate();
     let slices = arguments.number("slices", sink)?;
-    Ok(LinearSweep { bottom, top, twist, scale, slices, fragments })
+    let segments = arguments.number("segments", sink)?;
+    Ok(LinearSweep { bottom, top, twist, scale, slices, segments, fragments })
 }
 
 /// How a `linear_extrude` leans: its way is along `v`, and as long as it is high.
@@ -182,153 +180,18 @@ impl Builder {
         pieces
     }
 
-    fn made(&mut self, form: &Form, pieces: Vec<Piece>, origin: Origin) -> Result<Piece, Lost> {
-        let (mut figures, mut solids) = (Vec::new(), Vec::new());
-        for piece in pieces {
-            match piece {
-                Piece::Figure(figure) => figures.push(figure),
-                Piece::Solid(solid) => solids.push(solid),
-            }
-        }
-        let is_flat = solids.is_empty();
-        match form {
-            Form::Operator(operator) if is_flat => {
-                let operator = match operator {
-                    OperatorWord::Union => FigureOperator::Union,
-                    OperatorWord::Intersection => FigureOperator::Intersection,
-                    OperatorWord::Difference => FigureOperator::Difference,
-                };
-                self.figure_of(operator, &figures, origin).map(Piece::Figure)
-            }
-            Form::Operator(operator) => Ok(Piece::Solid(match operator {
-                _ if solids.len() == 1 => united(solids),
-                OperatorWord::Union => Solid::Union(solids),
-                OperatorWord::Intersection => Solid::Intersection(solids),
-                OperatorWord::Difference => Solid::Difference(solids),
-            })),
-            Form::Hull if is_flat => Ok(Piece::Figure(hull_of_figures(&figures).unwrap_or_default())),
-            Form::Hull => self.hull(&united(solids), origin),
-            Form::Minkowski if is_flat => {
-                let mut figures = figures.into_iter();
-                let first = figures.next().unwrap_or_default();
-                let sum = figures.try_fold(first, |sum, next| sum_of_figures(&sum, &next, &mut self.clipper));
-                sum.map(Piece::Figure).ok_or_else(|| self.too_many(origin))
-            }
-            Form::Minkowski => {
-                let mut solids = solids.into_iter();
-                let first = solids.next().unwrap_or(Solid::Union(Vec::new()));
-                let sum = solids.try_fold(first, |sum, next| sum_of_solids(&sum, &next));
-                sum.map(|sum| Piece::Solid(united(vec![sum]))).map_err(|why| match why {
-                    NoSum::TooMany => self.too_many(origin),
-                    NoSum::NotConvex => self.not_yet("neither of the two that it adds is convex", origin),
-                })
-            }
-            Form::Grown(by, join) => {
-                let figure = self.figure_of(FigureOperator::Union, &figures, origin)?;
-                let sides = match join {
-                    // A corner's arc has as many sides as the tolerance asks of a circle.
-                    Join::Round(tolerance) => {
-                        let cosine = (1.0 - tolerance / by.abs()).clamp(-1.0, 1.0);
-                        std::f64::consts::PI / libm::acos(cosine).max(1e-9)
-                    }
-                    Join::Sharp | Join::Chamfered => 2.0,
-                };
-                self.check_corners(figure.count() as f64 * 2.0 + sides, origin)?;
-                if *by == 0.0 {
-                    Ok(Piece::Figure(figure))
-                } else {
-                    Ok(Piece::Figure(grown(&figure, *by, *join)))
-                }
-            }
-            Form::Fill => {
-                let figure = self.figure_of(FigureOperator::Union, &figures, origin)?;
-                let error = figure.error;
-                let whole = |region: Region| Figure { error, ..Figure::convex(region.outer) };
-                let wholes: Vec<Figure> = figure.regions.into_iter().map(whole).collect();
-                self.figure_of(FigureOperator::Union, &wholes, origin).map(Piece::Figure)
-            }
-            Form::Linear(sweep, lean) => {
-                let figure = self.figure_of(FigureOperator::Union, &figures, origin)?;
-                let mesh = sweep.mesh(&figure, &mut self.clipper).ok_or_else(|| self.too_many(origin))?;
-                self.check_corners(mesh.points.len() as f64, origin)?;
-                let stretch = sweep.scale.max_element().max(1.0);
-                let error = DVec3::new(1.0, 1.0, 0.0) * (figure.error * stretch);
-                let swept = Solid::Primitive(of_mesh(mesh).with_map_error(error));
-                Piece::Solid(swept).mapped(lean).ok_or(Lost::Empty)
-            }
-            Form::Turned(revolution) => {
-                let figure = self.figure_of(FigureOperator::Union, &figures, origin)?;
-                let mesh = revolution.mesh(&figure, &mut self.clipper).map_err(|why| match why {
-                    NoRevolution::TooMany => self.too_many(origin),
-                    NoRevolution::Crosses => {
-                        let message = "the figure lies on both sides of the axis, x = 0";
-                        let error = Diagnostic::error(origin.name, message);
-                        refuse(origin.word, error, Lost::Empty, &mut self.sink)
-                    }
-                })?;
-                let error = DVec3::splat(figure.error);
-                Ok(Piece::Solid(Solid::Primitive(of_mesh(mesh).with_map_error(error))))
-            }
-            Form::Section => section(&united(solids)).map(Piece::Figure).map_err(|_| self.tangled(origin)),
-            Form::Shadow => shadow(&united(solids)).map(Piece::Figure).map_err(|why| match why {
-                NoShadow::TooMany => self.too_many(origin),
-                NoShadow::Cut => self.not_yet("the shadow of what is cut is not worked out", origin),
-            }),
-            Form::Resize(size, auto) => Ok(resized(&figures, solids, *size, *auto)),
-        }
-    }
-
-    fn figure_of(
-        &mut self,
-        operator: FigureOperator,
-        figures: &[Figure],
-        origin: Origin,
-    ) -> Result<Figure, Lost> {
-        combined(operator, figures).map_err(|_| self.tangled(origin))
-    }
-
-    fn hull(&mut self, solid: &Solid, origin: Origin) -> Result<Piece, Lost> {
-        let mut is_union = true;
-        solid.fold(&mut |_| (), &mut |solid, _| is_union &= matches!(solid, Solid::Union(_)));
-        if !is_union {
-            return Err(self.not_yet("the hull of what is cut is not worked out", origin));
-        }
-        Ok(Piece::Solid(match hull_of_solid(solid) {
-            Some(mesh) => Solid::Primitive(of_mesh(mesh)),
-            None => Solid::Union(Vec::new()),
-        }))
-    }
-
     /// The error of what a word can not do.
-    fn not_yet(&mut self, why: &str, origin: Origin) -> Lost {
+    pub(super) fn not_yet(&mut self, why: &str, origin: Origin) -> Lost {
+        self.can_not_be_shown(why, "--skip-unsupported shows the rest of the scene", origin)
+    }
+
+    /// The same with other advice.
+    pub(super) fn can_not_be_shown(&mut self, why: &str, help: &str, origin: Origin) -> Lost {
         let message = format!("`{}` can not be shown: {why}", origin.word.name);
         if self.skip_unsupported {
             self.sink.note(Diagnostic::note(origin.name, message));
             return Lost::Missing;
         }
-        let error = Diagnostic::error(origin.name, message);
-        self.sink.report(error.help("--skip-unsupported shows the rest of the scene")).into()
+        self.sink.report(Diagnostic::error(origin.name, message).help(help)).into()
     }
-}
-
-/// Pieces scaled to a size.
-fn resized(figures: &[Figure], solids: Vec<Solid>, size: DVec3, auto: [bool; 3]) -> Piece {
-    let bounds = figures.iter().fold(Bounds::EMPTY, |all, figure| all.join(&figure.bounds()));
-    let bounds = solids.iter().fold(bounds, |all, solid| all.join(&Bounds::around(corners(solid))));
-    let own = bounds.half() * 2.0;
-    let factor = |axis: usize| if own[axis] > 0.0 { size[axis] / own[axis] } else { 1.0 };
-    let largest = (0..3).fold(0, |best, axis| if size[axis] > size[best] { axis } else { best });
-    let factors = DVec3::from_array([0, 1, 2].map(|axis| match size[axis] {
-        0.0 if auto[axis] && size[largest] > 0.0 => factor(largest),
-        0.0 => 1.0,
-        _ => factor(axis),
-    }));
-    let map = DAffine3::from_scale(factors);
-    let scaled = if solids.is_empty() {
-        let figure = combined(FigureOperator::Union, figures).unwrap_or_default();
-        Piece::Figure(figure).mapped(&map)
-    } else {
-        Piece::Solid(united(solids)).mapped(&map)
-    };
-    scaled.unwrap_or_else(|| Piece::Figure(Figure::default()))
 }

@@ -16,7 +16,7 @@ use crate::scene::language::syntax::Call;
 use crate::scene::language::vocabulary::Word;
 use crate::scene::memory::ASSEMBLED_OPERATOR;
 use crate::scene::mesh::{self, MeshSolids, NoSolids};
-use crate::scene::named_files::{NamedFile, NoNamedFile};
+use crate::scene::named_files::NamedFile;
 use crate::scene::{Diagnostic, Format, MaterialId, Mesh, MeshFacts, Primitive, Shape, Solid, gzip};
 
 /// What a file is to `import`.
@@ -85,14 +85,7 @@ impl Builder {
         let shown = quoted(name);
         let file = self.imports.files.find(name).map_err(|why| {
             let error = Diagnostic::error(place, format!("`{shown}` can not be imported: {why}"));
-            let error = match &why {
-                NoNamedFile::Outside { folder } => error.help(format!(
-                    "what a scene names elsewhere is read where you allow it: --root {}",
-                    folder.display()
-                )),
-                NoNamedFile::NoFolder => error.help("read the scene from a file"),
-                _ => error,
-            };
+            let error = why.help().into_iter().fold(error, Diagnostic::help);
             self.not_imported(error, arguments)
         })?;
         let known = self.imports.known.get(&file.path).cloned();

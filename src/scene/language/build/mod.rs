@@ -13,7 +13,9 @@ mod frame;
 mod frames;
 mod import;
 mod imports;
+mod letters;
 mod lost;
+mod made;
 mod maps;
 mod materials;
 mod operators;
@@ -21,6 +23,7 @@ mod origin;
 mod pieces;
 mod polyhedron;
 mod solids;
+mod surface;
 mod survey;
 mod views;
 
@@ -32,7 +35,9 @@ use super::nearest::quoted;
 use super::syntax::{Call, SyntaxEvent};
 use super::vocabulary::Word;
 use crate::scene::diagnostic::Sink;
+use crate::scene::lettering::FontLibrary;
 use crate::scene::memory::Memory;
+use crate::scene::profile::WorkLeft;
 use crate::scene::triangulation::EarClipper;
 use crate::scene::{Diagnostic, ReadOptions, Scene, Solid};
 use context::Context;
@@ -65,6 +70,8 @@ pub struct Builder {
     polygons: Polygons,
     clipper: EarClipper,
     imports: Imports,
+    fonts: FontLibrary,
+    work: WorkLeft,
     /// What is known of the whole file.
     survey: Survey,
     /// The calls that are open, the outermost first; below them all the scene itself.
@@ -91,6 +98,8 @@ impl Builder {
             polygons: Polygons::default(),
             clipper: EarClipper::default(),
             imports: Imports::new(options),
+            fonts: FontLibrary::default(),
+            work: WorkLeft::default(),
             survey: Survey::default(),
             frames: vec![OpenCall::scene(Rc::new(Context::default()))],
             solids: Vec::new(),

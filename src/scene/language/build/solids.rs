@@ -46,6 +46,7 @@ impl Builder {
             SolidWord::Sphere => sphere(arguments, &mut round, sink),
             SolidWord::Cylinder => cylinder(arguments, &mut round, sink),
             SolidWord::Cone => cone(arguments, &mut round, sink),
+            SolidWord::Surface => Ok((self.surface(arguments)?, DAffine3::IDENTITY)),
             SolidWord::Polyhedron => {
                 let bytes = polyhedron::bytes(arguments);
                 if !self.memory.has_room_for(bytes) {

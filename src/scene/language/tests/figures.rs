@@ -106,6 +106,14 @@ fn a_polygon_is_filled_where_an_odd_number_of_outlines_lies_around() {
 #[test]
 fn twists_and_scales_and_turns_enclose_what_they_should() {
     assert_volume("linear_extrude(6, twist = 90, slices = 40) square(2, center = true);", 24.0);
+    // Sides in four, of which each turns by itself: nearer to the true surface, which has all of the area.
+    let sides = |arguments: &str| {
+        mesh(&scene(&format!(
+            "linear_extrude(6, twist = 90, slices = 9{arguments}) square(2, center = true);"
+        )))
+    };
+    assert_eq!((sides("").points.len(), sides(", segments = 16").points.len()), (40, 160));
+    assert_eq!(sides(", segments = 18").points.len(), 160);
     assert_volume("linear_extrude(6, scale = 0) square([2, 4], center = true);", 16.0);
     // ∫ 8 (1 − t/2)(1 + t) dt over a unit, times the height.
     assert_volume(
@@ -152,6 +160,70 @@ fn hulls_sums_offsets_shadows_and_sizes() {
 }
 
 #[test]
+fn what_is_cut_is_measured_by_what_is_left_of_it() {
+    // Half of a cube of edge 2; the half towards z = 0 is cut away.
+    let half = "difference() { cube(2); translate([-1, -1, -1]) cube([4, 4, 2]); }";
+    assert_volume(&format!("hull() {{ {half} }}"), 4.0);
+    assert_volume(&format!("hull() {{ {half} translate([0, 0, 3]) cube([2, 2, 1]); }}"), 12.0);
+    assert_volume("hull() intersection() { cube([4, 1, 1]); translate([3, 0, 0]) cube(2); }", 1.0);
+    assert_volume(&format!("linear_extrude(2) projection() rotate([90, 0, 0]) {half}"), 4.0);
+    // What is swept, and a ring that is hollow.
+    let cut = "difference() { linear_extrude(2) polygon([[0,0],[2,0],[2,2],[0,2],[0,1]]); translate([-1,-1,1]) cube(9); }";
+    assert_volume(&format!("hull() {cut}"), 4.0);
+    let ring =
+        "rotate_extrude($fn = 16) translate([5, 0]) difference() { circle(2, $fn = 8); circle(1, $fn = 8); }";
+    let quarter = scene(&format!(
+        "resize([0, 0, 8]) intersection() {{ {ring} translate([0, 0, 1]) cube([9, 9, 9]); }}"
+    ));
+    assert_eq!(primitives(&quarter).len(), 2);
+    // A frame: its shadow has a hole, and so has its sum.
+    let frame = "difference() { cube([4, 4, 1]); translate([1, 1, -1]) cube([2, 2, 3]); }";
+    assert_volume(&format!("linear_extrude(2) projection() {frame}"), 24.0);
+    let sum = scene(&format!("minkowski() {{ {frame} cube(0.5); }}"));
+    let reach = primitives(&sum)
+        .iter()
+        .fold(Bounds::EMPTY, |all, primitive| all.join(&primitive.shape.bounds().mapped(&primitive.map)));
+    assert_eq!((reach.lo, reach.hi), (DVec3::ZERO, DVec3::new(4.5, 4.5, 1.5)));
+    // Two of which neither is convex.
+    let corner = "difference() { cube(2); translate([1, 1, -1]) cube(4); }";
+    assert_volume(&format!("minkowski() {{ {corner} {corner} }}"), 4.0 * (16.0 - 3.0));
+    // The cutter reaches far beyond what it cuts.
+    let resized = scene(&format!("resize([10, 0, 5]) {half}"));
+    let [object] = &resized.objects[..] else { panic!("{resized:?}") };
+    let Solid::Difference(parts) = &object.solid else { panic!("it stays what it is: {object:?}") };
+    let Solid::Primitive(cube) = &parts[0] else { panic!("{parts:?}") };
+    let bounds = cube.shape.bounds().mapped(&cube.map);
+    assert!((bounds.hi - DVec3::new(10.0, 2.0, 10.0)).length() < 1e-9, "{bounds:?}");
+}
+
+#[test]
+fn faces_in_one_plane_are_carved_whole() {
+    let nothing = "hull() difference() { cube(2); cube(2); }";
+    let read = read("test.csg", format!("cube(1); {nothing}").as_bytes(), &ReadOptions::default());
+    assert_eq!(read.map(|scene| scene.objects.len()), Ok(1));
+    for scale in ["1e-150", "1e-9", "1", "1e9", "1e90"] {
+        let text = format!("scale({scale}) hull() difference() {{ cube(2); translate([0, 0, 1]) cube(2); }}");
+        let hull = mesh(&scene(&text));
+        let size = hull.points.iter().map(|p| p.max_element()).fold(0.0, f64::max);
+        assert!(hull.points.iter().all(|p| p.z <= 0.500_001 * size), "{text}: {hull:?}");
+    }
+}
+
+#[test]
+fn many_forms_take_no_longer_than_one_that_is_large() {
+    // A report: six spheres, each added to the sum of those before it, took seconds, and nested hulls of many
+    // corners as long as somebody wrote them. The bound is one of the scene, not of each word.
+    let nested = "linear_extrude(1) hull() hull() hull() hull() hull() circle(1, $fn = 5e5);";
+    let sum = "minkowski() { sphere(1, $fn = 100); sphere(1, $fn = 100); }";
+    let hollow = "difference() { sphere(1, $fn = 30); sphere(0.9, $fn = 30); }";
+    let hollow = format!("minkowski() {{ {hollow} {hollow} }}");
+    for text in [nested, sum, &hollow] {
+        let errors = super::errors(text);
+        assert!(errors.contains("would take too long") && errors.contains("$fn"), "{errors}");
+    }
+}
+
+#[test]
 fn what_has_nothing_in_it_is_nothing() {
     for nothing in [
         "linear_extrude(2) polygon([[0, 0], [1, 0], [2, 0]]);",
@@ -184,8 +256,8 @@ fn what_would_never_end_is_refused_with_a_word() {
         ("hull() cylinder(1, $fn = 1e300);", "corners"),
         ("linear_extrude(1, twist = 1) circle(1, $fs=1e-300, $fa=1e-300, $fn=1e8);", "corners"),
         ("linear_extrude(1) offset(r = 1, $fn = 1e9) square(1);", "corners"),
+        ("linear_extrude(1, twist = 9, segments = 1e9) square(1);", "corners"),
         ("rotate_extrude() translate([-1, 0]) square(2);", "both sides"),
-        ("hull() difference() { cube(2); cube(1); }", "hull"),
         ("linear_extrude(1, v = [1, 0, 0]) square(1);", "upwards"),
         ("polygon([[0, 0], [1, 0], [0, 1]], [[0, 1, 3]]);", "index"),
         ("polygon([[0, 0], [1, 0], 7]);", "[x, y]"),

@@ -12,8 +12,8 @@ use crate::view::settled;
 use super::prepare::farthest;
 use super::{Request, Space, Studio};
 
-/// So many events are told: of rays that split at every surface there may be millions. At some twenty for each
-/// ray they are those of five hundred.
+/// So many events are told: of rays that split at every surface there may be millions. At some twenty for
+/// each ray they are those of five hundred.
 const MOST_EVENTS: usize = 10_000;
 
 /// What happens to the ray through the middle of a dot, as the exact engine records it.

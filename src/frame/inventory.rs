@@ -77,7 +77,7 @@ impl Studio {
         let wants = Wants { cells: false, ..Wants::ALL };
         let (shading, samples) = (Shading::Lambert, 1);
         let options = Options { shading, samples, shadows: false, adaptive: None, ..request.options };
-        let frame = self.draw(&Request { wants, options, ..request.clone() });
+        let frame = self.draw(&Request { options, wants, ..request.clone() });
         let never = GiveUp::never();
         let pinhole = self.prepare(request, None, &never).pinhole;
         let seen = seen(&frame, pinhole.least_dot());

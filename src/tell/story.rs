@@ -48,9 +48,9 @@ const STAGE_COLUMNS: usize = 11;
 const DEEPER: usize = 2;
 
 impl Story {
-    /// All lines in rows of up to so many columns, of which there are twice as many as a stage's name takes at
-    /// least; what is too long for one goes on in the next, a little deeper. No line stands deeper than half of
-    /// the room.
+    /// All lines in rows of up to so many columns, of which there are twice as many as a stage's name takes
+    /// at least; what is too long for one goes on in the next, a little deeper. No line stands deeper than
+    /// half of the room.
     pub fn rows(&self, columns: usize) -> Vec<StoryRow> {
         let mut rows: Vec<StoryRow> = Vec::new();
         let mut last = None;

@@ -15,7 +15,7 @@ use crate::support::same::{exact, fast};
 use crate::support::scenery::embedded_scenes;
 
 /// Several tiles, those at the rim cut.
-const DOTS: Size = Size::new(99, 67);
+const DOTS: Size = Size::new(67, 45);
 
 /// The first view, one from above the other side, and one from within, backwards.
 pub fn views(studio: &Studio) -> [(&'static str, Camera); 3] {

@@ -14,7 +14,7 @@ use crate::support::agreement::assert_same_picture;
 use crate::support::request::request;
 use crate::support::scenery::embedded_scenes;
 
-const DOTS: Size = Size::new(160, 120);
+const DOTS: Size = Size::new(128, 96);
 
 /// No ray starts on a surface.
 fn plain(camera: Camera, dots: Size, precision: PrecisionChoice) -> Request {

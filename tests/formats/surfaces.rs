@@ -68,11 +68,11 @@ fn only_files_of_the_folder_are_read_and_each_is_known() {
         ReadOptions { folder: Some(folder.clone()), files: Some(files.clone()), ..ReadOptions::default() };
     let nowhere = ReadOptions::default();
     for (text, options, word) in [
-        ("surface(\"../surfaces-files/ragged.dat\");", &inside, "own folder"),
-        ("surface(\"/etc/passwd\");", &inside, "own folder"),
+        ("surface(\"../other/ragged.dat\");", &inside, "outside of the scene's folder"),
+        ("surface(\"/etc/passwd\");", &inside, "outside of the scene's folder"),
         ("surface(\"none.dat\");", &inside, "`none.dat`"),
         ("surface(\"below\");", &inside, "no plain file"),
-        ("surface(\"ragged.dat\");", &nowhere, "where the scene lies"),
+        ("surface(\"ragged.dat\");", &nowhere, "in which folder the scene lies"),
         ("surface(\"\");", &inside, "double quotes"),
         ("surface();", &inside, "needs `file`"),
     ] {

@@ -77,8 +77,10 @@ struct Body {
     is_paired: bool,
 }
 
-/// Steps that a triangle takes where edges are not paired; where they are, two.
-const OF_UNPAIRED: usize = 40;
+/// Steps that a triangle takes where edges are paired: 25 cylinders that were cut from 4,272 triangles took
+/// 5.6 s, 22 µs for each triangle of both operands; and where they are not, by the ratio that was seen.
+const OF_PAIRED: usize = 20;
+const OF_UNPAIRED: usize = 200;
 
 fn carve<'s>(solid: &'s Solid, scale: f64, work: &mut WorkLeft) -> Result<Vec<Part<'s>>, NotCarved> {
     solid.fold(&mut |primitive| Ok(vec![Part::Own(primitive)]), &mut |solid, operands| {
@@ -114,7 +116,7 @@ fn whole(parts: Vec<Part<'_>>, scale: f64, work: &mut WorkLeft) -> Result<Body, 
 fn joined(a: &Body, b: &Body, operator: OpType, work: &mut WorkLeft) -> Result<Body, NotCarved> {
     let is_paired = a.is_paired && b.is_paired;
     let (engine, times) =
-        if is_paired { (BooleanEngine::Exact, 2) } else { (BooleanEngine::Robust, OF_UNPAIRED) };
+        if is_paired { (BooleanEngine::Exact, OF_PAIRED) } else { (BooleanEngine::Robust, OF_UNPAIRED) };
     work.spend((a.manifold.num_tri() + b.manifold.num_tri()).saturating_mul(times))?;
     let manifold = a.manifold.boolean_with_engine(&b.manifold, operator, engine);
     if manifold.status() == Error::NoError {

@@ -28,7 +28,7 @@ pub struct Following {
 impl Following {
     /// The dot in the middle of a picture.
     pub fn middle(painter: &dyn Painter, request: &Request) -> Self {
-        let Size { width, height } = cells(request);
+        let Size { width, height } = request.cells();
         let mut following = Self { cell: [width / 2, height / 2], dot: [0; 2], story: None, step: 0 };
         following.again(painter, request);
         following
@@ -36,7 +36,7 @@ impl Following {
 
     /// Follows the same place in another picture, from the first step.
     pub fn again(&mut self, painter: &dyn Painter, request: &Request) {
-        let Size { width, height } = cells(request);
+        let Size { width, height } = request.cells();
         let last = [width, height].map(|cells| cells.saturating_sub(1));
         self.cell = std::array::from_fn(|axis| self.cell[axis].min(last[axis]));
         let per_cell = request.glyphs.dots_per_cell();
@@ -111,12 +111,6 @@ impl Following {
         }
         [at, place]
     }
-}
-
-/// How many cells a picture has.
-fn cells(request: &Request) -> Size {
-    let per_cell = request.glyphs.dots_per_cell();
-    Size::new(request.dots.width / per_cell.width, request.dots.height / per_cell.height)
 }
 
 #[cfg(test)]

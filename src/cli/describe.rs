@@ -2,24 +2,18 @@
 
 use serde_json::{Value, json};
 
-use crate::frame::{Inventory, Request, SeenObject, Wants};
+use crate::frame::{Inventory, Request, SeenObject};
 use crate::scene::Scene;
 use crate::tell::{described, why_unseen};
 
 use super::arguments::DescribeArguments;
 use super::error::{CliError, visible};
-use super::picture::Unsized;
+use super::opened::opened;
 use super::write::print;
-use super::{effects, input};
 
 /// Describes a view.
 pub fn run(arguments: &DescribeArguments) -> Result<(), CliError> {
-    input::say(&effects::check(&arguments.picture, effects::Presentation::Cells)?);
-    let scene = input::read(&arguments.scene.file, &arguments.scene.reading)?;
-    input::say(&scene.notes);
-    let studio = input::studio(scene)?;
-    let request =
-        arguments.picture.request(&studio, arguments.picture.look(None), Wants::CELLS, Unsized::Screen)?;
+    let (studio, request) = opened(&arguments.scene, &arguments.picture)?;
     let inventory = studio.inventory(&request);
     let text = if arguments.json {
         format!("{}\n", value(&inventory, &request, studio.scene()))

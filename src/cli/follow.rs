@@ -2,25 +2,19 @@
 
 use serde_json::{Value, json};
 
-use crate::frame::{FollowedRay, Request, Wants};
+use crate::frame::{FollowedRay, Request};
 use crate::math::Size;
 use crate::shade::Channel;
 use crate::tell::{Story, StoryLine};
 
 use super::arguments::FollowArguments;
 use super::error::{CliError, visible};
-use super::picture::Unsized;
+use super::opened::opened;
 use super::write::print;
-use super::{effects, input};
 
 /// Follows the ray of a dot.
 pub fn run(arguments: &FollowArguments) -> Result<(), CliError> {
-    input::say(&effects::check(&arguments.picture, effects::Presentation::Cells)?);
-    let scene = input::read(&arguments.scene.file, &arguments.scene.reading)?;
-    input::say(&scene.notes);
-    let studio = input::studio(scene)?;
-    let request =
-        arguments.picture.request(&studio, arguments.picture.look(None), Wants::CELLS, Unsized::Screen)?;
+    let (studio, request) = opened(&arguments.scene, &arguments.picture)?;
     let FollowArguments { column, row, .. } = *arguments;
     let Some(followed) = studio.follow(&request, [column, row]) else {
         let Size { width, height } = request.dots;

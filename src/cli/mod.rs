@@ -16,6 +16,7 @@ mod manual;
 mod marked;
 mod memory;
 mod names;
+mod opened;
 mod openscad;
 mod parse;
 mod picture;

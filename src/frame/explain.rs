@@ -1,6 +1,6 @@
 //! What a picture requires, stage by stage, before it is drawn.
 
-use crate::glyph::{GlyphMode, Palette};
+use crate::glyph::Palette;
 use crate::plan::{Cost, StagePlan, Term};
 use crate::stage::{GiveUp, Stage};
 use crate::tone::Tone;
@@ -61,9 +61,7 @@ fn sub_lattices(n: usize) -> Term {
 }
 
 fn levels(request: &Request) -> StagePlan {
-    // One ink beside the terminal's own paper: lightness still goes by levels.
-    let by_ink = matches!(request.glyphs, GlyphMode::Braille | GlyphMode::Ascii);
-    let needed = by_ink || !request.palette.is_color();
+    let needed = request.needs_levels();
     let why = match (needed, request.tone) {
         (false, _) => "any colour can be shown → no levels",
         (true, Tone::Lightness) => "light becomes the nearest of 13 levels in lightness",
@@ -73,8 +71,7 @@ fn levels(request: &Request) -> StagePlan {
 }
 
 fn characters(request: &Request) -> StagePlan {
-    let per_cell = request.glyphs.dots_per_cell();
-    let (columns, rows) = (request.dots.width / per_cell.width, request.dots.height / per_cell.height);
+    let (per_cell, cells) = (request.glyphs.dots_per_cell(), request.cells());
     let colors = match request.palette {
         Palette::Dos(_) => "four grays",
         Palette::Gray(_) => "13 grays",
@@ -88,8 +85,8 @@ fn characters(request: &Request) -> StagePlan {
         return StagePlan { stage: Stage::Display, needed, why, cost: None, terms: Vec::new() };
     }
     let why = format!(
-        "{glyphs} in {colors}, {} × {} dots to a cell → {columns} × {rows} cells",
-        per_cell.width, per_cell.height
+        "{glyphs} in {colors}, {} × {} dots to a cell → {} × {} cells",
+        per_cell.width, per_cell.height, cells.width, cells.height
     );
     StagePlan { stage: Stage::Display, needed, why, cost: None, terms: Vec::new() }
 }

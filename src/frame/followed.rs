@@ -9,7 +9,6 @@ use crate::stage::{GiveUp, Meter, RayEvent, Recorder};
 use crate::trace::Exact;
 use crate::view::settled;
 
-use super::prepare::farthest;
 use super::{Request, Space, Studio};
 
 /// So many events are told: of rays that split at every surface there may be millions. At some twenty for
@@ -56,8 +55,7 @@ impl Studio {
         let engine = Exact::new(&self.assembly, prepared.structure);
         let mut meter = Meter::new(Recorder::of_the_first(MOST_EVENTS));
         // As every ray from the eye.
-        let eye = self.assembly.scene_frame.inward_near(prepared.pinhole.eye);
-        let ray = Ray::new(ray.o, settled(ray.d, farthest(eye, &self.assembly.limit)));
+        let ray = Ray::new(ray.o, settled(ray.d, prepared.longest_path()));
         let light = match prepared.plan.channels {
             Channels::Gray => self.traced_light::<f64>(&engine, &prepared.plan, &ray, &mut meter),
             Channels::Three => self.traced_light::<DVec3>(&engine, &prepared.plan, &ray, &mut meter),

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::math::{Bounds, Grid, Size};
 use crate::plan::{Options, Shading};
-use crate::stage::GiveUp;
+use crate::view::{Picture, PinholeCamera};
 
 use super::{Frame, NothingInView, Request, Studio, Wants};
 
@@ -78,8 +78,8 @@ impl Studio {
         let (shading, samples) = (Shading::Lambert, 1);
         let options = Options { shading, samples, shadows: false, adaptive: None, ..request.options };
         let frame = self.draw(&Request { options, wants, ..request.clone() });
-        let never = GiveUp::never();
-        let pinhole = self.prepare(request, None, &never).pinhole;
+        let picture = Picture { dots: request.dots, dot_aspect: request.dot_aspect };
+        let pinhole = PinholeCamera::new(&request.camera, &picture);
         let seen = seen(&frame, pinhole.least_dot());
         let numbers: BTreeSet<u32> = seen.iter().map(|object| object.object).collect();
         let boxes: BTreeMap<u32, Bounds> =

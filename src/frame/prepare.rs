@@ -82,15 +82,23 @@ impl Prepared<'_> {
         }
     }
 
+    /// Where rays start, in the assembly's coordinates.
+    fn eye(&self) -> DVec3 {
+        self.studio.assembly.scene_frame.inward_near(self.pinhole.eye)
+    }
+
+    /// From there to the farthest point of the world, in the assembly's unit.
+    pub fn longest_path(&self) -> f64 {
+        farthest(self.eye(), &self.studio.assembly.limit)
+    }
+
     fn renderer<'r, I>(&'r self, integrator: &'r I) -> TileRenderer<'r, I> {
-        let assembly = &self.studio.assembly;
-        let eye = assembly.scene_frame.inward_near(self.pinhole.eye);
         TileRenderer {
             integrator,
-            assembly,
+            assembly: &self.studio.assembly,
             pinhole: &self.pinhole,
-            eye,
-            longest_path: farthest(eye, &assembly.limit),
+            eye: self.eye(),
+            longest_path: self.longest_path(),
             samples: self.samples.clone(),
             hits: self.hits,
             spare: &self.studio.spare,
@@ -100,6 +108,6 @@ impl Prepared<'_> {
 }
 
 /// The distance from a point to the farthest point of a box.
-pub(super) fn farthest(p: DVec3, b: &Bounds) -> f64 {
+fn farthest(p: DVec3, b: &Bounds) -> f64 {
     (p - b.lo).abs().max((p - b.hi).abs()).length()
 }

@@ -62,6 +62,18 @@ impl Request {
     pub(super) const fn wants_color(&self) -> bool {
         self.options.color || self.palette.is_color()
     }
+
+    /// Whether light becomes one of the 13 levels: not where any colour can be shown, but in one ink beside
+    /// the terminal's own paper lightness still goes by levels.
+    pub const fn needs_levels(&self) -> bool {
+        matches!(self.glyphs, GlyphMode::Braille | GlyphMode::Ascii) || !self.palette.is_color()
+    }
+
+    /// How many whole characters the dots are.
+    pub const fn cells(&self) -> Size {
+        let per_cell = self.glyphs.dots_per_cell();
+        Size::new(self.dots.width / per_cell.width, self.dots.height / per_cell.height)
+    }
 }
 
 /// A finished picture. Grids of dots have the size that was asked for; those that nobody asked for are

@@ -1,7 +1,6 @@
 //! Each event in words.
 
 use crate::frame::{FollowedRay, Frame, Request, Space};
-use crate::glyph::GlyphMode;
 use crate::math::DVec3;
 use crate::scene::Scene;
 use crate::shade::Channel;
@@ -77,22 +76,7 @@ impl Teller<'_> {
         let stage = event.stage();
         match *event {
             RayEvent::Sent { kind, ray, weight } => self.sent(kind, ray.o, ray.d, weight),
-            RayEvent::Coded { outcode, moved } => {
-                self.moved = moved;
-                let place = match outcode {
-                    0 => "0: it begins in the world's box".to_owned(),
-                    code if moved > 0.0 => {
-                        let unit = self.followed.scene_frame.unit;
-                        format!(
-                            "{code:06b}: moved nearer by {}, it begins {}",
-                            figure(moved * unit),
-                            beyond(code)
-                        )
-                    }
-                    code => format!("{code:06b}: it begins {}", beyond(code)),
-                };
-                self.say(stage, format!("outcode {place}"));
-            }
+            RayEvent::Coded { outcode, moved } => self.coded(outcode, moved),
             RayEvent::Clipped => self.say(stage, "it misses the world".to_owned()),
             RayEvent::Entered { t } => {
                 // An eye in the world enters nothing.
@@ -140,7 +124,44 @@ impl Teller<'_> {
             RayEvent::Truncated => {
                 self.say(stage, "it is not followed, and counts as ambient light".to_owned());
             }
-            RayEvent::Lit { .. } | RayEvent::Gathered { .. } | RayEvent::Arrived { .. } => self.lit(event),
+            RayEvent::Lit { lamp, diffuse, highlight, visible, adds } => {
+                // Behind the shadow ray, where there was one.
+                if visible.is_some() {
+                    self.depth -= 1;
+                }
+                let visible =
+                    visible.map_or_else(String::new, |v| format!(", of which V = {} arrives", figure(v)));
+                let text = format!(
+                    "lamp {}: kd · (L·N) = {}, ks · cosⁿθ = {}{visible}; it adds {}",
+                    lamp + 1,
+                    figure(diffuse),
+                    figure(highlight),
+                    figure(adds)
+                );
+                self.say(stage, text);
+            }
+            RayEvent::Gathered { ambient, lamps, path_length, light } => {
+                let [ambient, lamps, light] = [ambient, lamps, light].map(figure);
+                let text = match self.followed.plan.depth {
+                    Some(k) => {
+                        let far = figure(path_length * self.followed.scene_frame.unit);
+                        let k = figure(k);
+                        format!("I = Ia·C + Σ / (R + k) = {ambient} + {lamps} / ({far} + {k}) = {light}")
+                    }
+                    None => format!("I = Ia·C + Σ = {ambient} + {lamps} = {light}"),
+                };
+                self.say(stage, text);
+            }
+            RayEvent::Arrived { light, share } => {
+                self.depth = self.rays.pop().unwrap_or_default();
+                let text = format!(
+                    "{} · {} = {} arrives of it",
+                    figure(share),
+                    figure(light),
+                    figure(share * light)
+                );
+                self.say(stage, text);
+            }
         }
         1
     }
@@ -167,6 +188,19 @@ impl Teller<'_> {
         }
     }
 
+    fn coded(&mut self, outcode: u8, moved: f64) {
+        self.moved = moved;
+        let place = match outcode {
+            0 => "0: it begins in the world's box".to_owned(),
+            code if moved > 0.0 => {
+                let by = figure(moved * self.followed.scene_frame.unit);
+                format!("{code:06b}: moved nearer by {by}, it begins {}", beyond(code))
+            }
+            code => format!("{code:06b}: it begins {}", beyond(code)),
+        };
+        self.say(Stage::Clip, format!("outcode {place}"));
+    }
+
     /// Cells from that of this number on, up to one in which anything is tested; and how many.
     fn cells(&mut self, number: usize) -> usize {
         let events = &self.followed.events[number..];
@@ -190,52 +224,6 @@ impl Teller<'_> {
         count
     }
 
-    fn lit(&mut self, event: &RayEvent) {
-        match *event {
-            RayEvent::Lit { lamp, diffuse, highlight, visible, adds } => {
-                // Behind the shadow ray, where there was one.
-                if visible.is_some() {
-                    self.depth -= 1;
-                }
-                let visible =
-                    visible.map_or_else(String::new, |v| format!(", of which V = {} arrives", figure(v)));
-                let text = format!(
-                    "lamp {}: kd · (L·N) = {}, ks · cosⁿθ = {}{visible}; it adds {}",
-                    lamp + 1,
-                    figure(diffuse),
-                    figure(highlight),
-                    figure(adds)
-                );
-                self.say(Stage::Shade, text);
-            }
-            RayEvent::Gathered { ambient, lamps, path_length, light } => {
-                let unit = self.followed.scene_frame.unit;
-                let (own, far) = (figure(light), figure(path_length * unit));
-                let text = match self.followed.plan.depth {
-                    Some(k) => format!(
-                        "I = Ia·C + Σ / (R + k) = {} + {} / ({far} + {}) = {own}",
-                        figure(ambient),
-                        figure(lamps),
-                        figure(k)
-                    ),
-                    None => format!("I = Ia·C + Σ = {} + {} = {own}", figure(ambient), figure(lamps)),
-                };
-                self.say(Stage::Shade, text);
-            }
-            RayEvent::Arrived { light, share } => {
-                self.depth = self.rays.pop().unwrap_or_default();
-                let text = format!(
-                    "{} · {} = {} arrives of it",
-                    figure(share),
-                    figure(light),
-                    figure(share * light)
-                );
-                self.say(Stage::Shade, text);
-            }
-            _ => {}
-        }
-    }
-
     fn end(&mut self, request: &Request, frame: Option<&Frame>) {
         self.depth = 0;
         let FollowedRay { light, left_out, dot: [column, row], .. } = self.followed;
@@ -248,10 +236,7 @@ impl Teller<'_> {
         if request.options.samples > 1 || (request.options.adaptive.is_some() && gray != own) {
             self.say(Stage::Shade, format!("with the dot's other rays: {}", figure(gray)));
         }
-        let by_ink = matches!(request.glyphs, GlyphMode::Braille | GlyphMode::Ascii);
-        if request.palette.is_color() && !by_ink {
-            self.say(Stage::Dither, "the terminal shows the colour itself: no level".to_owned());
-        } else {
+        if request.needs_levels() {
             let by = match request.tone {
                 Tone::Lightness => format!("L* = {}", figure(lightness(gray.clamp(0.0, 1.0)))),
                 Tone::Even => "even steps of 1/12".to_owned(),
@@ -259,6 +244,8 @@ impl Teller<'_> {
             let level = request.tone.level(gray);
             let nearest = figure(lightness(level.light()));
             self.say(Stage::Dither, format!("{by}: level {} of 12, whose own L* is {nearest}", level.get()));
+        } else {
+            self.say(Stage::Dither, "the terminal shows the colour itself: no level".to_owned());
         }
         let Some(cells) = frame.and_then(|frame| frame.cells.as_ref()) else { return };
         let per_cell = request.glyphs.dots_per_cell();

@@ -13,6 +13,7 @@ use crate::stage::{Meter, Silent};
 use super::Fast;
 use super::cell_rays::{CellItem, Clip};
 use super::memory::{PrecisionScratch, TileMemory};
+use super::mesh_walk::AskingRays;
 use super::packet_culler::Slabs;
 use super::packet_hits::PacketHits;
 use super::precision::Precision;
@@ -211,7 +212,8 @@ impl<S: Simd, T: Precision> CellsTest<'_, S, T> {
     ) -> (u64, u64) {
         let simd = self.simd;
         if T::IS_DOUBLE {
-            self.fast.know_meshes(simd, expression, source.full(), (self.k, self.asked), memory);
+            let asking = AskingRays { k: self.k, wanted: self.asked };
+            self.fast.know_meshes(simd, expression, source.full(), asking, memory);
         }
         let PrecisionScratch { csg, found, cells, .. } = U::scratch(memory);
         let (packet, b, start) = (source.rays, self.cells.bounds(cell), self.start);

@@ -9,6 +9,7 @@ use crate::solid::{Classification, CsgQuery, ExprView, TRange, WorldPrimitive, f
 
 use super::Fast;
 use super::memory::{PrecisionScratch, TileMemory};
+use super::mesh_walk::AskingRays;
 use super::precision::Precision;
 use super::sink::{HitSink, SOME_LEAVES, offer_crossings};
 use super::source::PacketSource;
@@ -117,7 +118,8 @@ impl<S: Simd, T: Precision, H: HitSink<T>> CompositeTest<'_, S, T, H> {
         memory.counts.csg_evaluations += 1;
         // Of rays in single precision the exact engine says what they meet of meshes.
         if T::IS_DOUBLE {
-            self.fast.know_meshes(self.simd, expression, source.full(), (self.k, self.asked), memory);
+            let asking = AskingRays { k: self.k, wanted: self.asked };
+            self.fast.know_meshes(self.simd, expression, source.full(), asking, memory);
         }
         let PacketSource { rays: packet, departures, .. } = source;
         let PrecisionScratch { csg, found, reach: part, .. } = U::scratch(memory);

@@ -8,7 +8,7 @@ use crate::solid::{AheadQuery, ExprView, FirstAhead, Leaf, MeshAnswer, MeshLearn
 
 use super::Fast;
 use super::memory::TileMemory;
-use super::mesh_walk::{KnownStart, MeshLister, MeshObject, TRIANGLES_PER_RAY, walk_mesh};
+use super::mesh_walk::{AskingRays, KnownStart, MeshLister, MeshObject, TRIANGLES_PER_RAY, walk_mesh};
 use super::object::PacketTest;
 use super::packet_culler::Slabs;
 use super::precision::Precision;
@@ -122,7 +122,7 @@ impl Fast<'_> {
         simd: S,
         expression: ExprView,
         source: PacketSource,
-        (k, wanted): (usize, u64),
+        asking: AskingRays,
         memory: &mut TileMemory,
     ) {
         let is_unknown = |leaf: &Leaf, memory: &TileMemory| {
@@ -137,7 +137,7 @@ impl Fast<'_> {
                 && let WorldShape::Mesh(mesh) = &self.assembly.primitives[leaf.primitive as usize].form
             {
                 let of = MeshObject { object: 0, primitive: leaf.primitive, mesh };
-                self.know_mesh(simd, &of, source, (k, wanted), memory);
+                self.know_mesh(simd, &of, source, asking, memory);
             }
         }
     }
@@ -147,9 +147,10 @@ impl Fast<'_> {
         simd: S,
         of: &MeshObject,
         source: PacketSource,
-        (k, wanted): (usize, u64),
+        asking: AskingRays,
         memory: &mut TileMemory,
     ) {
+        let AskingRays { k, wanted } = asking;
         let PacketSource { rays: packet, departures, .. } = source;
         let mut limits = memory.cullers[k].limits();
         let b = of.mesh.bounds().padded(DVec3::splat(self.slack));

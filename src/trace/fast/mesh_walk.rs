@@ -24,6 +24,15 @@ pub(super) struct MeshObject<'a> {
     pub mesh: &'a TriangleMesh,
 }
 
+/// Rays of a packet that ask for what they cross of meshes.
+#[derive(Clone, Copy)]
+pub(super) struct AskingRays {
+    /// The packet's number in the tile.
+    pub k: usize,
+    /// Which of its rays ask, a bit for each.
+    pub wanted: u64,
+}
+
 /// A point that many rays start from, and on which side of a mesh it lies.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct KnownStart {

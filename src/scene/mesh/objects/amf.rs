@@ -38,21 +38,13 @@ pub fn read(bytes: &[u8], room: u64) -> Result<PolygonMesh, MeshError> {
 fn read_text(bytes: &[u8], room: u64) -> Result<PolygonMesh, MeshError> {
     let mut reader = AmfReader::default();
     reader.tree.materials.push(Material::default());
-    let mut text = XmlText::new(bytes)?;
-    let mut is_amf = false;
+    let mut text = XmlText::rooted(bytes, "amf")?;
     loop {
         match text.next()? {
-            XmlEvent::Open(element) => {
-                is_amf |= element.name() == "amf";
-                if !is_amf {
-                    return Err(MeshFault::Unexpected("an element `amf`".to_owned()).at(element.place));
-                }
-                reader.open(&element)?;
-            }
+            XmlEvent::Open(element) => reader.open(&element)?,
             XmlEvent::Text(word) => reader.words.push_str(&word),
             XmlEvent::Close(end) => reader.close(end.name()).map_err(|fault| fault.at(text.place.clone()))?,
-            XmlEvent::End if is_amf => break,
-            XmlEvent::End => return Err(MeshFault::Unexpected("an element `amf`".to_owned()).of_all()),
+            XmlEvent::End => break,
         }
     }
     let unit = reader.unit.unwrap_or("millimeter");

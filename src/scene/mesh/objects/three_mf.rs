@@ -139,21 +139,13 @@ impl<'m> ModelReader<'m> {
     }
 
     fn read(&mut self, file: &[u8]) -> Result<(), MeshError> {
-        let mut text = XmlText::new(file)?;
-        let mut is_model = false;
+        let mut text = XmlText::rooted(file, "model")?;
         loop {
             match text.next()? {
-                XmlEvent::Open(element) => {
-                    is_model |= element.name() == "model";
-                    if !is_model {
-                        return Err(MeshFault::Unexpected("an element `model`".to_owned()).at(element.place));
-                    }
-                    self.open(&element)?;
-                }
+                XmlEvent::Open(element) => self.open(&element)?,
                 XmlEvent::Close(end) if end.name() == "object" => self.close(),
                 XmlEvent::Close(_) | XmlEvent::Text(_) => {}
-                XmlEvent::End if is_model => return Ok(()),
-                XmlEvent::End => return Err(MeshFault::Unexpected("an element `model`".to_owned()).of_all()),
+                XmlEvent::End => return Ok(()),
             }
         }
     }

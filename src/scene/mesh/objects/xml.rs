@@ -43,6 +43,8 @@ pub struct XmlEnd<'a>(BytesEnd<'a>);
 pub struct XmlText<'a> {
     reader: Reader<&'a [u8]>,
     depth: usize,
+    /// The name of the outermost element, where that is known and it has not come yet.
+    root: Option<&'static str>,
     /// The place of the event before.
     pub place: Range<usize>,
 }
@@ -59,7 +61,12 @@ impl<'a> XmlText<'a> {
         let config = reader.config_mut();
         config.expand_empty_elements = true;
         config.trim_text(true);
-        Ok(Self { reader, depth: 0, place: 0..0 })
+        Ok(Self { reader, depth: 0, root: None, place: 0..0 })
+    }
+
+    /// Those of a text whose outermost element has this name; without it, it is an error.
+    pub fn rooted(bytes: &'a [u8], root: &'static str) -> Result<Self, MeshError> {
+        Ok(Self { root: Some(root), ..Self::new(bytes)? })
     }
 
     /// The next event.
@@ -78,7 +85,11 @@ impl<'a> XmlText<'a> {
                         let what = format!("elements are nested deeper than {DEEPEST}");
                         return Err(MeshFault::Unsupported(what).at(self.place.clone()));
                     }
-                    return Ok(XmlEvent::Open(XmlElement { tag, place: self.place.clone() }));
+                    let element = XmlElement { tag, place: self.place.clone() };
+                    if let Some(root) = self.root.take().filter(|root| *root != element.name()) {
+                        return Err(no_root(root).at(element.place));
+                    }
+                    return Ok(XmlEvent::Open(element));
                 }
                 Event::End(tag) => {
                     self.depth = self.depth.saturating_sub(1);
@@ -105,7 +116,10 @@ impl<'a> XmlText<'a> {
                 Event::Eof if self.depth > 0 => {
                     return Err(MeshFault::CutOff("the end of an element".to_owned()).at(self.place.clone()));
                 }
-                Event::Eof => return Ok(XmlEvent::End),
+                Event::Eof => match self.root {
+                    Some(root) => return Err(no_root(root).of_all()),
+                    None => return Ok(XmlEvent::End),
+                },
             }
         }
     }
@@ -113,6 +127,10 @@ impl<'a> XmlText<'a> {
     fn no_entity(&self, name: &str) -> MeshError {
         MeshFault::Unsupported(format!("an entity `{name}`")).at(self.place.clone())
     }
+}
+
+fn no_root(name: &str) -> MeshFault {
+    MeshFault::Unexpected(format!("an element `{name}`"))
 }
 
 impl XmlEnd<'_> {

@@ -78,6 +78,8 @@ pub mod output;
 
 pub mod frame;
 
+pub mod cluster;
+
 pub mod trade;
 
 pub mod tell;

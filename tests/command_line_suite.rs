@@ -11,6 +11,7 @@ mod command_line {
     mod engines;
     mod follow;
     mod kept;
+    mod parts;
     mod plan;
     mod plans;
     mod programs;

@@ -8,6 +8,7 @@ use clap_complete::Shell;
 
 use crate::math::{DVec3, Size};
 use crate::scene::UpAxis;
+use crate::view::TileShare;
 
 use super::names::{
     AntiAliasing, EngineName, Glyphs, PaletteName, PrecisionName, Preset, StructureName, ToneName,
@@ -51,6 +52,8 @@ pub struct ViewerArguments {
 pub enum Command {
     /// Draw a still
     Render(RenderArguments),
+    /// Join the parts of a still that several machines drew with render --part
+    Join(JoinArguments),
     /// Measure how long pictures take
     Bench(BenchArguments),
     /// Measure how time trades against accuracy: which options are worth their time on this scene and machine
@@ -161,9 +164,24 @@ pub struct RenderArguments {
     /// Draw the still again whenever a file of the scene changes, in its place on a terminal
     #[arg(long)]
     pub watch: bool,
+    /// Draw one of N parts of the still, from 1/N, for join: on as many machines as there are parts. --format
+    /// says what it is to become [default: png]
+    #[arg(long, value_name = "K/N", value_parser = values::share, requires = "output", conflicts_with = "watch")]
+    pub part: Option<TileShare>,
     /// Say on standard error what was counted and how long it took
     #[arg(long, value_enum)]
     pub stats: Option<StatsFormat>,
+}
+
+#[derive(Clone, Debug, Args)]
+pub struct JoinArguments {
+    /// The parts, in any order: all of one picture, by one version
+    #[arg(required = true, value_name = "PART")]
+    pub parts: Vec<PathBuf>,
+    /// Write the still to this file; - is standard output, as is nothing. It has the format that the parts
+    /// were drawn for
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
 }
 
 #[derive(Clone, Debug, Args)]
@@ -388,7 +406,9 @@ impl Arguments {
                 a.scene.reading.up = a.up;
                 return;
             }
-            Some(Command::Scenes { .. } | Command::Completions { .. } | Command::Man { .. }) => return,
+            Some(
+                Command::Join(_) | Command::Scenes { .. } | Command::Completions { .. } | Command::Man { .. },
+            ) => return,
         };
         if let Some(axis) = camera.up.and_then(Up::axis) {
             reading.up = Some(axis);

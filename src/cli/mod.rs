@@ -11,6 +11,7 @@ mod error;
 mod follow;
 mod input;
 mod interrupts;
+mod join;
 mod levels;
 mod manual;
 mod marked;
@@ -25,6 +26,7 @@ mod reload;
 mod render;
 mod snapshot;
 mod stats;
+mod still;
 mod terminal;
 mod trade;
 mod trade_line;
@@ -72,6 +74,7 @@ fn command(arguments: Arguments) -> Result<(), CliError> {
     match arguments.command {
         None => view(&arguments.viewer),
         Some(Command::Render(render)) => render::run(&render),
+        Some(Command::Join(join)) => join::run(&join),
         Some(Command::Bench(bench)) => bench::run(&bench),
         Some(Command::Trade(trade)) => trade::run(&trade),
         Some(Command::Plan(plan)) => plan::run(&plan),

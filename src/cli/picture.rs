@@ -1,7 +1,7 @@
 //! From arguments to a request.
 
 use crate::app::Questions;
-use crate::frame::{Request, Studio, Wants, pcat};
+use crate::frame::{MOST_DOTS, Request, Studio, Wants, pcat};
 use crate::glyph::{CELL_ASPECT, FourGrays, GlyphMode, Ground, Palette};
 use crate::math::Size;
 use crate::output::Capabilities;
@@ -14,7 +14,6 @@ use super::error::CliError;
 use super::names::{AntiAliasing, Glyphs, PaletteName, Preset};
 use super::terminal::capabilities;
 use super::up::Up;
-use super::values::MOST_DOTS;
 
 /// The screen that is assumed where there is none.
 const SCREEN: Size = Size::new(80, 25);

@@ -1,37 +1,34 @@
 //! Stills.
 
 use std::io::{self, IsTerminal};
-use std::sync::Arc;
 use std::time::Instant;
 
 use clap::ValueEnum;
 
-use crate::frame::{Frame, Request, Wants};
-use crate::glyph::Palette;
-use crate::math::Grid;
-use crate::output::{self, Capabilities, Pixels};
+use crate::frame::{Frame, Wants};
 use crate::plan::PrecisionChoice;
 use crate::scene::{FilesRead, Scene};
-use crate::tone::Tone;
 
-use super::arguments::{
-    PictureArguments, RawChannel, ReadingArguments, RenderArguments, SceneArguments, StillFormat,
-};
+use super::arguments::{PictureArguments, ReadingArguments, RenderArguments, SceneArguments, StillFormat};
 use super::effects::{self, Still};
 use super::error::{CliError, tell, visible};
 use super::input::Onlooker;
 use super::openscad::OpenScadRun;
-use super::picture::{Look, Unsized};
+use super::picture::Unsized;
 use super::reload::WatchedScene;
+use super::still::{Values, encoded, look, still_of, wants};
 use super::write::{Destination, print};
-use super::{input, stats, terminal};
+use super::{input, join, stats, terminal};
 
 /// Draws one still and writes it.
 pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
     let to = Destination::new(arguments.output.as_deref());
     to.check(&arguments.scene.file)?;
-    let format = arguments.format.map_or_else(|| format_of(&to), Ok)?;
-    let still = Still { format, channel: arguments.channel, levels: arguments.levels };
+    let still = match (arguments.format, arguments.part) {
+        (None, None) => still_of(arguments, format_of(&to)?),
+        // The ending of a part's name is that of no format.
+        _ => still_of(arguments, StillFormat::Png),
+    };
     let notes = effects::check(&arguments.picture, effects::Presentation::Still(still))?;
     input::say(&notes);
     let SceneArguments { file, reading } = &arguments.scene;
@@ -91,12 +88,17 @@ fn draw(
     if format == StillFormat::Pfm && request.options.precision == PrecisionChoice::Auto {
         request.options.precision = PrecisionChoice::Double;
     }
-    let mut frame = studio.draw(&request);
+    let mut frame = match arguments.part {
+        None => studio.draw(&request),
+        Some(share) => studio.draw_share(&request, share),
+    };
     frame.times[crate::stage::Stage::Objects] = read;
     refuse_over_budget(&frame)?;
     let writing = Instant::now();
-    let values = Values::new(still, &arguments.picture);
-    let bytes = encoded(&frame, &request, format, values)?;
+    let bytes = match arguments.part {
+        None => encoded(&frame, request.tone, format, Values::new(still, &arguments.picture))?,
+        Some(share) => join::part(arguments, studio.scene(), &request, &frame, share)?,
+    };
     frame.times[crate::stage::Stage::Display] = writing.elapsed();
     to.write(&bytes)?;
     match arguments.stats {
@@ -120,6 +122,7 @@ pub fn watched_still(
         levels: false,
         output: None,
         watch: true,
+        part: None,
         stats: None,
     })
 }
@@ -135,7 +138,7 @@ pub fn still(file: &str, reading: &ReadingArguments, picture: &PictureArguments)
     let look = look(picture, StillFormat::Txt, terminal::of_output());
     let request = picture.request(&studio, look, Wants::CELLS, Unsized::Screen)?;
     let frame = studio.draw(&request);
-    print(&encoded(&frame, &request, StillFormat::Txt, Values::Toned)?)?;
+    print(&encoded(&frame, request.tone, StillFormat::Txt, Values::Toned)?)?;
     say_nothing(&frame);
     Ok(())
 }
@@ -153,46 +156,6 @@ pub fn say_nothing(frame: &Frame) {
     if let Some(why) = frame.nothing {
         tell(&why.to_string());
     }
-}
-
-/// What is shown of light in pixels and raw values.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Values {
-    /// As the tone shows it.
-    Toned,
-    /// The grays of the levels.
-    Levels,
-    /// A channel as it is.
-    Raw(RawChannel),
-}
-
-impl Values {
-    /// What is asked for. The picture of 1986 had levels; a colour has none.
-    fn new(still: Still, picture: &PictureArguments) -> Self {
-        match still.channel {
-            Some(channel) => Self::Raw(channel),
-            None if still.format == StillFormat::Pfm => Self::Raw(RawChannel::Light),
-            None if still.levels || picture.preset.is_some() => Self::Levels,
-            None => Self::Toned,
-        }
-    }
-}
-
-/// What the format shows of a picture.
-fn wants(still: Still) -> Wants {
-    match (still.format, still.channel) {
-        (StillFormat::Txt | StillFormat::Ans, _) => Wants::CELLS,
-        (_, Some(RawChannel::Depth)) => Wants { depth: true, ..Wants::LIGHT },
-        (_, Some(RawChannel::Normal)) => Wants { normal: true, ..Wants::LIGHT },
-        (_, Some(RawChannel::Object)) => Wants { object: true, ..Wants::LIGHT },
-        (_, Some(RawChannel::Light) | None) => Wants::LIGHT,
-    }
-}
-
-/// Text has no colours to lose: its shades are ink.
-fn look(picture: &PictureArguments, format: StillFormat, terminal: Option<Capabilities>) -> Look {
-    let look = picture.look(terminal);
-    if format == StillFormat::Txt { Look { palette: Palette::Mono(picture.ground()), ..look } } else { look }
 }
 
 /// The format that a file's ending names. A file without one holds text; an ending that names no format is an
@@ -213,66 +176,4 @@ fn format_of(to: &Destination) -> Result<StillFormat, CliError> {
             known.join(", ")
         ))
     })
-}
-
-/// The whole still in memory, so that an error leaves nothing half-written.
-fn encoded(
-    frame: &Frame,
-    request: &Request,
-    format: StillFormat,
-    values: Values,
-) -> Result<Vec<u8>, CliError> {
-    let mut out = Vec::new();
-    let done = match format {
-        StillFormat::Txt => wanted(frame.cells.as_ref()).and_then(|cells| output::text(cells, &mut out)),
-        StillFormat::Ans => wanted(frame.cells.as_ref()).and_then(|cells| output::ansi(cells, &mut out)),
-        StillFormat::Levels => output::levels(&frame.levels(request.tone), &mut out),
-        StillFormat::Png => {
-            let drawn = output::png(&pixels(frame, request, values), &mut out);
-            drawn.map_err(|e| io::Error::other(e.to_string()))
-        }
-        StillFormat::Pgm => output::pgm(&grays(frame, request, values), &mut out),
-        StillFormat::Ppm => output::ppm(&pixels(frame, request, values), &mut out),
-        StillFormat::Pfm => match values {
-            Values::Toned | Values::Levels | Values::Raw(RawChannel::Light) => match &frame.color {
-                Some(color) => output::pfm_vectors(color, &mut out),
-                None => output::pfm_gray(&frame.light, &mut out),
-            },
-            Values::Raw(RawChannel::Depth) => {
-                wanted(frame.depth.as_ref()).and_then(|depth| output::pfm_gray(depth, &mut out))
-            }
-            Values::Raw(RawChannel::Normal) => {
-                wanted(frame.normal.as_ref()).and_then(|normal| output::pfm_vectors(normal, &mut out))
-            }
-            Values::Raw(RawChannel::Object) => wanted(frame.object.as_ref())
-                .and_then(|object| output::pfm_gray(&object.map(|&n| f64::from(n)), &mut out)),
-        },
-    };
-    done.map_err(|e| CliError::Output(format!("the picture could not be encoded: {e}")))?;
-    Ok(out)
-}
-
-/// A grid that the request asked for.
-fn wanted<T>(grid: Option<&Arc<Grid<T>>>) -> io::Result<&Grid<T>> {
-    grid.map(Arc::as_ref).ok_or_else(|| io::Error::other("it lacks what it was drawn for"))
-}
-
-/// Colours where they are wanted; else grays.
-fn pixels(frame: &Frame, request: &Request, values: Values) -> Pixels {
-    match &frame.color {
-        Some(color) => Pixels::of_colors(color, tone(request, values)),
-        None => Pixels::Gray(grays(frame, request, values)),
-    }
-}
-
-fn grays(frame: &Frame, request: &Request, values: Values) -> Grid<u8> {
-    match values {
-        Values::Levels => output::grays_of_levels(&frame.levels(request.tone)),
-        Values::Toned | Values::Raw(_) => output::grays_of_light(&frame.light, tone(request, values)),
-    }
-}
-
-/// Raw light has no tone.
-fn tone(request: &Request, values: Values) -> Tone {
-    if matches!(values, Values::Raw(_)) { Tone::Lightness } else { request.tone }
 }

@@ -4,17 +4,15 @@ use std::path::PathBuf;
 use std::str::FromStr;
 use std::time::Duration;
 
+use crate::frame::MOST_DOTS;
 use crate::math::{DVec3, Size};
 use crate::scene::UpAxis;
+use crate::view::TileShare;
 
 use super::up::Up;
 
 /// The most dots or cells along one side of a picture.
 const MOST_ACROSS: u32 = 32_768;
-
-/// The most dots of a picture: an 8K screen's 7680 × 4320 is just within it, at 0.4 GB in grays, 1.5 GB in
-/// colours.
-pub const MOST_DOTS: usize = 1 << 25;
 
 /// A width and a height, as in `80x25`.
 pub fn size(text: &str) -> Result<Size, String> {
@@ -35,6 +33,14 @@ pub fn point(text: &str) -> Result<DVec3, String> {
     let Some(&[x, y, z]) = numbers.as_deref() else { return Err("expected X,Y,Z, as in 0,-9,3".into()) };
     let point = DVec3::new(x, y, z);
     if point.is_finite() { Ok(point) } else { Err("coordinates must be finite".into()) }
+}
+
+/// One of the parts of a picture, as in `2/8`.
+pub fn share(text: &str) -> Result<TileShare, String> {
+    let numbers =
+        text.split_once('/').and_then(|(k, n)| Some((k.trim().parse().ok()?, n.trim().parse().ok()?)));
+    let (number, of) = numbers.ok_or("expected K/N, as in 2/8")?;
+    TileShare::new(number, of).ok_or_else(|| "parts are counted from 1/N to N/N".into())
 }
 
 /// A folder that is there.

@@ -6,13 +6,13 @@ use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 
-use crate::glyph::{self, Cell, Palette};
+use crate::glyph::{self, Cell};
 use crate::integrate::TileIntegrator;
 use crate::math::{DVec3, Grid};
 use crate::plan::{Channels, Options};
 use crate::shade::Channel;
 use crate::stage::{Counts, GiveUp, Progress, Stage, StageTimes, Stopwatch, Task};
-use crate::view::{TILE, Tile, tiles};
+use crate::view::{TILE, Tile, TileShare, tiles};
 
 use super::accuracy::Accuracy;
 use super::assemble::PictureDots;
@@ -91,6 +91,20 @@ impl Studio {
         whole(self.sampled(request, samples, give_up), give_up)
     }
 
+    /// One share of a picture, which other machines draw the rest of: the dots of its tiles are those of the
+    /// whole picture, and what stands in the others is of no use. Where dots get as many rays as they need,
+    /// the first ray of each dot is traced for every share, since what is beside a dot says how many that is;
+    /// so long as these are the smaller part, the rest is what is shared. There are no characters, and
+    /// nothing of it is kept.
+    pub fn draw_share(&self, request: &Request, share: TileShare) -> Frame {
+        let start = Instant::now();
+        let workers = self.workers(request.options.threads);
+        let part = Portion { share, ..Portion::ALL };
+        let frame = by(workers.as_deref(), || self.traced(request, None, part, &GiveUp::never()));
+        // What others see is not known here.
+        Frame { nothing: None, total: start.elapsed(), ..frame }
+    }
+
     /// With what serves of the last picture.
     fn start(&self, request: &Request) -> Start {
         Start { at: Instant::now(), reused: self.reused(request) }
@@ -103,7 +117,8 @@ impl Studio {
         let options = Options { adaptive: None, ..request.options };
         let request = &Request { options, ..request.clone() };
         let frame = by(workers.as_deref(), || {
-            with_cells(self.traced(request, None, Some(samples), give_up), request)
+            let portion = Portion { samples: Some(samples), ..Portion::ALL };
+            with_cells(self.traced(request, None, portion, give_up), request)
         });
         Frame { total: start.elapsed(), ..frame }
     }
@@ -116,7 +131,7 @@ impl Studio {
             _ => self.workers(request.options.threads),
         };
         let mut frame = by(workers.as_deref(), || {
-            let frame = frame.unwrap_or_else(|| self.traced(request, hits.as_ref(), None, give_up));
+            let frame = frame.unwrap_or_else(|| self.traced(request, hits.as_ref(), Portion::ALL, give_up));
             if give_up.was_due() { frame } else { with_cells(frame, request) }
         });
         frame.total = start.elapsed();
@@ -128,15 +143,9 @@ impl Studio {
 
     /// The dots of a picture, without characters: prepared, rendered tile by tile, and assembled. Where it is
     /// given up, some of them are any.
-    fn traced(
-        &self,
-        request: &Request,
-        hits: Option<&Hits>,
-        samples: Option<Range<u32>>,
-        give_up: &GiveUp,
-    ) -> Frame {
+    fn traced(&self, request: &Request, hits: Option<&Hits>, portion: Portion, give_up: &GiveUp) -> Frame {
         let mut prepared = self.prepare(request, hits, give_up);
-        if let Some(samples) = samples {
+        if let Some(samples) = portion.samples {
             prepared.samples = samples;
         }
         let tracing = Instant::now();
@@ -145,10 +154,12 @@ impl Studio {
             let color = request.wants_color();
             Accuracy { error, tone: request.tone, color }
         });
-        let whole = Whole { dots: &mut dots, wants: request.wants, accuracy, progress: &self.progress };
+        let Portion { share, .. } = portion;
+        let work =
+            Shared { dots: &mut dots, wants: request.wants, share, accuracy, progress: &self.progress };
         let (counts, sampled) = match prepared.plan.channels {
-            Channels::Gray => prepared.work::<f64, _>(whole),
-            Channels::Three => prepared.work::<DVec3, _>(whole),
+            Channels::Gray => prepared.work::<f64, _>(work),
+            Channels::Three => prepared.work::<DVec3, _>(work),
         };
         let trace = tracing.elapsed();
         let Prepared { plan, pinhole, structure, over_budget, times: prepared, .. } = prepared;
@@ -198,27 +209,41 @@ fn whole(frame: Frame, give_up: &GiveUp) -> Option<Frame> {
     (!give_up.was_due()).then_some(frame)
 }
 
-/// All dots of a picture.
-struct Whole<'a> {
+/// What is drawn of a picture.
+struct Portion {
+    /// The numbers of the samples of each dot, where these are not those of the plan.
+    samples: Option<Range<u32>>,
+    share: TileShare,
+}
+
+impl Portion {
+    const ALL: Self = Self { samples: None, share: TileShare::ALL };
+}
+
+/// The dots of a picture, of which one share is drawn.
+struct Shared<'a> {
     dots: &'a mut PictureDots,
     wants: Wants,
+    share: TileShare,
     /// How exact dots are to be, where they get as many rays as that needs.
     accuracy: Option<Accuracy>,
     progress: &'a Progress,
 }
 
-impl<C: Channel> Work<C> for Whole<'_> {
+impl<C: Channel> Work<C> for Shared<'_> {
     /// What was counted, and the times of the tiles that were timed.
     type Done = (Counts, StageTimes);
 
     fn by<I: TileIntegrator<C>>(self, renderer: &TileRenderer<I>) -> Self::Done {
-        let Self { dots, wants, accuracy, progress } = self;
+        let Self { dots, wants, share, accuracy, progress } = self;
         if accuracy.is_some() {
             dots.keep_histories();
         }
         let picture = dots.assembly();
         let workers = Workers::new(wants, accuracy.is_some());
-        let tiles = tiles(picture.size());
+        let own = share.tiles(picture.size());
+        // Which dots need more rays, those around them say.
+        let tiles = if accuracy.is_some() { tiles(picture.size()) } else { own.clone() };
         progress.begin(Task::Tracing, tiles.len() as u64);
         let drawn = tiles.into_par_iter().map(|tile| {
             let watch = if is_timed(&tile) { Stopwatch::start(Stage::Ray) } else { Stopwatch::still() };
@@ -238,7 +263,8 @@ impl<C: Channel> Work<C> for Whole<'_> {
         });
         let accuracy = accuracy.filter(|_| !renderer.give_up.is_due());
         if let (Some(accuracy), Some(first)) = (accuracy, FirstRays::of(dots, renderer)) {
-            let (refined, counts) = refine(&first, open_dots(&first, accuracy), accuracy, renderer, &workers);
+            let open = open_dots(&first, accuracy, &own);
+            let (refined, counts) = refine(&first, open, accuracy, renderer, &workers);
             all.0 += counts;
             dots.set(&refined);
         }
@@ -267,12 +293,7 @@ fn with_cells(mut frame: Frame, request: &Request) -> Frame {
 
 /// The characters of a picture.
 pub(super) fn composed(light: &Grid<f64>, color: Option<&Grid<DVec3>>, request: &Request) -> Grid<Cell> {
-    match (color, request.palette) {
-        (Some(color), Palette::Color(depth)) => {
-            glyph::compose_color(color, request.glyphs, depth, request.tone)
-        }
-        _ => glyph::compose(light, request.glyphs, request.palette, request.tone),
-    }
+    glyph::compose_dots(light, color, request.glyphs, request.palette, request.tone)
 }
 
 /// Shares the time of tracing out among the stages as the timed tiles spent theirs.

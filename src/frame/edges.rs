@@ -18,7 +18,7 @@ const CLASSES: usize = 4;
 
 /// So many rays of each dot around count, their first: with more, curved edges are taken for straight ones
 /// over three dots.
-const BESIDE: usize = 4;
+pub(super) const BESIDE: usize = 4;
 
 /// What one ray saw.
 #[derive(Clone, Copy, Debug)]
@@ -35,6 +35,8 @@ pub(super) struct OpenDot<C> {
     pub rays: Vec<SeenByRay<C>>,
     /// What its rays may have seen, as far as those of the dots around tell.
     pub around: LightRange,
+    /// Whether it is to be decided: else its first few rays are for a dot beside it.
+    pub is_own: bool,
 }
 
 /// What is known of a picture: a ray for each dot, and all of those that got more.

@@ -28,5 +28,5 @@ pub use compare::{Comparison, OtherDots};
 pub use followed::FollowedRay;
 pub use inventory::{Inventory, SeenObject, UnseenObject};
 pub use nothing::NothingInView;
-pub use request::{Frame, Request, Space, Wants};
+pub use request::{Frame, MOST_DOTS, Request, Space, Wants};
 pub use studio::{Built, Studio};

@@ -14,11 +14,11 @@ use crate::math::{DVec3, Grid, PACKET};
 use crate::shade::Channel;
 use crate::stage::{Counts, Meter, Stopwatch};
 use crate::tone::Level;
-use crate::view::{EdgeModel, PointPacket, Tile, sample_point, tiles};
+use crate::view::{EdgeModel, PointPacket, TILE, Tile, sample_point, tiles};
 
 use super::accuracy::{Accuracy, LightRange};
 use super::assemble::{PictureDots, RefinedDot};
-use super::edges::{Expected, Knowledge, OpenDot, SeenByRay};
+use super::edges::{BESIDE, Expected, Knowledge, OpenDot, SeenByRay};
 use super::render::TileRenderer;
 use super::small::small_solids;
 use super::workers::{PointScratch, Worker, Workers};
@@ -28,6 +28,9 @@ use super::workers::{PointScratch, Worker, Workers};
 /// of the dots around is a guess, by which one dot in two thousand came to be two levels off. With 2 first a
 /// few rays less are traced, for a few more wrong levels.
 const ROUNDS: [u32; 7] = [4, 8, 16, 32, 64, 128, 256];
+
+// After the first round an open dot is as much use to those beside it as it will ever be.
+const _: () = assert!(ROUNDS[0] as usize >= BESIDE);
 
 /// How far the mean of smooth light over a dot is from that of its middle, as a share of how far the middle
 /// is off the line between two dots beside it: of a parabola a twenty-fourth of its second difference, from
@@ -108,14 +111,28 @@ impl<'a> FirstRays<'a> {
             // Room for the first round.
             let mut rays = Vec::with_capacity(ROUNDS[0] as usize);
             rays.push(SeenByRay { light: own, history });
-            OpenDot { column, row, rays, around }
+            OpenDot { column, row, rays, around, is_own: true }
         })
     }
 }
 
-/// The dots of a picture that one ray does not decide, those that are near each other one after the other.
-pub(super) fn open_dots<C: Channel>(first: &FirstRays, accuracy: Accuracy) -> Vec<OpenDot<C>> {
+/// The dots of some tiles that one ray does not decide, and those beside them, which help to; those that are
+/// near each other stand one after the other.
+pub(super) fn open_dots<C: Channel>(first: &FirstRays, accuracy: Accuracy, own: &[Tile]) -> Vec<OpenDot<C>> {
     let size = first.light.size();
+    let all = tiles(size);
+    let mut is_own_tile = vec![false; all.len()];
+    for tile in own {
+        is_own_tile[tile.number as usize] = true;
+    }
+    let tiles_across = size.width.div_ceil(TILE);
+    let is_own = |column: u32, row: u32| is_own_tile[(row / TILE * tiles_across + column / TILE) as usize];
+    let is_beside_own = |column: u32, row: u32| {
+        let [columns, rows] = [(column, size.width), (row, size.height)]
+            .map(|(at, end)| [at.saturating_sub(1), (at + 1).min(end - 1)]);
+        // Tiles are wider than the three dots: those in the corners are in all tiles that these touch.
+        rows.iter().any(|&row| columns.iter().any(|&column| is_own(column, row)))
+    };
     let is_gray = !accuracy.color || C::PARTS == 1;
     let level = |&light: &f64| Level::nearest(accuracy.tone.shown(light));
     let levels: Option<Vec<Level>> = is_gray.then(|| first.light.values().iter().map(level).collect());
@@ -133,14 +150,15 @@ pub(super) fn open_dots<C: Channel>(first: &FirstRays, accuracy: Accuracy) -> Ve
     let of_tile = |tile: Tile| {
         let mut open = Vec::new();
         for (column, row) in tile.dots() {
-            if first.small[(column, row)] || !is_flat(column, row) {
-                open.extend(first.open_dot(column, row, accuracy));
+            if is_beside_own(column, row) && (first.small[(column, row)] || !is_flat(column, row)) {
+                let is_own = is_own(column, row);
+                open.extend(first.open_dot(column, row, accuracy).map(|dot| OpenDot { is_own, ..dot }));
             }
         }
         open.sort_unstable_by_key(|dot: &OpenDot<C>| tile.nearness((dot.column, dot.row)));
         open
     };
-    tiles(size).into_par_iter().flat_map_iter(of_tile).collect()
+    all.into_par_iter().flat_map_iter(of_tile).collect()
 }
 
 /// Traces more rays through some dots until all are decided. `workers` has one trace with memory of its own.
@@ -188,6 +206,8 @@ pub(super) fn refine<C: Channel, I: TileIntegrator<C>>(
             let Expected { light, deviation, possible } = expected(&open, number);
             accuracy.is_met_by(accuracy.parts(light), deviation, &possible).then_some(light)
         };
+        // Of those beside, no more rays than these count.
+        undecided.retain(|&number| open[number as usize].is_own);
         let decided: Vec<Option<C>> = undecided.par_iter().map(decide).collect();
         let mut light = decided.into_iter();
         undecided.retain(|&number| {
@@ -195,7 +215,8 @@ pub(super) fn refine<C: Channel, I: TileIntegrator<C>>(
             refined[number as usize].is_none()
         });
     }
-    let refined = (0..).zip(&open).zip(refined).map(|((number, dot), light)| RefinedDot {
+    let decided = (0..).zip(&open).zip(refined).filter(|((_, dot), _)| dot.is_own);
+    let refined = decided.map(|((number, dot), light)| RefinedDot {
         column: dot.column,
         row: dot.row,
         light: light.unwrap_or_else(|| expected(&open, number).light),
@@ -237,7 +258,10 @@ mod tests {
     fn first_rays(light: &Grid<f64>, history: &Grid<History>) -> Vec<(u32, u32)> {
         let small = Grid::filled(light.size(), false);
         let first = FirstRays { light, color: None, history, small };
-        open_dots::<f64>(&first, ACCURACY).into_iter().map(|dot| (dot.column, dot.row)).collect()
+        open_dots::<f64>(&first, ACCURACY, &tiles(light.size()))
+            .into_iter()
+            .map(|dot| (dot.column, dot.row))
+            .collect()
     }
 
     #[test]

@@ -13,6 +13,10 @@ use crate::tone::{Level, Tone};
 
 use super::NothingInView;
 
+/// The most dots of a picture that people ask for: an 8K screen's 7680 × 4320 is just within it, at 0.4 GB in
+/// grays, 1.5 GB in colours.
+pub const MOST_DOTS: usize = 1 << 25;
+
 /// One picture that is asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Request {

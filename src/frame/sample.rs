@@ -13,7 +13,7 @@ use crate::math::{DVec3, Grid, Size};
 use crate::plan::{Channels, Sample};
 use crate::shade::Channel;
 use crate::stage::{Stage, Stopwatch};
-use crate::view::{TILE, Tile, tiles};
+use crate::view::{PLASTIC, TILE, Tile, tiles};
 
 use super::Request;
 use super::draw::{composed, shared_out};
@@ -127,10 +127,8 @@ fn composing<C: Channel>(light: &[C], request: &Request) -> f64 {
 }
 
 /// Tiles of a picture, spread over it so evenly that any first few of them are, too: by the fractional parts
-/// of multiples of the plastic number's powers (Roberts, "The unreasonable effectiveness of quasirandom
-/// sequences", 2018). None comes twice.
+/// of multiples of [`PLASTIC`]. None comes twice.
 fn some_tiles(dots: Size) -> Vec<Tile> {
-    const STEP: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_2];
     let all = tiles(dots);
     let [columns, rows] = [dots.width, dots.height].map(|side| side.div_ceil(TILE) as usize);
     let place = |k: usize, step: f64, of: usize| {
@@ -139,7 +137,7 @@ fn some_tiles(dots: Size) -> Vec<Tile> {
     };
     let some = (all.len() / ONE_IN).clamp(FEW.min(all.len()), MOST);
     let mut taken = vec![false; all.len()];
-    let spread = (0..).map(|k| place(k, STEP[1], rows) * columns + place(k, STEP[0], columns));
+    let spread = (0..).map(|k| place(k, PLASTIC[1], rows) * columns + place(k, PLASTIC[0], columns));
     let once = spread.filter(|&number| !std::mem::replace(&mut taken[number], true));
     once.take(some).map(|number| all[number]).collect()
 }

@@ -57,6 +57,20 @@ pub fn compose(light: &Grid<f64>, mode: GlyphMode, palette: Palette, tone: Tone)
     at(palette.depth(), cells)
 }
 
+/// The characters of a picture: in colour where both its dots and the palette have it.
+pub fn compose_dots(
+    light: &Grid<f64>,
+    color: Option<&Grid<DVec3>>,
+    mode: GlyphMode,
+    palette: Palette,
+    tone: Tone,
+) -> Grid<Cell> {
+    match (color, palette) {
+        (Some(color), Palette::Color(depth)) => compose_color(color, mode, depth, tone),
+        _ => compose(light, mode, palette, tone),
+    }
+}
+
 /// The cells that show `color`, three linear primaries per traced dot, as [`compose`] does, in any colours.
 /// There are no levels: `tone` changes luminance, nothing is rounded but to the terminal's depth. Where a
 /// cell can have one colour only beside the terminal's own (`ascii`, `braille`), its ink carries lightness

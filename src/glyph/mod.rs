@@ -17,7 +17,7 @@ mod shape;
 pub use appearance::appearance;
 pub use cell::Cell;
 pub use choice::{CELL_ASPECT, GlyphMode, Ground, Palette};
-pub use compose::{compose, compose_color};
+pub use compose::{compose, compose_color, compose_dots};
 pub use grays::FourGrays;
 pub use paint::{ColorDepth, Paint};
 pub use shape::{Coverage, coverage};

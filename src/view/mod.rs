@@ -9,6 +9,7 @@ mod point_packet;
 mod sample_points;
 mod tile;
 mod tile_camera;
+mod tile_share;
 
 pub use block::{BLOCK, Block};
 pub use direction::{all_settled, settled};
@@ -19,3 +20,4 @@ pub use point_packet::PointPacket;
 pub use sample_points::{edge_error, missed_edge_error, sample_point};
 pub use tile::{TILE, Tile, tiles};
 pub use tile_camera::{TileCamera, TileRays};
+pub use tile_share::{PLASTIC, TileShare};

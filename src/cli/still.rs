@@ -1,0 +1,118 @@
+//! The bytes of a still: which values its format shows, and those values as the format has them.
+
+use std::io;
+use std::sync::Arc;
+
+use crate::frame::{Frame, Wants};
+use crate::glyph::Palette;
+use crate::math::Grid;
+use crate::output::{self, Capabilities, Pixels};
+use crate::tone::Tone;
+
+use super::arguments::{PictureArguments, RawChannel, RenderArguments, StillFormat};
+use super::effects::Still;
+use super::error::CliError;
+use super::picture::Look;
+
+/// What is shown of light in pixels and raw values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Values {
+    /// As the tone shows it.
+    Toned,
+    /// The grays of the levels.
+    Levels,
+    /// A channel as it is.
+    Raw(RawChannel),
+}
+
+impl Values {
+    /// What is asked for. The picture of 1986 had levels; a colour has none.
+    pub fn new(still: Still, picture: &PictureArguments) -> Self {
+        match still.channel {
+            Some(channel) => Self::Raw(channel),
+            None if still.format == StillFormat::Pfm => Self::Raw(RawChannel::Light),
+            None if still.levels || picture.preset.is_some() => Self::Levels,
+            None => Self::Toned,
+        }
+    }
+}
+
+/// What is asked for; in this format, where none is.
+pub fn still_of(arguments: &RenderArguments, format: StillFormat) -> Still {
+    let RenderArguments { channel, levels, .. } = *arguments;
+    Still { format: arguments.format.unwrap_or(format), channel, levels }
+}
+
+/// What the format shows of a picture.
+pub fn wants(still: Still) -> Wants {
+    match (still.format, still.channel) {
+        (StillFormat::Txt | StillFormat::Ans, _) => Wants::CELLS,
+        (_, Some(RawChannel::Depth)) => Wants { depth: true, ..Wants::LIGHT },
+        (_, Some(RawChannel::Normal)) => Wants { normal: true, ..Wants::LIGHT },
+        (_, Some(RawChannel::Object)) => Wants { object: true, ..Wants::LIGHT },
+        (_, Some(RawChannel::Light) | None) => Wants::LIGHT,
+    }
+}
+
+/// Text has no colours to lose: its shades are ink.
+pub fn look(picture: &PictureArguments, format: StillFormat, terminal: Option<Capabilities>) -> Look {
+    let look = picture.look(terminal);
+    if format == StillFormat::Txt { Look { palette: Palette::Mono(picture.ground()), ..look } } else { look }
+}
+
+/// The whole still in memory, so that an error leaves nothing half-written.
+pub fn encoded(frame: &Frame, tone: Tone, format: StillFormat, values: Values) -> Result<Vec<u8>, CliError> {
+    let mut out = Vec::new();
+    let done = match format {
+        StillFormat::Txt => wanted(frame.cells.as_ref()).and_then(|cells| output::text(cells, &mut out)),
+        StillFormat::Ans => wanted(frame.cells.as_ref()).and_then(|cells| output::ansi(cells, &mut out)),
+        StillFormat::Levels => output::levels(&frame.levels(tone), &mut out),
+        StillFormat::Png => {
+            let drawn = output::png(&pixels(frame, tone, values), &mut out);
+            drawn.map_err(|e| io::Error::other(e.to_string()))
+        }
+        StillFormat::Pgm => output::pgm(&grays(frame, tone, values), &mut out),
+        StillFormat::Ppm => output::ppm(&pixels(frame, tone, values), &mut out),
+        StillFormat::Pfm => match values {
+            Values::Toned | Values::Levels | Values::Raw(RawChannel::Light) => match &frame.color {
+                Some(color) => output::pfm_vectors(color, &mut out),
+                None => output::pfm_gray(&frame.light, &mut out),
+            },
+            Values::Raw(RawChannel::Depth) => {
+                wanted(frame.depth.as_ref()).and_then(|depth| output::pfm_gray(depth, &mut out))
+            }
+            Values::Raw(RawChannel::Normal) => {
+                wanted(frame.normal.as_ref()).and_then(|normal| output::pfm_vectors(normal, &mut out))
+            }
+            Values::Raw(RawChannel::Object) => wanted(frame.object.as_ref())
+                .and_then(|object| output::pfm_gray(&object.map(|&n| f64::from(n)), &mut out)),
+        },
+    };
+    done.map_err(|e| CliError::Output(format!("the picture could not be encoded: {e}")))?;
+    Ok(out)
+}
+
+/// A grid that the request asked for.
+fn wanted<T>(grid: Option<&Arc<Grid<T>>>) -> io::Result<&Grid<T>> {
+    grid.map(Arc::as_ref).ok_or_else(|| io::Error::other("it lacks what it was drawn for"))
+}
+
+/// Colours where they are wanted; else grays.
+fn pixels(frame: &Frame, tone: Tone, values: Values) -> Pixels {
+    match &frame.color {
+        Some(color) => Pixels::of_colors(color, shown_by(tone, values)),
+        None => Pixels::Gray(grays(frame, tone, values)),
+    }
+}
+
+fn grays(frame: &Frame, tone: Tone, values: Values) -> Grid<u8> {
+    match values {
+        Values::Levels => output::grays_of_levels(&frame.levels(tone)),
+        Values::Toned | Values::Raw(_) => output::grays_of_light(&frame.light, shown_by(tone, values)),
+    }
+}
+
+/// Raw light has no tone.
+fn shown_by(tone: Tone, values: Values) -> Tone {
+    if matches!(values, Values::Raw(_)) { Tone::Lightness } else { tone }
+}

@@ -52,8 +52,6 @@ pub struct ViewerArguments {
 pub enum Command {
     /// Draw a still
     Render(RenderArguments),
-    /// Join the parts of a still that several machines drew with render --part
-    Join(JoinArguments),
     /// Measure how long pictures take
     Bench(BenchArguments),
     /// Measure how time trades against accuracy: which options are worth their time on this scene and machine
@@ -70,6 +68,8 @@ pub enum Command {
     Diff(DiffArguments),
     /// Keep the picture of each view of a scene beside it, or compare it with what was kept
     Snapshot(SnapshotArguments),
+    /// Join the parts of a still that several machines drew with render --part
+    Join(JoinArguments),
     /// Read and validate a scene only
     Check(CheckArguments),
     /// List the embedded scenes, or print one

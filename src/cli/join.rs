@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use clap::{Parser, ValueEnum};
 
-use crate::cluster::{Joining, Part, PartError, PictureDigest};
+use crate::cluster::{Joining, PartError, PictureDigest, PicturePart};
 use crate::frame::{Frame, Request, Wants};
 use crate::glyph;
 use crate::scene::Scene;
@@ -27,7 +27,7 @@ pub fn part(
 ) -> Result<Vec<u8>, CliError> {
     let picture = PictureDigest::of(scene, request);
     let mut bytes = Vec::new();
-    let written = Part::of(frame, picture, share, shown(arguments)).write(&mut bytes);
+    let written = PicturePart::of(frame, picture, share, shown(arguments)).write(&mut bytes);
     written.map_err(|e| CliError::Output(format!("the part could not be encoded: {e}")))?;
     Ok(bytes)
 }
@@ -44,7 +44,7 @@ pub fn run(arguments: &JoinArguments) -> Result<(), CliError> {
     let mut joining: Option<Joining> = None;
     for path in &arguments.parts {
         let name = visible(&path.to_string_lossy());
-        let part = File::open(path).map_err(PartError::Io).and_then(Part::read);
+        let part = File::open(path).map_err(PartError::Io).and_then(PicturePart::read);
         let part = part.map_err(|e| CliError::Input(format!("{name}: {e}")))?;
         match &mut joining {
             None => joining = Some(Joining::new(&name, part)),

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::frame::Frame;
 
 use super::dots::ShareDots;
-use super::part::{Part, PartAbout};
+use super::part::{PartAbout, PicturePart};
 
 /// A picture to which parts are added, in any order.
 #[derive(Clone, Debug)]
@@ -72,8 +72,8 @@ fn missing(numbers: &[u32], of: u32) -> String {
 
 impl Joining {
     /// With a first part of this name.
-    pub fn new(name: &str, part: Part) -> Self {
-        let Part { about, dots } = part;
+    pub fn new(name: &str, part: PicturePart) -> Self {
+        let PicturePart { about, dots } = part;
         let mut frame = about.channels.room(about.dots);
         dots.put_into(&mut frame, about.share);
         let names = BTreeMap::from([(about.share.number(), name.to_owned())]);
@@ -81,7 +81,7 @@ impl Joining {
     }
 
     /// Adds a part. One that is there already may come again.
-    pub fn add(&mut self, name: &str, part: Part) -> Result<(), JoinError> {
+    pub fn add(&mut self, name: &str, part: PicturePart) -> Result<(), JoinError> {
         let PartAbout { share, .. } = part.about;
         let of_first = self.about.share;
         let (part_name, first) = (name.to_owned(), self.first().to_owned());

@@ -10,4 +10,4 @@ mod values;
 pub use digest::PictureDigest;
 pub use dots::DotChannels;
 pub use join::{JoinError, Joining};
-pub use part::{Part, PartAbout, PartError};
+pub use part::{PartAbout, PartError, PicturePart};

@@ -38,7 +38,7 @@ pub struct PartAbout {
 
 /// A part of a picture.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Part {
+pub struct PicturePart {
     /// Of which picture it is.
     pub about: PartAbout,
     pub(super) dots: ShareDots,
@@ -61,7 +61,7 @@ pub enum PartError {
     Io(io::Error),
 }
 
-impl Part {
+impl PicturePart {
     /// The share of a drawn picture.
     pub fn of(frame: &Frame, picture: PictureDigest, share: TileShare, shown: Vec<String>) -> Self {
         let channels = DotChannels::of(frame);

@@ -5,6 +5,8 @@
 //! the slots that a part may fill (H. Ylitie, T. Karras, S. Laine: Efficient incoherent ray traversal on GPUs
 //! through compressed wide BVHs, 2017).
 
+use std::borrow::Cow;
+
 use crate::math::dispatch;
 use fearless_simd::Level;
 use rayon::prelude::*;
@@ -43,7 +45,13 @@ pub fn built(level: Level, count: usize, reach: impl Fn(usize) -> BuildPrimitive
         let all = items.par_chunks(SETTLED).map(of_all);
         all.reduce(|| About::NOTHING, |a, b| dispatch!(level, simd => a.with(simd, &b)))
     };
-    let root = grown(level, &mut items, &about, 0);
+    if are_few {
+        lay(&grown(level, &mut items, &about, 0), &mut nodes);
+        return nodes;
+    }
+    let root = settled(level, &mut items, &about, 0);
+    // Nodes take more than what they were made of, which is in them all by now.
+    drop(items);
     lay(&root, &mut nodes);
     nodes
 }
@@ -60,7 +68,7 @@ struct Grown<'a> {
 
 enum Kind<'a> {
     /// A few objects.
-    Few(&'a [BuildPrimitive]),
+    Few(Cow<'a, [BuildPrimitive]>),
     Halves(Box<[Grown<'a>; 2]>),
     /// Nodes already, the root first.
     Settled(Vec<Node>),
@@ -68,33 +76,44 @@ enum Kind<'a> {
 
 /// Parts a range of boxes, one at least.
 fn grown<'a>(level: Level, items: &'a mut [BuildPrimitive], about: &About, depth: u32) -> Grown<'a> {
-    let count = items.len();
-    if count <= FEW {
-        let whole = about.reach.area();
-        let cost = std::array::from_fn(|slots| if slots + 1 >= count { 0.0 } else { whole });
-        return Grown { reach: about.reach, cost, first: [0; WIDE], kind: Kind::Few(items) };
+    if items.len() <= FEW {
+        return few(about, Cow::Borrowed(items));
     }
     let (middle, lower, upper) = parted(level, items, about, depth);
     let (low, high) = items.split_at_mut(middle);
-    let (low, high) = if count > SETTLED {
-        rayon::join(|| settled(level, low, &lower, depth + 1), || settled(level, high, &upper, depth + 1))
-    } else {
-        (grown(level, low, &lower, depth + 1), grown(level, high, &upper, depth + 1))
-    };
+    joined(about.reach, grown(level, low, &lower, depth + 1), grown(level, high, &upper, depth + 1))
+}
+
+/// The same by all threads; a part of up to [`SETTLED`] objects is nodes at once.
+fn settled(level: Level, items: &mut [BuildPrimitive], about: &About, depth: u32) -> Grown<'static> {
+    let count = items.len();
+    if count <= FEW {
+        return few(about, Cow::Owned(items.to_vec()));
+    }
+    if count <= SETTLED {
+        let part = grown(level, items, about, depth);
+        let mut nodes = Vec::with_capacity(count / FEW);
+        lay(&part, &mut nodes);
+        let whole = part.cost[0];
+        return Grown {
+            reach: about.reach,
+            cost: [whole; WIDE],
+            first: [0; WIDE],
+            kind: Kind::Settled(nodes),
+        };
+    }
+    let (middle, lower, upper) = parted(level, items, about, depth);
+    let (low, high) = items.split_at_mut(middle);
+    let (low, high) =
+        rayon::join(|| settled(level, low, &lower, depth + 1), || settled(level, high, &upper, depth + 1));
     joined(about.reach, low, high)
 }
 
-/// The same; a part of up to [`SETTLED`] objects is nodes at once.
-fn settled<'a>(level: Level, items: &'a mut [BuildPrimitive], about: &About, depth: u32) -> Grown<'a> {
-    let count = items.len();
-    let part = grown(level, items, about, depth);
-    if !(WIDE + 1..=SETTLED).contains(&count) {
-        return part;
-    }
-    let mut nodes = Vec::with_capacity(count / FEW);
-    lay(&part, &mut nodes);
-    let whole = part.cost[0];
-    Grown { reach: about.reach, cost: [whole; WIDE], first: [0; WIDE], kind: Kind::Settled(nodes) }
+/// A part of a few objects.
+fn few<'a>(about: &About, items: Cow<'a, [BuildPrimitive]>) -> Grown<'a> {
+    let whole = about.reach.area();
+    let cost = std::array::from_fn(|slots| if slots + 1 >= items.len() { 0.0 } else { whole });
+    Grown { reach: about.reach, cost, first: [0; WIDE], kind: Kind::Few(items) }
 }
 
 /// Two halves as one part, with the cheapest split of any number of slots.
@@ -151,7 +170,7 @@ impl<'a> Slots<'a> {
     fn take(&mut self, part: &'a Grown<'a>, most: usize) {
         match &part.kind {
             Kind::Few(items) if items.len() <= most => {
-                for item in *items {
+                for item in &**items {
                     self.push(*item, Filling::Object(item.object()));
                 }
             }

@@ -5,6 +5,7 @@ mod content;
 mod degrees;
 mod diagnostic;
 mod embedded;
+mod groups;
 mod gzip;
 mod heightmap;
 mod language;

@@ -5,6 +5,7 @@ use std::collections::{HashMap, HashSet};
 use earcut::Earcut;
 
 use crate::math::{Bounds, DVec2, DVec3};
+use crate::scene::groups::Groups;
 use crate::scene::unit_vector::unit;
 
 /// Cuts faces that are not convex, as far as its budget goes.
@@ -228,16 +229,25 @@ impl EdgeSet {
 
 /// Takes out triangles of the same three points, two by two: between two equal surfaces lies nothing.
 pub fn cancel_pairs<T: Copy>(triangles: &mut Vec<([u32; 3], T)>) {
-    let sorted = |mut triangle: [u32; 3]| {
+    let sorted = |number: u32| {
+        let mut triangle = triangles[number as usize].0;
         triangle.sort_unstable();
         triangle
     };
-    let mut odd = HashSet::with_capacity(triangles.len());
-    for &(triangle, _) in triangles.iter() {
-        let key = sorted(triangle);
-        if !odd.remove(&key) {
-            odd.insert(key);
+    let corners =
+        triangles.iter().flat_map(|(triangle, _)| triangle).max().map_or(0, |&last| last as usize + 1);
+    let by_first = (0..triangles.len() as u32).map(|number| (sorted(number)[0], number));
+    let mut is_kept = vec![true; triangles.len()];
+    Groups::new(corners, by_first).each(|_, numbers| {
+        if numbers.len() < 2 {
+            return;
         }
-    }
-    triangles.retain(|&(triangle, _)| odd.remove(&sorted(triangle)));
+        numbers.sort_unstable_by_key(|&number| (sorted(number), number));
+        for same in numbers.chunk_by(|&a, &b| sorted(a) == sorted(b)) {
+            // Of an odd number the first is left.
+            same[same.len() % 2..].iter().for_each(|&number| is_kept[number as usize] = false);
+        }
+    });
+    let mut kept = is_kept.into_iter();
+    triangles.retain(|_| kept.next().unwrap_or(true));
 }

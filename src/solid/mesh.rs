@@ -4,6 +4,7 @@
 //! so that a closed surface is always crossed an even number of times. Single precision decides for most
 //! rays of a packet beforehand ([`super::mesh_packet`]).
 
+use std::borrow::Cow;
 use std::ops::ControlFlow;
 
 use fearless_simd::{Simd, SimdBase, f64x8};
@@ -47,15 +48,20 @@ impl TriangleMesh {
             let [a, b, c] = corners(t);
             a != b && b != c && c != a
         };
-        let mut triangles: Vec<[u32; 3]> = unit.triangles.iter().filter(is_solid).copied().collect();
+        // Mostly all are, and are copied only once their order is known.
+        let solid = if unit.triangles.iter().all(|triangle| is_solid(&triangle)) {
+            Cow::Borrowed(&unit.triangles)
+        } else {
+            Cow::Owned(unit.triangles.iter().filter(is_solid).copied().collect())
+        };
         // What rounding makes of boxes is for a world of this size; a cutter may reach out of it.
         let margin = DVec3::splat(2.0 * place_error + MARGIN * (reach / WORLD));
-        let mut boxes = Bvh8::over(triangles.len(), |number| {
-            let around = Bounds::around(corners(&triangles[number])).padded(margin);
+        let mut boxes = Bvh8::over(solid.len(), |number| {
+            let around = Bounds::around(corners(&solid[number])).padded(margin);
             BuildPrimitive::new(&around, number as u32)
         });
         let order = boxes.renumber();
-        triangles = mapped(&order, |&old| triangles[old as usize]);
+        let triangles = mapped(&order, |&old| solid[old as usize]);
         Self { points, triangles, boxes, bounds, place_error }
     }
 

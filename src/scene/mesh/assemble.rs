@@ -1,6 +1,5 @@
 //! From polygons to objects: a closed part is one solid, an open one a surface for each of its polygons.
 
-use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -15,6 +14,7 @@ use super::facts::{MeshFacts, place};
 use super::fault::{MeshError, MeshFault};
 use super::polygons::{FaceRun, PolygonMesh};
 use super::topology::Topology;
+use super::weld::Welder;
 
 /// Bytes that reading takes for a point: its place, where it was welded to, and its entry in the map of
 /// places.
@@ -78,10 +78,10 @@ pub fn prepare(mesh: &mut PolygonMesh) -> Result<(), MeshError> {
 /// Makes a scene of polygons.
 pub fn assemble(mut mesh: PolygonMesh, up: UpAxis) -> Result<Scene, MeshError> {
     prepare(&mut mesh)?;
-    let parts = parts(&mesh);
+    let mut parts = parts(&mesh);
     let mut scene = Scene { notes: mesh.notes.clone(), ..Scene::default() };
     let mut flat = 0;
-    for part in &parts {
+    for part in &mut parts {
         let facts = MeshFacts::of(&part.triangles, &mesh.points, &part.topology);
         let is_solid = part.is_solid();
         let objects = scene.objects.len();
@@ -159,22 +159,16 @@ fn shown_as_surfaces(meshes: &[MeshFacts]) -> Option<String> {
 
 /// Makes equal points one, numbered in the order in which the file has them.
 fn weld(mesh: &mut PolygonMesh) {
-    let mut numbers = HashMap::with_capacity(mesh.points.len());
-    let mut points = Vec::new();
-    let places: Vec<u32> = mesh
-        .points
-        .iter()
-        .map(|point| {
-            *numbers.entry(point.to_array().map(f64::to_bits)).or_insert_with(|| {
-                points.push(*point);
-                points.len() as u32 - 1
-            })
-        })
-        .collect();
-    for corner in &mut mesh.corners {
-        *corner = places[*corner as usize];
+    if mesh.is_welded {
+        return;
     }
-    mesh.points = points;
+    let mut welder = Welder::new();
+    let numbers: Vec<u32> =
+        std::mem::take(&mut mesh.points).into_iter().map(|point| welder.number(point)).collect();
+    for corner in &mut mesh.corners {
+        *corner = numbers[*corner as usize];
+    }
+    mesh.take_points(welder);
 }
 
 /// All runs that have polygons, with the polygons that they have.
@@ -234,23 +228,25 @@ fn cut(mesh: &PolygonMesh, runs: &[(FaceRun, Range<u32>)], clipper: &mut EarClip
     triangles
 }
 
-/// The triangles of a part by themselves; none where they have no area.
-pub fn triangle_mesh(mesh: &PolygonMesh, part: &MeshPart, up: UpAxis) -> Option<Arc<Mesh>> {
+/// The triangles of a part by themselves, which are taken out of it; none where they have no area.
+pub fn triangle_mesh(mesh: &PolygonMesh, part: &mut MeshPart, up: UpAxis) -> Option<Arc<Mesh>> {
     let place = |corner: u32| up.turned(mesh.points[corner as usize]);
-    if !part.triangles.iter().any(|triangle| has_area(triangle.iter().map(|&corner| place(corner)))) {
+    let mut triangles = std::mem::take(&mut part.triangles);
+    if !triangles.iter().any(|triangle| has_area(triangle.iter().map(|&corner| place(corner)))) {
         return None;
     }
-    let mut used: Vec<u32> = part.triangles.iter().flatten().copied().collect();
-    used.sort_unstable();
-    used.dedup();
-    let points: Vec<DVec3> = used.iter().map(|&corner| place(corner)).collect();
-    // Corners in the order of their numbers: where most are used, each is near its own number.
-    let index = |corner: u32| used.partition_point(|&other| other < corner) as u32;
-    let triangles = if used.last().is_some_and(|&last| last as usize + 1 == used.len()) {
-        part.triangles.clone()
-    } else {
-        part.triangles.iter().map(|triangle| triangle.map(index)).collect()
-    };
+    // By corner: first whether it is used, then its number among those that are, which keep their order.
+    let mut numbers = vec![0_u32; mesh.points.len()];
+    triangles.iter().flatten().for_each(|&corner| numbers[corner as usize] = 1);
+    let mut points = Vec::with_capacity(part.topology.corners);
+    for (corner, number) in numbers.iter_mut().enumerate() {
+        if *number == 1 {
+            *number = points.len() as u32;
+            points.push(place(corner as u32));
+        }
+    }
+    triangles.iter_mut().flatten().for_each(|corner| *corner = numbers[*corner as usize]);
+    triangles.shrink_to_fit();
     Some(Arc::new(Mesh { points, triangles }))
 }
 

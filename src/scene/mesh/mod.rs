@@ -19,6 +19,7 @@ mod stl;
 #[cfg(test)]
 mod tests;
 mod topology;
+mod weld;
 mod words;
 
 use super::memory::too_little;

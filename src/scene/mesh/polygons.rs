@@ -4,6 +4,7 @@ use crate::math::DVec3;
 use crate::scene::Material;
 
 use super::fault::MeshFault;
+use super::weld::Welder;
 
 /// Polygons that share corners.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,6 +15,8 @@ pub struct PolygonMesh {
     pub unit: Option<&'static str>,
     /// The corners; finite.
     pub points: Vec<DVec3>,
+    /// Whether no two of them are equal.
+    pub is_welded: bool,
     /// Indices into `points`, polygon after polygon.
     pub corners: Vec<u32>,
     /// Where each polygon's corners end in `corners`.
@@ -46,6 +49,7 @@ impl Default for PolygonMesh {
             format: "",
             unit: None,
             points: Vec::new(),
+            is_welded: false,
             corners: Vec::new(),
             ends: Vec::new(),
             runs: vec![FaceRun { first: 0, group: 0, material: 0 }],
@@ -66,6 +70,12 @@ impl PolygonMesh {
     pub fn add_point(&mut self, point: DVec3) {
         // Adding 0 makes −0 and 0 the same.
         self.points.push(point + DVec3::ZERO);
+    }
+
+    /// Takes all corners, which differ.
+    pub fn take_points(&mut self, welder: Welder) {
+        self.points = welder.into_points();
+        self.is_welded = true;
     }
 
     /// Takes a polygon.

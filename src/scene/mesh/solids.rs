@@ -49,15 +49,17 @@ pub fn solids(file: &[u8], format: Format, room: u64) -> Result<MeshSolids, NoSo
     prepare(&mut mesh).map_err(told)?;
     let mut solids = MeshSolids { parts: Vec::new(), facts: Vec::new(), notes: mesh.notes.clone() };
     let mut all_doubled = true;
-    for part in parts(&mesh) {
+    for mut part in parts(&mesh) {
         if let Some(edge) = part.topology.open_edge {
             let [from, to] = edge.map(|corner| place(mesh.points[corner as usize]));
             return Err(told(MeshFault::Open { from, to }.of_all()));
         }
         all_doubled &= part.is_doubled;
-        let found = if part.is_doubled { None } else { triangle_mesh(&mesh, &part, UpAxis::Z) };
-        if let Some(found) = found {
-            let facts = MeshFacts::of(&part.triangles, &mesh.points, &part.topology);
+        if part.is_doubled {
+            continue;
+        }
+        let facts = MeshFacts::of(&part.triangles, &mesh.points, &part.topology);
+        if let Some(found) = triangle_mesh(&mesh, &mut part, UpAxis::Z) {
             let (format, unit, name) = (mesh.format, mesh.unit, part.name.clone());
             solids.facts.push(MeshFacts { format, unit, name, mesh: Some(Arc::clone(&found)), ..facts });
             solids.parts.push(found);

@@ -4,6 +4,7 @@ use crate::math::DVec3;
 
 use super::fault::{MeshError, MeshFault};
 use super::polygons::PolygonMesh;
+use super::weld::Welder;
 use super::words::{MeshWord, MeshWords};
 
 /// Bytes before the triangles: 80 of anything, and their number.
@@ -50,28 +51,29 @@ fn read_binary(bytes: &[u8]) -> Result<PolygonMesh, MeshError> {
         return Err(MeshFault::TooShort { announced: count, room }.at_byte(HEADER - 4, "the header"));
     }
     let mut mesh = PolygonMesh::of("binary STL");
+    let mut welder = Welder::new();
     // So many are there: the count is within the file's length.
-    mesh.points.reserve_exact(3 * count as usize);
     mesh.corners.reserve_exact(3 * count as usize);
     mesh.ends.reserve_exact(count as usize);
     for (index, triangle) in triangles.chunks_exact(TRIANGLE).take(count as usize).enumerate() {
-        for corner in 0..3 {
+        let mut corners = [0; 3];
+        for (corner, number) in corners.iter_mut().enumerate() {
             let at = NORMAL + 12 * corner;
-            let number = |axis: usize| {
+            let coordinate = |axis: usize| {
                 let bytes = &triangle[at + 4 * axis..at + 4 * axis + 4];
                 f64::from(f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]))
             };
-            let point = DVec3::new(number(0), number(1), number(2));
+            let point = DVec3::new(coordinate(0), coordinate(1), coordinate(2));
             if !point.is_finite() {
                 let fault = MeshFault::NotFinite("a coordinate of a corner".to_owned());
                 let offset = HEADER + TRIANGLE * index + at;
                 return Err(fault.at_byte(offset, format!("triangle {}", index + 1)));
             }
-            mesh.add_point(point);
+            *number = welder.number(point);
         }
-        let first = 3 * index as u32;
-        mesh.add_face([first, first + 1, first + 2]).map_err(MeshFault::of_all)?;
+        mesh.add_face(corners).map_err(MeshFault::of_all)?;
     }
+    mesh.take_points(welder);
     let rest = triangles.len() - TRIANGLE * count as usize;
     if rest > 0 {
         mesh.notes.push(format!("{rest} bytes behind the last triangle are ignored"));
@@ -82,6 +84,7 @@ fn read_binary(bytes: &[u8]) -> Result<PolygonMesh, MeshError> {
 fn read_text(bytes: &[u8]) -> Result<PolygonMesh, MeshError> {
     let mut words = MeshWords::new(bytes, 0..bytes.len());
     let mut mesh = PolygonMesh { groups: Vec::new(), ..PolygonMesh::of("text STL") };
+    let mut welder = Welder::new();
     while let Some(word) = words.next() {
         keyword(word, "solid")?;
         let name = words.rest_of_line();
@@ -90,13 +93,18 @@ fn read_text(bytes: &[u8]) -> Result<PolygonMesh, MeshError> {
         if name.is_empty() {
             mesh.groups[group as usize] = None;
         }
-        read_solid(&mut words, &mut mesh)?;
+        read_solid(&mut words, &mut mesh, &mut welder)?;
     }
+    mesh.take_points(welder);
     Ok(mesh)
 }
 
 /// Reads the facets of a solid, and its end.
-fn read_solid(words: &mut MeshWords<'_>, mesh: &mut PolygonMesh) -> Result<(), MeshError> {
+fn read_solid(
+    words: &mut MeshWords<'_>,
+    mesh: &mut PolygonMesh,
+    welder: &mut Welder,
+) -> Result<(), MeshError> {
     loop {
         let word = words.expect("`facet` or `endsolid`")?;
         if word.is("endsolid") || word.is("end") {
@@ -113,16 +121,16 @@ fn read_solid(words: &mut MeshWords<'_>, mesh: &mut PolygonMesh) -> Result<(), M
         }
         keyword(words.expect("`outer`")?, "outer")?;
         keyword(words.expect("`loop`")?, "loop")?;
-        let first = u32::try_from(mesh.points.len()).map_err(|_| MeshFault::TooMany.of_all())?;
-        for _ in 0..3 {
+        let mut corners = [0; 3];
+        for corner in &mut corners {
             keyword(words.expect("`vertex`")?, "vertex")?;
             let mut number = || words.expect("a coordinate")?.number("a coordinate");
             let point = DVec3::new(number()?, number()?, number()?);
-            mesh.add_point(point);
+            *corner = welder.number(point);
         }
         keyword(words.expect("`endloop`")?, "endloop")?;
         keyword(words.expect("`endfacet`")?, "endfacet")?;
-        mesh.add_face([first, first + 1, first + 2]).map_err(MeshFault::of_all)?;
+        mesh.add_face(corners).map_err(MeshFault::of_all)?;
     }
 }
 

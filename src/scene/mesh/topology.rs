@@ -1,5 +1,7 @@
 //! How the triangles of a mesh hang together.
 
+use crate::scene::groups::Groups;
+
 /// What is told by the edges of triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Topology {
@@ -18,20 +20,21 @@ pub struct Topology {
 impl Topology {
     /// That of triangles whose corners are below `points`.
     pub fn of(triangles: &[[u32; 3]], points: usize) -> Self {
-        let mut edges: Vec<([u32; 2], bool)> = triangles
-            .iter()
-            .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]])
-            .map(|[a, b]| if a < b { ([a, b], true) } else { ([b, a], false) })
-            .collect();
-        edges.sort_unstable();
+        // Each edge by its lower corner: the other one, and whether it is passed from that, as the last bit.
+        // Corners are fewer than 2³¹: files are shorter.
+        let edges = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+        let edges = edges.map(|[a, b]| if a < b { (a, 2 * b) } else { (b, 2 * a + 1) });
         let (mut open_edges, mut open_edge, mut is_oriented) = (0, None, true);
-        for same in edges.chunk_by(|a, b| a.0 == b.0) {
-            if same.len() % 2 == 1 {
-                open_edges += 1;
-                open_edge = open_edge.or(Some(same[0].0));
+        Groups::new(points, edges).each(|lower, others| {
+            others.sort_unstable();
+            for same in others.chunk_by(|a, b| a / 2 == b / 2) {
+                if same.len() % 2 == 1 {
+                    open_edges += 1;
+                    open_edge = open_edge.or(Some([lower, same[0] / 2]));
+                }
+                is_oriented &= 2 * same.iter().filter(|&edge| edge % 2 == 1).count() == same.len();
             }
-            is_oriented &= 2 * same.iter().filter(|edge| edge.1).count() == same.len();
-        }
+        });
         let (shells, corners) = shells(triangles, points);
         Self { open_edges, open_edge, is_oriented, shells, corners }
     }

@@ -211,7 +211,7 @@ impl<S: Simd, T: Precision> CellsTest<'_, S, T> {
         memory: &mut TileMemory,
     ) -> (u64, u64) {
         let simd = self.simd;
-        if T::IS_DOUBLE {
+        if U::IS_DOUBLE {
             let asking = AskingRays { k: self.k, wanted: self.asked };
             self.fast.know_meshes(simd, expression, source.full(), asking, memory);
         }

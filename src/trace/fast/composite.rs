@@ -116,8 +116,7 @@ impl<S: Simd, T: Precision, H: HitSink<T>> CompositeTest<'_, S, T, H> {
     ) -> u64 {
         memory.counts.primitive_tests += expression.leaves.len() as u64;
         memory.counts.csg_evaluations += 1;
-        // Of rays in single precision the exact engine says what they meet of meshes.
-        if T::IS_DOUBLE {
+        if U::IS_DOUBLE {
             let asking = AskingRays { k: self.k, wanted: self.asked };
             self.fast.know_meshes(self.simd, expression, source.full(), asking, memory);
         }

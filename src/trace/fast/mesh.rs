@@ -48,8 +48,10 @@ impl Fast<'_> {
                 of.mesh.planes_of(simd, packet, found);
             },
         );
+        let here = source.departures.map_or(0, |departures| departures.here(simd, of.primitive).0);
         for lane in lanes(hits) {
-            let enters = self.enters(of, &packet.ray(lane), found.t.0[lane], mesh_start);
+            let (ray, t, leaves) = (packet.ray(lane), found.t.0[lane], here >> lane & 1 == 1);
+            let enters = self.enters(of, &ray, t, leaves, mesh_start);
             found.entering |= u64::from(enters) << lane;
         }
         offer_crossings(simd, found, of.object, sink);
@@ -159,10 +161,12 @@ impl Fast<'_> {
             #[inline(always)]
             || culler.passing(simd, &Slabs::around(simd, b.lo, b.hi, 0.0), wanted),
         );
+        // Where a ray leaves the mesh it starts in its box, even if single precision found the start beside it.
+        let here = departures.map_or(0, |departures| departures.here(simd, of.primitive).0);
         let (mut boxed, mut complete) = (0, 0);
         for lane in lanes(wanted) {
             let ray: Ray = packet.ray(lane);
-            if !b.contains(ray.o) {
+            if here >> lane & 1 == 0 && !b.contains(ray.o) {
                 continue;
             }
             boxed |= 1 << lane;
@@ -249,12 +253,19 @@ impl Fast<'_> {
         }
     }
 
-    /// Whether a ray goes into a mesh where it first crosses it, at `t`: whether it starts outside. `start`
-    /// keeps where many rays start, as those of a tile from the eye do.
-    fn enters(&self, of: &MeshObject, ray: &Ray, t: f64, start: &mut Option<KnownStart>) -> bool {
-        let slack = DVec3::splat(self.slack);
-        let b = of.mesh.bounds().padded(slack);
-        if ray.o.cmplt(b.lo).any() || ray.o.cmpgt(b.hi).any() {
+    /// Whether a ray goes into a mesh where it first crosses it, at `t`: whether it starts outside. One that
+    /// leaves the mesh may start beside its box, where single precision found the start, and go in there.
+    /// `start` keeps where many rays start, as those of a tile from the eye do.
+    fn enters(
+        &self,
+        of: &MeshObject,
+        ray: &Ray,
+        t: f64,
+        leaves: bool,
+        start: &mut Option<KnownStart>,
+    ) -> bool {
+        let b = of.mesh.bounds().padded(DVec3::splat(self.slack));
+        if !leaves && !b.contains(ray.o) {
             return true;
         }
         if let Some(known) = start

@@ -6,6 +6,8 @@ mod support {
 }
 
 mod pictures {
+    mod bytes;
     mod embedded;
     mod pcat;
+    mod read_back;
 }

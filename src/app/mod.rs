@@ -8,10 +8,10 @@
 //! program does nothing and sends nothing.
 
 mod around;
+mod buffer;
 mod caption;
 mod charset;
 mod colors;
-mod encoder;
 mod error;
 mod events;
 mod fence;
@@ -54,7 +54,6 @@ use ratatui::crossterm::style::force_color_output;
 use crate::output::Capabilities;
 use crate::stage::Progress;
 
-pub(crate) use encoder::Encoder;
 pub use error::AppError;
 use events::{Event, Inbox};
 use identity::Identity;

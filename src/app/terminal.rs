@@ -18,14 +18,13 @@ use ratatui::crossterm::terminal::{
 };
 use ratatui::layout::{Rect, Size};
 
-use super::encoder::Encoder;
 use super::events::{Event, Inbox};
 use super::fence::{self, Fence};
 #[cfg(unix)]
 use super::input;
 use super::input::Answer;
 use super::model::Window;
-use crate::output::Capabilities;
+use crate::output::{Capabilities, Encoder};
 
 /// Asks a terminal to say that it has come this far (DSR 5, ECMA-48): every terminal since the VT100 answers.
 /// Where there is no Unix terminal to read, nothing is asked: what we read there has keys only, and takes an

@@ -10,8 +10,8 @@ use super::cursor::Hop;
 use super::screen::{Spelling, Symbol};
 use super::sgr::Pen;
 
-/// Ways that are kept. Those after one spelling of a cell, with what is free taken from the pen before or from
-/// one that comes, are fewer nearly always; more would cost time that no frame is worth.
+/// Ways that are kept. Those after one spelling of a cell, with what is free taken from the pen before or
+/// from one that comes, are fewer nearly always; more would cost time that no frame is worth.
 const MOST: usize = 16;
 
 /// A way so far.

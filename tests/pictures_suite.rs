@@ -3,6 +3,7 @@
 mod support {
     pub mod request;
     pub mod scenery;
+    pub mod seen;
 }
 
 mod pictures {

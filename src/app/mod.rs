@@ -239,6 +239,7 @@ fn look_ahead(terminal: &mut Terminal, inbox: &mut Inbox, settings: &mut Setting
         answers = replies.answers;
     }
     settings.take_in(&answers);
+    pacing.set_ceiling(settings.bytes_per_second);
     pacing.set_relayed(Identity::of(&answers, &name) == Identity::Relay);
     Ok(pacing)
 }

@@ -6,7 +6,6 @@ mod cells;
 mod cursor;
 mod encoder;
 mod levels;
-
 mod pictures;
 mod route;
 mod screen;

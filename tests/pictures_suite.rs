@@ -3,9 +3,12 @@
 mod support {
     pub mod request;
     pub mod scenery;
+    pub mod seen;
 }
 
 mod pictures {
+    mod bytes;
     mod embedded;
     mod pcat;
+    mod read_back;
 }

@@ -1,6 +1,10 @@
 //! The viewer in a real terminal: it draws, moves, follows the size, and gives the terminal back.
 #![cfg(all(unix, feature = "app"))]
 
+mod support {
+    pub mod seen;
+}
+
 mod viewer {
     mod embedded;
     mod link;
@@ -15,6 +19,7 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 use std::{fs, thread};
 
+use support::seen::Seen;
 use viewer::pty::{Pty, Size};
 
 /// The smallest screen with every panel.
@@ -47,7 +52,7 @@ trait Reading {
     fn drawn(&self) -> bool;
     fn eye(&self) -> String;
     fn rays(&self) -> String;
-    fn picture(&self) -> String;
+    fn picture(&self) -> Vec<Seen>;
 }
 
 impl Reading for Pty {
@@ -61,7 +66,7 @@ impl Reading for Pty {
             && self.row(0).contains(" RAY13 ")
             && self.row(rows - 1).contains("1Help")
             && self.row(rows - 3).contains(" fps ")
-            && self.picture().chars().filter(|c| !c.is_whitespace()).count() > 20
+            && self.picture().windows(2).filter(|pair| pair[0] != pair[1]).count() > 20
     }
 
     fn eye(&self) -> String {
@@ -79,12 +84,12 @@ impl Reading for Pty {
         rays(&(0..self.size().rows).map(|row| self.row(row)).collect::<Vec<_>>())
     }
 
-    /// What stands inside the panel of the picture, right of its left border.
-    fn picture(&self) -> String {
+    /// What is seen inside the panel of the picture, right of its left border.
+    fn picture(&self) -> Vec<Seen> {
         let left = self.row(1).chars().position(|c| c == '┐').unwrap_or_default() + 2;
-        let inside =
-            |row| self.row(row).chars().skip(left).take_while(|&c| c != '│').collect::<String>() + "\n";
-        (2..self.size().rows - 4).map(inside).collect()
+        let Size { columns, rows } = self.size();
+        let columns = |row| (left as u16..columns).take_while(move |&column| self.symbol(column, row) != "│");
+        (2..rows - 4).flat_map(|row| columns(row).map(move |column| self.seen(column, row))).collect()
     }
 }
 
@@ -160,6 +165,20 @@ fn a_key_without_a_meaning_sends_nothing() {
     // The first bytes after the picture already give the terminal back.
     let after = String::from_utf8_lossy(&pty.log()[before..]).into_owned();
     assert!(after.starts_with("\x1b[?2026l\x1b[0m\x1b[?25h\x1b[?1049l"), "{after:?}");
+}
+
+/// Something else may have written over the screen.
+#[test]
+fn control_l_sends_the_whole_screen_again() {
+    let mut pty = viewer(SMALLEST);
+    pty.wait_for("the end of the picture", |pty| pty.log().ends_with(STATUS_REQUEST));
+    let (before, text) = (pty.log().len(), pty.text());
+    pty.send("\x0c");
+    pty.wait_for("the screen again", |pty| {
+        pty.log().len() > before && pty.log().ends_with(STATUS_REQUEST) && pty.text() == text
+    });
+    let sent = String::from_utf8_lossy(&pty.log()[before..]).into_owned();
+    assert!(sent.starts_with("\x1b[?2026h\x1b[m\x1b[2J") && sent.contains("RAY13"), "{sent:?}");
 }
 
 #[test]

@@ -53,6 +53,8 @@ pub enum Action {
     Help,
     /// Closes what is open over the picture.
     Close,
+    /// Sends the whole screen again.
+    Redraw,
     /// Gives the terminal back to the shell for a while.
     Suspend,
     /// The end.
@@ -157,6 +159,7 @@ pub const KEYMAP: &[Line] = &[
         keys: &[(key(KeyCode::F(1)), Action::Help), (char('?'), Action::Help)],
     },
     Line { does: "close what is open", label: None, keys: &[(key(KeyCode::Esc), Action::Close)] },
+    Line { does: "send the whole screen again", label: None, keys: &[(control('l'), Action::Redraw)] },
     Line { does: "suspend", label: None, keys: &[(control('z'), Action::Suspend)] },
     Line {
         does: "quit",

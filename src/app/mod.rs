@@ -8,10 +8,10 @@
 //! program does nothing and sends nothing.
 
 mod around;
+mod buffer;
 mod caption;
 mod charset;
 mod colors;
-mod encoder;
 mod error;
 mod events;
 mod fence;
@@ -54,7 +54,6 @@ use ratatui::crossterm::style::force_color_output;
 use crate::output::Capabilities;
 use crate::stage::Progress;
 
-pub(crate) use encoder::Encoder;
 pub use error::AppError;
 use events::{Event, Inbox};
 use identity::Identity;
@@ -240,6 +239,7 @@ fn look_ahead(terminal: &mut Terminal, inbox: &mut Inbox, settings: &mut Setting
         answers = replies.answers;
     }
     settings.take_in(&answers);
+    pacing.set_ceiling(settings.bytes_per_second);
     pacing.set_relayed(Identity::of(&answers, &name) == Identity::Relay);
     Ok(pacing)
 }

@@ -55,6 +55,8 @@ pub struct Subject {
 pub enum Effect {
     /// Nothing beyond the model.
     None,
+    /// Send the whole screen again.
+    Redraw,
     /// Stop until the shell continues us.
     Suspend,
     /// End.
@@ -189,6 +191,7 @@ impl Model {
             Action::Help => self.help = true,
             // The keys have been closed above.
             Action::Close => self.following = None,
+            Action::Redraw => return Effect::Redraw,
             Action::Suspend => return Effect::Suspend,
             Action::Quit => return Effect::Quit,
         }

@@ -39,12 +39,27 @@ pub struct Pacing {
     shortest: Option<Duration>,
     /// The last one.
     latest: Option<Duration>,
+    /// Bytes a second that may be sent, where there is a limit.
+    ceiling: Option<f64>,
+    /// When the limit lets the next update pass.
+    paid: Option<Instant>,
 }
 
 impl Pacing {
     /// Says whether something before the terminal answers for it.
     pub fn set_relayed(&mut self, relayed: bool) {
         self.relayed = relayed;
+    }
+
+    /// Limits what is sent to so many bytes a second, above 0, on average: an update may be larger, and the
+    /// next one waits for it.
+    pub fn set_ceiling(&mut self, bytes_per_second: Option<f64>) {
+        self.ceiling = bytes_per_second;
+    }
+
+    /// How long the last update took to the terminal and its answer back.
+    pub fn round_trip(&self) -> Option<Duration> {
+        self.latest.or(self.shortest)
     }
 
     /// Whether an update may be begun.
@@ -62,7 +77,7 @@ impl Pacing {
             _ if self.relayed => RELAYED,
             _ => Duration::ZERO,
         };
-        answered.max(self.begun.map(|begun| begun + interval))
+        answered.max(self.begun.map(|begun| begun + interval)).max(self.paid)
     }
 
     /// Notes that an update is begun.
@@ -80,8 +95,13 @@ impl Pacing {
         }
     }
 
-    /// Notes that an update was sent, with a status request behind it.
-    pub fn sent(&mut self, now: Instant) {
+    /// Notes that an update of so many bytes was sent, with a status request behind it.
+    pub fn sent(&mut self, now: Instant, bytes: usize) {
+        if let Some(ceiling) = self.ceiling {
+            // Longer than a day is never waited: the clock has an end.
+            let takes = Duration::from_secs_f64((bytes as f64 / ceiling).min(86_400.0));
+            self.paid = Some(self.paid.map_or(now, |paid| paid.max(now)) + takes);
+        }
         if self.answers != Some(false) {
             self.unanswered.push_back(now);
         }
@@ -137,6 +157,9 @@ impl Pacing {
 mod tests {
     use super::*;
 
+    /// The bytes of a picture.
+    const PICTURE: usize = 2_500;
+
     /// A link that takes `way` to and fro and `each` for the bytes of a picture; how many are shown in ten
     /// seconds if there is always a new one, and how old the oldest is when it is shown.
     fn run(mut pacing: Pacing, way: u64, each: u64, answers: bool) -> (usize, u64) {
@@ -153,7 +176,7 @@ mod tests {
                 free = free.max(ms) + each;
                 oldest = oldest.max(free + way / 2 - ms);
                 shown += usize::from(free + way / 2 < 10_000);
-                pacing.sent(at(ms));
+                pacing.sent(at(ms), PICTURE);
                 if answers {
                     on_their_way.push_back(free + way);
                 }
@@ -183,6 +206,19 @@ mod tests {
     }
 
     #[test]
+    fn a_ceiling_of_bytes_is_kept() {
+        let mut pacing = asked(1);
+        pacing.set_ceiling(Some(10_000.0));
+        assert_eq!(run(pacing, 1, 1, true).0, 40);
+        let mut first = asked(1);
+        first.set_ceiling(Some(1_000.0));
+        let now = Instant::now();
+        first.sent(now, 5_000);
+        first.answered(now);
+        assert_eq!(first.opens(), Some(now + Duration::from_secs(5)));
+    }
+
+    #[test]
     fn a_near_terminal_is_never_waited_for_long() {
         assert!(run(asked(1), 1, 1, true).0 >= 3_000);
     }
@@ -205,14 +241,14 @@ mod tests {
         let begin = Instant::now();
         let at = |ms: u64| begin + Duration::from_millis(ms);
         let mut pacing = asked(300);
-        pacing.sent(begin);
+        pacing.sent(begin, PICTURE);
         pacing.answered(at(310));
-        pacing.sent(begin);
-        pacing.sent(begin);
+        pacing.sent(begin, PICTURE);
+        pacing.sent(begin, PICTURE);
         assert!(!pacing.is_open(at(4_999)));
         assert_eq!(pacing.opens(), Some(at(5_000)));
         assert!(pacing.is_open(at(5_000)));
-        pacing.sent(at(5_000));
+        pacing.sent(at(5_000), PICTURE);
         pacing.answered(at(5_001));
         assert_eq!(pacing.latest, Some(Duration::from_millis(310)));
     }
@@ -222,7 +258,7 @@ mod tests {
         let begin = Instant::now();
         let at = |ms: u64| begin + Duration::from_millis(ms);
         let mut pacing = Pacing::default();
-        pacing.sent(begin);
+        pacing.sent(begin, PICTURE);
         assert!(pacing.is_open(at(1_000)));
         pacing.begin(at(1_000));
         assert!(!pacing.is_open(at(1_050)) && pacing.is_open(at(1_100)));
@@ -235,7 +271,7 @@ mod tests {
     fn nothing_on_its_way_is_not_waited_for() {
         let mut pacing = asked(300);
         assert_eq!(pacing.opens(), None);
-        pacing.sent(Instant::now());
+        pacing.sent(Instant::now(), PICTURE);
         pacing.forget();
         assert_eq!(pacing.opens(), None);
     }

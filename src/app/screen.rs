@@ -211,7 +211,8 @@ mod tests {
             total: Duration::from_millis(5),
             ..Frame::blank(math::Size::new(0, 0), cells)
         };
-        Shown { frame, rays: Some(RaysTold::default()), bytes: 1_946, display: Duration::from_micros(200) }
+        let rays = Some(RaysTold::default());
+        Shown { frame, rays, bytes: 1_946, display: Duration::from_micros(200), round_trip: None }
     }
 
     fn drawn(model: &Model, shown: Option<&Shown>) -> Buffer {
@@ -308,8 +309,7 @@ mod tests {
                 (model.settings.glyphs, model.settings.palette) = (glyphs, palette);
                 model.settings.ground = Ground::Light;
                 let frame = studio.draw(&model.request().unwrap());
-                let buffer =
-                    drawn(&model, Some(&Shown { frame, rays: None, bytes: 0, display: Duration::ZERO }));
+                let buffer = drawn(&model, Some(&Shown { frame, rays: None, bytes: 0, ..shown(&model) }));
                 let symbol = buffer[model.layout.picture.as_position()].symbol();
                 assert_eq!(symbol.replace('\u{2800}', " "), dark, "{glyphs:?} {palette:?}");
             }

@@ -22,6 +22,8 @@ pub struct Settings {
     /// The time of a picture while the eye moves: where one ray a dot takes longer, there are fewer and
     /// larger dots until nothing moves. Absent where pictures take what they take.
     pub frame_time: Option<Duration>,
+    /// Bytes a second that are sent at most, on average, above 0; absent where there is no limit.
+    pub bytes_per_second: Option<f64>,
     /// Whether, where `options` have one ray a dot, the picture is anti-aliased when nothing moves: with as
     /// many rays as each dot needs for [`ERROR`](crate::plan::ERROR).
     pub adaptive_at_rest: bool,

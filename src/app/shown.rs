@@ -16,6 +16,8 @@ pub struct Shown {
     pub bytes: usize,
     /// The time it took to draw the screen and turn it into these bytes.
     pub display: Duration,
+    /// From the last update before it to the terminal's answer; absent where none has come.
+    pub round_trip: Option<Duration>,
 }
 
 impl Shown {

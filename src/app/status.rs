@@ -24,9 +24,15 @@ pub fn line(model: &Model, shown: Option<&Shown>, columns: u16) -> String {
         parts.extend([milliseconds(ms), rate(ms), figures::bytes(shown.bytes) + "/f"]);
     }
     let wide = format!(" {}", parts.join("  "));
+    let fits = |line: &String| line.chars().count() <= columns.into();
+    let way = shown.and_then(|shown| shown.round_trip).map(|way| {
+        let ms = milliseconds(way.as_secs_f64() * 1e3);
+        format!("{wide}  LINK {ms}")
+    });
+    let wide = way.filter(fits).unwrap_or(wide);
     let rays = shown.and_then(|shown| shown.rays).map(|rays| format!("{wide}  RAYS {rays}"));
     // The panel of the flow chart says that too.
-    if let Some(all) = rays.filter(|all| all.chars().count() <= columns.into()) {
+    if let Some(all) = rays.filter(fits) {
         return all;
     }
     // Long coordinates take the room from between the figures first.

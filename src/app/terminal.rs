@@ -18,14 +18,13 @@ use ratatui::crossterm::terminal::{
 };
 use ratatui::layout::{Rect, Size};
 
-use super::encoder::Encoder;
 use super::events::{Event, Inbox};
 use super::fence::{self, Fence};
 #[cfg(unix)]
 use super::input;
 use super::input::Answer;
 use super::model::Window;
-use crate::output::Capabilities;
+use crate::output::{Capabilities, Encoder};
 
 /// Asks a terminal to say that it has come this far (DSR 5, ECMA-48): every terminal since the VT100 answers.
 /// Where there is no Unix terminal to read, nothing is asked: what we read there has keys only, and takes an
@@ -171,16 +170,17 @@ impl Terminal {
     }
 
     /// Sends what is queued, in one write, for the terminal to show at once, and a status request behind it.
-    /// Nothing queued, nothing sent; gives whether anything was.
-    pub fn send(&mut self) -> io::Result<bool> {
+    /// Nothing queued, nothing sent; gives how many bytes were.
+    pub fn send(&mut self) -> io::Result<usize> {
         let update = self.encoder.take();
         if update.is_empty() {
-            return Ok(false);
+            return Ok(0);
         }
         let mut bytes = commands(&[&BeginSynchronizedUpdate]);
         bytes.extend(update.as_bytes());
         bytes.extend(commands(&[&EndSynchronizedUpdate]));
-        Ok(self.hold.ask(&bytes)?.is_some())
+        let is_sent = self.hold.ask(&bytes)?.is_some();
+        Ok(if is_sent { bytes.len() + STATUS_REQUEST.len() } else { 0 })
     }
 }
 

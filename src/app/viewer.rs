@@ -124,6 +124,8 @@ impl<'a> Viewer<'a> {
         match event {
             Event::Key(key) => match self.model.update(&*self.painter, keys::action(key)) {
                 Effect::None => {}
+                // Something else may have written over it.
+                Effect::Redraw => self.terminal.forget(),
                 Effect::Suspend => suspend(self.terminal)?,
                 Effect::Quit => return Ok(Some(SessionEnd::Quit)),
             },
@@ -209,7 +211,8 @@ impl<'a> Viewer<'a> {
         self.subject = self.next_subject.take().unwrap_or_else(|| self.model.subject());
         let before = self.shown.as_ref().map_or((0, Duration::ZERO), |shown| (shown.bytes, shown.display));
         let rays = self.drawing.refinement.finished(&frame);
-        let mut shown = Shown { frame, rays, bytes: before.0, display: before.1 };
+        let round_trip = self.pacing.round_trip();
+        let mut shown = Shown { frame, rays, bytes: before.0, display: before.1, round_trip };
         shown.bytes = self.terminal.queue(self.screen(Some(&shown)));
         shown.display = begun.elapsed();
         self.terminal.queue(self.screen(Some(&shown)));
@@ -218,11 +221,11 @@ impl<'a> Viewer<'a> {
 
     /// Sends what is queued; gives whether anything was.
     fn send(&mut self, now: Instant) -> Result<bool, AppError> {
-        let sent = self.terminal.send()?;
-        if sent {
-            self.pacing.sent(now);
+        let bytes = self.terminal.send()?;
+        if bytes > 0 {
+            self.pacing.sent(now, bytes);
         }
-        Ok(sent)
+        Ok(bytes > 0)
     }
 
     fn screen(&self, shown: Option<&Shown>) -> Buffer {

@@ -46,6 +46,10 @@ pub struct ViewerArguments {
     /// moves; 0 for no limit [default: 20]
     #[arg(long, value_name = "N", value_parser = values::not_negative, allow_hyphen_values = true)]
     pub fps: Option<f64>,
+    /// Bytes a second that are sent to the terminal at most, on average: pictures come less often for it
+    /// [default: as many as the terminal takes]
+    #[arg(long, value_name = "N", value_parser = values::positive, allow_hyphen_values = true)]
+    pub bytes_per_second: Option<f64>,
 }
 
 #[derive(Debug, Subcommand)]

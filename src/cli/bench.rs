@@ -2,16 +2,12 @@
 
 use std::time::Instant;
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
-use ratatui::widgets::Widget;
 use serde_json::{Value, json};
 
-use crate::app::Encoder;
-use crate::frame::{Frame, Request, Studio, Wants};
+use crate::frame::{Request, Studio, Wants};
 use crate::math::DVec3;
+use crate::output::Encoder;
 use crate::trade::{Effort, Timing, peak_memory};
-use crate::widget::PictureWidget;
 
 use super::arguments::BenchArguments;
 use super::error::CliError;
@@ -61,9 +57,13 @@ struct Sent {
 
 impl Sent {
     fn new(studio: &Studio, request: &Request) -> Self {
-        let [shown, next] = [request, &turned(request)].map(|request| screen(&studio.draw(request)));
-        let blank = Buffer::empty(shown.area);
-        Self { first: bytes_between(&blank, &shown), next: bytes_between(&shown, &next) }
+        let [shown, next] = [request, &turned(request)].map(|request| studio.draw(request).cells);
+        let (Some(shown), Some(next)) = (shown, next) else { return Self { first: 0, next: 0 } };
+        let mut encoder = Encoder::default();
+        encoder.draw(&*shown);
+        let first = encoder.take().len();
+        encoder.turn(&*shown, &*next);
+        Self { first, next: encoder.len() }
     }
 }
 
@@ -78,22 +78,4 @@ fn turned(request: &Request) -> Request {
     let turned = sight * cos + axis.cross(sight) * sin + axis * axis.dot(sight) * (1.0 - cos);
     camera.eye = camera.target + turned;
     request
-}
-
-/// The picture as the screen holds it.
-fn screen(frame: &Frame) -> Buffer {
-    let Some(cells) = &frame.cells else { return Buffer::default() };
-    let size = cells.size();
-    // ratatui counts columns in 16 bits; so does every terminal.
-    let side = |n: u32| u16::try_from(n).unwrap_or(u16::MAX);
-    let mut buffer = Buffer::empty(Rect::new(0, 0, side(size.width), side(size.height)));
-    PictureWidget(cells).render(buffer.area, &mut buffer);
-    buffer
-}
-
-/// What a terminal is sent to turn one screen into the other.
-fn bytes_between(before: &Buffer, after: &Buffer) -> usize {
-    let mut encoder = Encoder::default();
-    encoder.turn(before, after);
-    encoder.len()
 }

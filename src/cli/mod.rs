@@ -102,6 +102,9 @@ fn view(arguments: &ViewerArguments) -> Result<(), CliError> {
         if arguments.fps.is_some() {
             tell("--fps has no effect: a still does not move");
         }
+        if arguments.bytes_per_second.is_some() {
+            tell("--bytes-per-second has no effect: a still is sent once");
+        }
         render::still(file, &arguments.reading, picture)
     };
     let Some(terminal) = terminal::of_output() else { return still() };
@@ -200,6 +203,7 @@ fn load(
         camera: picture.moves_camera().then(|| picture.camera(&studio, 1.6)).transpose()?,
         options: picture.options()?,
         frame_time: frame_time(arguments.fps.unwrap_or(FPS)),
+        bytes_per_second: arguments.bytes_per_second,
         adaptive_at_rest: picture.says_nothing_of_rays(),
         glyphs: picture.look(Some(opening.terminal)).glyphs,
         palette: opening.palette,

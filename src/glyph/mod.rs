@@ -20,7 +20,7 @@ pub use choice::{CELL_ASPECT, GlyphMode, Ground, Palette};
 pub use compose::{compose, compose_color, compose_dots};
 pub use grays::FourGrays;
 pub use paint::{ColorDepth, Paint};
-pub use shape::{Coverage, coverage};
+pub use shape::{Coverage, complement_of, coverage};
 
 #[cfg(test)]
 mod range_tests;

@@ -80,6 +80,14 @@ pub fn complement(shape: GlyphShape) -> Option<GlyphShape> {
     BLOCKS.iter().find(|other| other.mask == !shape.mask).copied()
 }
 
+/// The block shape that shows the same as this one with ink and paper in each other's place, where there is
+/// one.
+#[inline]
+pub fn complement_of(glyph: char) -> Option<char> {
+    let shape = BLOCKS.iter().find(|shape| shape.glyph == glyph)?;
+    complement(*shape).map(|other| other.glyph)
+}
+
 /// The shape, blank or full block that has ink in these dots, where there is one.
 pub fn block_of(mask: u8) -> Option<char> {
     match mask {

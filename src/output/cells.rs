@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::sgr::Pen;
+use super::encoder::Encoder;
 use crate::glyph::Cell;
 use crate::math::Grid;
 
@@ -20,21 +20,14 @@ pub fn text(cells: &Grid<Cell>, out: &mut impl Write) -> io::Result<()> {
 }
 
 /// The cells with SGR sequences: those of 16-colour terminals for the attributes (ECMA-48, and the bright
-/// colours of aixterm), those of xterm for colours by number, one line per row. Only the colour that changes
-/// is sent, and none for the ink of a blank. Each line ends in the terminal's own colours, so that nothing
-/// beyond the picture is painted.
+/// colours of aixterm), those of xterm for colours by number, one line per row, in as few bytes as the
+/// [`Encoder`] finds. Each line ends in the terminal's own colours, so that nothing beyond the picture is
+/// painted.
 pub fn ansi(cells: &Grid<Cell>, out: &mut impl Write) -> io::Result<()> {
-    let mut line = String::new();
-    for row in cells.rows() {
-        line.clear();
-        let mut now = Pen::TERMINAL;
-        for cell in row {
-            let meant = Pen::new(cell.ink.into(), cell.paper.into());
-            let next = if cell.glyph == ' ' { now.for_blank(meant) } else { meant };
-            now.change_to(next, &mut line);
-            line.push(cell.glyph);
-        }
-        now.change_to(Pen::TERMINAL, &mut line);
+    let mut encoder = Encoder::default();
+    for y in 0..cells.size().height {
+        encoder.row(cells, y);
+        let mut line = encoder.take();
         line.push('\n');
         out.write_all(line.as_bytes())?;
     }
@@ -46,20 +39,6 @@ mod tests {
     use super::*;
     use crate::glyph::Paint;
     use crate::math::Size;
-    use proptest::prelude::*;
-    use std::num::NonZeroU16;
-
-    const PAINTS: [Paint; 9] = [
-        Paint::Terminal,
-        Paint::Black,
-        Paint::DarkGray,
-        Paint::LightGray,
-        Paint::White,
-        Paint::Indexed(16),
-        Paint::Indexed(255),
-        Paint::Rgb([0, 128, 255]),
-        Paint::Rgb([42; 3]),
-    ];
 
     fn row(cells: &[(char, Paint, Paint)]) -> Grid<Cell> {
         let cells: Vec<Cell> = cells.iter().map(|&(glyph, ink, paper)| Cell { glyph, ink, paper }).collect();
@@ -103,60 +82,5 @@ mod tests {
         let mut out = Vec::new();
         text(&cells, &mut out).expect("a vector takes every byte");
         assert_eq!(out, b"a \n");
-    }
-
-    /// What a terminal holds for a paint.
-    fn seen(paint: Paint) -> vt100::Color {
-        match paint {
-            Paint::Terminal => vt100::Color::Default,
-            Paint::Black => vt100::Color::Idx(0),
-            Paint::DarkGray => vt100::Color::Idx(8),
-            Paint::LightGray => vt100::Color::Idx(7),
-            Paint::White => vt100::Color::Idx(15),
-            Paint::Indexed(index) => vt100::Color::Idx(index),
-            Paint::Rgb([r, g, b]) => vt100::Color::Rgb(r, g, b),
-        }
-    }
-
-    fn any_cell() -> impl Strategy<Value = Cell> {
-        let glyphs = prop::sample::select(" ░▒▓█▀▄▌▐▘▝▖▗▙▟▛▜▚▞▂▆.-,:;*=xo$#@⠁⢈⣿".chars().collect::<Vec<_>>());
-        let paint = prop::sample::select(PAINTS.to_vec());
-        (glyphs, paint.clone(), paint).prop_map(|(glyph, ink, paper)| Cell { glyph, ink, paper })
-    }
-
-    fn any_grid() -> impl Strategy<Value = Grid<Cell>> {
-        (1_u32..12, 1_u32..8).prop_flat_map(|(width, height)| {
-            let size = Size::new(width, height);
-            prop::collection::vec(any_cell(), size.area())
-                .prop_map(move |cells| Grid::from_values(size, cells))
-        })
-    }
-
-    proptest! {
-        #[test]
-        fn a_terminal_shows_the_cells_that_were_meant(cells in any_grid()) {
-            // One column and row more than the picture, to see that nothing beyond it is painted.
-            let Size { width, height } = cells.size();
-            let [rows, columns] = [height, width].map(|n| NonZeroU16::new(n as u16 + 1).expect("not 0"));
-            let mut terminal = vt100::Parser::new(rows, columns, 0);
-            terminal.process(written(&cells).replace('\n', "\r\n").as_bytes());
-            for y in 0..=height {
-                for x in 0..=width {
-                    let place = (y as u16, x as u16);
-                    let shown = terminal.screen().cell(place.0, place.1).expect("on the screen");
-                    if x == width || y == height {
-                        prop_assert!(!shown.has_contents());
-                        prop_assert_eq!(shown.bgcolor(), vt100::Color::Default);
-                        continue;
-                    }
-                    let meant = cells[(x, y)];
-                    prop_assert_eq!(shown.contents(), meant.glyph.to_string());
-                    prop_assert_eq!(shown.bgcolor(), seen(meant.paper));
-                    if meant.glyph != ' ' {
-                        prop_assert_eq!(shown.fgcolor(), seen(meant.ink));
-                    }
-                }
-            }
-        }
     }
 }

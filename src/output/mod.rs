@@ -3,15 +3,21 @@
 //! writer's own, and a PNG of no dots.
 
 mod cells;
+mod cursor;
+mod encoder;
 mod levels;
 mod pictures;
+mod route;
+mod screen;
 mod sgr;
 mod terminal;
 mod terminfo;
 
 pub use cells::{ansi, text};
+pub use encoder::Encoder;
 pub use levels::{LevelsError, levels, read_levels};
 pub use pictures::{Pixels, grays_of_levels, grays_of_light, pfm_gray, pfm_vectors, pgm, png, ppm};
+pub use screen::{Screen, ScreenCell, Symbol};
 pub use sgr::{Color, Pen};
 pub use terminal::{Capabilities, Colors, Environment, is_known};
 pub use terminfo::Description;

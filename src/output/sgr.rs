@@ -18,6 +18,13 @@ pub enum Color {
     Rgb([u8; 3]),
 }
 
+impl Color {
+    /// Whether it is an attribute that some terminals have as ink only.
+    pub const fn is_bright(self) -> bool {
+        matches!(self, Self::Attribute(8..))
+    }
+}
+
 impl From<Paint> for Color {
     fn from(paint: Paint) -> Self {
         match paint {
@@ -70,76 +77,115 @@ impl Pen {
 
     /// Changes the pen to `next`, and appends the shortest sequence that says so.
     pub fn change_to(&mut self, next: Self, line: &mut String) {
-        if *self != next {
-            let from = line.len();
-            line.push_str("\x1b[");
-            self.put_changes(next, line);
-            let begin = line.len();
-            // 0 is all that the terminal has by itself, and may be left out alone.
-            if next != Self::TERMINAL {
-                line.push('0');
-                Self::TERMINAL.put_changes_after(next, line);
-            }
-            let (changes, anew) = (begin - from - 2, line.len() - begin);
-            if anew < changes {
-                line.replace_range(from + 2..begin, "");
-            } else {
-                line.truncate(begin);
-            }
-            line.push('m');
+        if let Some(parameters) = self.parameters(next) {
+            parameters.put(line);
         }
         *self = next;
     }
 
-    /// Appends the parameters that change this pen to `next`.
-    fn put_changes(self, next: Self, line: &mut String) {
-        let begin = line.len();
-        self.put_changes_after(next, line);
-        // All but the first are parted from the one before.
-        if line.len() > begin {
-            line.remove(begin);
-        }
+    /// How many bytes [`Pen::change_to`] appends.
+    #[inline]
+    pub fn distance(self, next: Self) -> u32 {
+        self.parameters(next).map_or(0, |parameters| parameters.bytes())
     }
 
-    /// The same after other parameters.
-    fn put_changes_after(self, next: Self, line: &mut String) {
+    /// What changes this pen to `next`: what differs, or all of it after a 0, whichever is shorter; absent
+    /// where nothing differs.
+    fn parameters(self, next: Self) -> Option<Parameters> {
+        if self == next {
+            return None;
+        }
+        let mut changes = Parameters::default();
+        self.changes(next, &mut changes);
+        let mut anew = Parameters::default();
+        // 0 is all that the terminal has by itself, and may be left out alone.
+        if next != Self::TERMINAL {
+            anew.push(0);
+            Self::TERMINAL.changes(next, &mut anew);
+        }
+        Some(if anew.bytes() < changes.bytes() { anew } else { changes })
+    }
+
+    fn changes(self, next: Self, into: &mut Parameters) {
         let (mut bold, mut dim) = (self.bold, self.dim);
         if (bold && !next.bold) || (dim && !next.dim) {
             // One parameter takes back both.
-            line.push_str(";22");
+            into.push(22);
             (bold, dim) = (false, false);
         }
         if next.bold && !bold {
-            line.push_str(";1");
+            into.push(1);
         }
         if next.dim && !dim {
-            line.push_str(";2");
+            into.push(2);
         }
         if next.reversed != self.reversed {
-            line.push_str(if next.reversed { ";7" } else { ";27" });
+            into.push(if next.reversed { 7 } else { 27 });
         }
         if next.ink != self.ink {
-            put_color(next.ink, 0, line);
+            into.push_color(next.ink, 0);
         }
         if next.paper != self.paper {
             // What a paper has in place of an ink's 30 to 39 and 90 to 97.
-            put_color(next.paper, 10, line);
+            into.push_color(next.paper, 10);
         }
     }
 }
 
-/// Appends the parameters of a colour: 30 + attribute, 90 + attribute for a bright one (aixterm), 39 for the
-/// terminal's own; 38;5 and a number, or 38;2 and three bytes (with semicolons as xterm had them first, which
-/// every terminal reads).
-fn put_color(color: Color, add: u8, line: &mut String) {
-    // A string takes every character.
-    let _ = match color {
-        Color::Terminal => write!(line, ";{}", 39 + add),
-        Color::Attribute(attribute @ 0..8) => write!(line, ";{}", 30 + add + attribute),
-        Color::Attribute(attribute) => write!(line, ";{}", 90 + add + attribute % 8),
-        Color::Indexed(index) => write!(line, ";{};5;{index}", 38 + add),
-        Color::Rgb([r, g, b]) => write!(line, ";{};2;{r};{g};{b}", 38 + add),
-    };
+/// The numbers of one SGR sequence.
+#[derive(Clone, Copy, Debug, Default)]
+struct Parameters {
+    /// At most one that takes back or resets, two that set, one that reverses, and five for each color.
+    numbers: [u8; 14],
+    count: usize,
+    /// The digits of all of them.
+    digits: u32,
+}
+
+impl Parameters {
+    #[inline]
+    fn push(&mut self, number: u8) {
+        self.numbers[self.count] = number;
+        self.count += 1;
+        self.digits += 1 + u32::from(number >= 10) + u32::from(number >= 100);
+    }
+
+    fn push_all<const N: usize>(&mut self, numbers: [u8; N]) {
+        for number in numbers {
+            self.push(number);
+        }
+    }
+
+    /// Pushes those of a colour: 30 + attribute, 90 + attribute for a bright one (aixterm), 39 for the
+    /// terminal's own; 38;5 and a number, or 38;2 and three bytes (with semicolons as xterm had them first,
+    /// which every terminal reads).
+    fn push_color(&mut self, color: Color, add: u8) {
+        match color {
+            Color::Terminal => self.push(39 + add),
+            Color::Attribute(attribute @ 0..8) => self.push(30 + add + attribute),
+            Color::Attribute(attribute) => self.push(90 + add + attribute % 8),
+            Color::Indexed(index) => self.push_all([38 + add, 5, index]),
+            Color::Rgb([r, g, b]) => self.push_all([38 + add, 2, r, g, b]),
+        }
+    }
+
+    /// Of the whole sequence: ESC, `[`, the numbers with what parts them, `m`.
+    #[inline]
+    fn bytes(&self) -> u32 {
+        3 + self.digits + (self.count as u32).saturating_sub(1)
+    }
+
+    fn put(&self, line: &mut String) {
+        line.push_str("\x1b[");
+        for (place, number) in self.numbers[..self.count].iter().enumerate() {
+            if place > 0 {
+                line.push(';');
+            }
+            // A string takes every character.
+            let _ = write!(line, "{number}");
+        }
+        line.push('m');
+    }
 }
 
 #[cfg(test)]
@@ -148,7 +194,9 @@ mod tests {
 
     fn change(mut from: Pen, to: Pen) -> String {
         let mut line = String::new();
+        let told = from.distance(to);
         from.change_to(to, &mut line);
+        assert_eq!(line.len(), told as usize);
         line
     }
 

@@ -171,6 +171,23 @@ fn over_a_thin_link_nothing_shown_is_old_and_the_end_is_near() {
     pty.wait_for_end(0);
 }
 
+/// The ceiling that an option sets holds from the first picture on.
+#[test]
+fn no_more_bytes_a_second_are_sent_than_asked_for() {
+    const CEILING: usize = 8_000;
+    let mut pty = Pty::start(&[VIEWER, SCENE, "--aa", "off", "--bytes-per-second", "8000"], SMALLEST);
+    pty.wait_for("the first picture", Reading::drawn);
+    let (before, begin) = (pty.log().len(), Instant::now());
+    let held = hold_an_arrow(&mut pty, Duration::from_secs(1));
+    let (bytes, seconds) = (pty.log().len() - before, begin.elapsed().as_secs_f64());
+    eprintln!("{bytes} bytes, {} pictures in {seconds:.2} s", held.pictures);
+    // The last picture is paid for when it is shown already; none is larger than a first one.
+    assert!(bytes as f64 <= CEILING as f64 * seconds + 6_000.0, "{bytes} bytes in {seconds:.2} s");
+    assert!(held.pictures >= 2, "{} pictures", held.pictures);
+    pty.send("q");
+    pty.wait_for_end(0);
+}
+
 /// Counts the pictures that the viewer sends through a relay while an arrow is held down, and that it ends.
 fn pictures_a_second_through(relay: &str, needs: &str) -> Option<f64> {
     let found = Command::new("sh")

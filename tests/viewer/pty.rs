@@ -15,6 +15,8 @@ use expectrl::process::Process;
 use expectrl::process::unix::UnixProcess;
 use rustix::event::{PollFd, PollFlags, poll};
 
+use crate::support::seen::Seen;
+
 /// Far longer than anything takes on a loaded machine; only a test that fails waits for it.
 const DEADLINE: Duration = Duration::from_secs(60);
 
@@ -145,6 +147,11 @@ impl Pty {
     /// The character at a place.
     pub fn symbol(&self, column: u16, row: u16) -> &str {
         self.parser.screen().cell(row, column).map_or("", vt100::Cell::contents)
+    }
+
+    /// What is seen at a place.
+    pub fn seen(&self, column: u16, row: u16) -> Seen {
+        self.parser.screen().cell(row, column).map(Seen::shown).expect("a place on the screen")
     }
 
     /// A row of the screen.

@@ -7,6 +7,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::pty::{Pty, Size};
+use crate::support::seen::Seen;
 use crate::{Reading, VIEWER};
 
 const SCREEN: Size = Size { columns: 160, rows: 40 };
@@ -32,8 +33,8 @@ fn objects(number: usize) -> String {
 }
 
 /// Waits until another picture is shown.
-fn shows(pty: &mut Pty, what: &str, before: &str) {
-    pty.wait_for(what, |pty| pty.drawn() && pty.picture() != before && !pty.text().contains(" MISTAKE "));
+fn shows(pty: &mut Pty, what: &str, before: &[Seen]) {
+    pty.wait_for(what, |pty| pty.drawn() && pty.picture() != *before && !pty.text().contains(" MISTAKE "));
 }
 
 #[test]

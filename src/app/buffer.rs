@@ -1,126 +1,27 @@
-//! Two screens to the bytes that turn one into the other, as few as are simple to find.
-
-use std::fmt::Write as _;
+//! ratatui's buffer as a screen that the encoder reads.
 
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{self, Modifier};
 use ratatui::text::Span;
 
-use crate::output::{Color, Pen};
+use crate::math::Size;
+use crate::output::{Color, Pen, Screen, ScreenCell, Symbol};
 
-/// The bytes for a terminal, and what it writes with after them.
-#[derive(Debug)]
-pub struct Encoder {
-    pen: Pen,
-    bytes: String,
-}
+/// Bold, dim and reversed are all the modifiers that there are.
+impl Screen for Buffer {
+    fn size(&self) -> Size {
+        Size::new(self.area.width.into(), self.area.height.into())
+    }
 
-impl Default for Encoder {
-    fn default() -> Self {
-        Self { pen: Pen::TERMINAL, bytes: String::new() }
+    fn look(&self, column: u32, row: u32) -> ScreenCell<'_> {
+        // Columns and rows of a buffer have 16 bits.
+        let cell = &self[(self.area.x + column as u16, self.area.y + row as u16)];
+        let symbol = Symbol::new(cell.symbol());
+        ScreenCell { symbol, pen: pen(cell), columns: columns(symbol) }
     }
 }
 
-/// A place on the screen: column and row, from 0.
-type Place = (u16, u16);
-
-impl Encoder {
-    /// Forgets what the terminal writes with, and clears it.
-    pub fn clear(&mut self) {
-        self.pen = Pen::TERMINAL;
-        self.bytes.push_str("\x1b[m\x1b[2J");
-    }
-
-    /// Appends what turns a screen that shows `before` into one that shows `after`, of the same size. Bold,
-    /// dim and reversed are all the modifiers that it knows.
-    pub fn turn(&mut self, before: &Buffer, after: &Buffer) {
-        // Somebody else may have moved the cursor: a place is absolute first.
-        let mut cursor = None;
-        for y in after.area.rows().map(|row| row.y) {
-            let mut x = after.area.x;
-            while x < after.area.right() {
-                let cell = &after[(x, y)];
-                // The second column of a wide character is nobody's when that goes.
-                let orphan = x > after.area.x && !is_one_column(before[(x - 1, y)].symbol());
-                if orphan || look(&before[(x, y)]) != look(cell) {
-                    self.go(cursor, (x, y), after);
-                    self.put(cell);
-                    let known = is_one_column(cell.symbol()) && x + 1 < after.area.right();
-                    cursor = known.then_some((x + 1, y));
-                }
-                x += columns(cell.symbol());
-            }
-        }
-    }
-
-    /// How many bytes there are.
-    pub fn len(&self) -> usize {
-        self.bytes.len()
-    }
-
-    /// Takes the bytes out.
-    pub fn take(&mut self) -> String {
-        std::mem::take(&mut self.bytes)
-    }
-
-    fn put(&mut self, cell: &Cell) {
-        self.pen.change_to(self.pen_of(cell), &mut self.bytes);
-        self.bytes.push_str(cell.symbol());
-    }
-
-    fn pen_of(&self, cell: &Cell) -> Pen {
-        let meant = meant(cell);
-        if cell.symbol() == " " { self.pen.for_blank(meant) } else { meant }
-    }
-
-    /// Moves the cursor, by what stands between where that is shorter. The cursor's own place is absent where
-    /// it is not known: behind the last column, and behind what may be two columns wide.
-    fn go(&mut self, from: Option<Place>, to: Place, screen: &Buffer) {
-        // A string takes every character.
-        let _ = match from {
-            Some(from) if from == to => Ok(()),
-            Some((x, y)) if y == to.1 && x < to.0 => {
-                let columns = to.0 - x;
-                let way = if columns == 1 { "\x1b[C".to_owned() } else { format!("\x1b[{columns}C") };
-                match self.between(x, to, way.len(), screen) {
-                    Some(cells) => self.bytes.write_str(&cells),
-                    None => self.bytes.write_str(&way),
-                }
-            }
-            Some((_, y)) if to == (0, y + 1) => self.bytes.write_str("\r\n"),
-            _ => match to {
-                (0, 0) => self.bytes.write_str("\x1b[H"),
-                (0, y) => write!(self.bytes, "\x1b[{}H", y + 1),
-                (x, y) => write!(self.bytes, "\x1b[{};{}H", y + 1, x + 1),
-            },
-        };
-    }
-
-    /// What stands between a column and a place to the right of it, where that is written with the same pen
-    /// and in no more than so many bytes.
-    fn between(&self, from: u16, to: Place, bytes: usize, screen: &Buffer) -> Option<String> {
-        let mut text = String::new();
-        for x in from..to.0 {
-            let cell = &screen[(x, to.1)];
-            if !is_one_column(cell.symbol()) || self.pen_of(cell) != self.pen {
-                return None;
-            }
-            text.push_str(cell.symbol());
-            if text.len() > bytes {
-                return None;
-            }
-        }
-        Some(text)
-    }
-}
-
-/// What can be seen of a cell.
-fn look(cell: &Cell) -> (&str, Pen) {
-    let pen = meant(cell);
-    (cell.symbol(), if cell.symbol() == " " { Pen::TERMINAL.for_blank(pen) } else { pen })
-}
-
-fn meant(cell: &Cell) -> Pen {
+fn pen(cell: &Cell) -> Pen {
     Pen {
         ink: color(cell.fg),
         paper: color(cell.bg),
@@ -155,26 +56,15 @@ const fn color(color: style::Color) -> Color {
     })
 }
 
-/// Whether every terminal puts the cursor one column on: Latin letters, and what frames and pictures are made
-/// of. Of anything else it is not asked; the next place is then absolute.
-fn is_one_column(symbol: &str) -> bool {
-    let mut characters = symbol.chars();
-    let one = matches!(
-        characters.next(),
-        Some(
-            ' '..='~'
-            | '\u{a0}'..='\u{2ff}'
-            | '\u{2190}'..='\u{21ff}'
-            | '\u{2500}'..='\u{25ff}'
-            | '\u{2800}'..='\u{28ff}',
-        )
-    );
-    one && characters.next().is_none()
-}
-
 /// How many columns a symbol covers on the screen that is meant.
-fn columns(symbol: &str) -> u16 {
-    if is_one_column(symbol) { 1 } else { u16::try_from(Span::raw(symbol).width()).unwrap_or(1).max(1) }
+fn columns(symbol: Symbol<'_>) -> u32 {
+    let width = |text: &str| Span::raw(text).width() as u32;
+    match symbol {
+        _ if symbol.is_one_column() => 1,
+        Symbol::Char(character) => width(character.encode_utf8(&mut [0; 4])),
+        Symbol::Cluster(text) => width(text),
+    }
+    .max(1)
 }
 
 #[cfg(test)]
@@ -186,6 +76,7 @@ mod tests {
     use ratatui::style::Style;
 
     use super::*;
+    use crate::output::Encoder;
 
     fn row(text: &str) -> Buffer {
         Buffer::with_lines([text])
@@ -284,14 +175,24 @@ mod tests {
                 continue;
             }
             let symbol = if shown.has_contents() { shown.contents() } else { " " };
+            let reversed = cell.modifier.contains(Modifier::REVERSED);
+            // A full block stands for a blank.
+            if symbol == "█" && cell.symbol() == " " {
+                prop_assert_eq!((shown.fgcolor(), reversed), (seen(cell.bg), false));
+                continue;
+            }
+            if symbol == " " && cell.symbol() == "█" {
+                prop_assert_eq!((shown.bgcolor(), shown.inverse()), (seen(cell.fg), false));
+                continue;
+            }
             prop_assert_eq!(symbol, cell.symbol());
             let blank = symbol == " ";
-            let reversed = cell.modifier.contains(Modifier::REVERSED);
             prop_assert_eq!(shown.inverse(), reversed);
             if !blank || reversed {
                 prop_assert_eq!(shown.fgcolor(), seen(cell.fg));
             }
-            if !blank || !reversed {
+            let full = symbol == "█" && cell.modifier.is_empty();
+            if (!blank || !reversed) && !full {
                 prop_assert_eq!(shown.bgcolor(), seen(cell.bg));
             }
             if !blank {

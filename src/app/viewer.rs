@@ -124,6 +124,7 @@ impl<'a> Viewer<'a> {
         match event {
             Event::Key(key) => match self.model.update(&*self.painter, keys::action(key)) {
                 Effect::None => {}
+                Effect::Redraw => self.terminal.forget(),
                 Effect::Suspend => suspend(self.terminal)?,
                 Effect::Quit => return Ok(Some(SessionEnd::Quit)),
             },

@@ -67,7 +67,7 @@ fn draw_panels(panels: &Panels, labels: &Labels, theme: &Theme, buffer: &mut Buf
     draw_bar(panels.bar, theme, buffer);
 }
 
-/// The rows alone: in the lower one, right of the keys, what is at work or shown otherwise than asked for.
+/// The rows alone.
 fn draw_rows(rows: &Rows, labels: &Labels, theme: &Theme, buffer: &mut Buffer) {
     let program = " RAY13 ";
     buffer.set_string(rows.title.x, rows.title.y, "═".repeat(rows.title.width.into()), theme.text);
@@ -84,39 +84,49 @@ fn draw_rows(rows: &Rows, labels: &Labels, theme: &Theme, buffer: &mut Buffer) {
     let place = Rect { x: rows.title.right() - columns, width: columns, ..rows.title };
     Line::from(text).style(theme.text).render(place, buffer);
 
-    let used = draw_bar(rows.bar, theme, buffer);
-    let left = Rect { x: rows.bar.x + used, width: rows.bar.width - used, ..rows.bar };
+    draw_bar(rows.bar, theme, buffer);
+    // What is at work, or shown otherwise than asked for, stands between the two names.
+    let free = place.x.saturating_sub(rows.title.x + program.len() as u16 + 3);
     if let Some(text) = labels.working.map(words).or_else(|| labels.note.clone()) {
-        let (whole, room) = (Line::from(text.as_str()).width() as u16, left.width.saturating_sub(1));
-        let columns = whole.min(room);
-        if columns == whole || columns >= LEAST_NOTE {
-            let place = Rect { x: left.right() - columns, width: columns, ..left };
+        let text = format!(" {text} ");
+        let whole = Line::from(text.as_str()).width() as u16;
+        if whole <= free || free >= LEAST_NOTE {
+            let x = rows.title.x + program.len() as u16 + 2;
+            let place = Rect { x, width: whole.min(free), ..rows.title };
             Line::from(text).style(theme.dim).render(place, buffer);
         }
     }
 }
 
-/// Draws the function keys that fit, each whole; gives the columns that they take.
-fn draw_bar(area: Rect, theme: &Theme, buffer: &mut Buffer) -> u16 {
-    let keys = keys_that_fit(area.width);
-    let mut spans = vec![Span::raw(" ")];
-    for (number, label) in keys {
-        spans.push(Span::styled(number.to_string(), theme.bright));
-        spans.push(Span::styled(label, theme.label));
-        spans.push(Span::raw(" "));
+/// Columns of the ten slots of a key bar as Norton had it, on 80 columns.
+const SLOTS: u16 = 80;
+
+/// Draws the function keys: in ten slots of one width where there is room for these, else as many as fit,
+/// each whole.
+fn draw_bar(area: Rect, theme: &Theme, buffer: &mut Buffer) {
+    buffer.set_style(area, theme.key_number);
+    let slot = area.width / 10;
+    let mut x = area.x;
+    for (number, label) in keys_that_fit(area.width) {
+        let number = number.to_string();
+        let columns = number.len() as u16;
+        let room =
+            if area.width >= SLOTS { slot - columns - u16::from(columns == 1) } else { label.len() as u16 };
+        let left = area.right().saturating_sub(x);
+        buffer.set_stringn(x, area.y, &number, left.into(), theme.key_number);
+        let left = left.saturating_sub(columns);
+        let text = format!("{label:<0$}", usize::from(room));
+        buffer.set_stringn((x + columns).min(area.right()), area.y, text, left.into(), theme.key_label);
+        x = (x + columns + room + 1).min(area.right());
     }
-    let line = Line::from(spans).style(theme.text);
-    let columns = (line.width() as u16).min(area.width);
-    line.render(area, buffer);
-    columns
 }
 
-/// The first key, which is Help, and the last, which is Quit; of those between as many as fit, counted from
-/// the last.
+/// All keys where they fit; else the first, which is Help, the last, which is Quit, the menus, and of the
+/// others as many as fit, counted from the last.
 fn keys_that_fit(columns: u16) -> Vec<(u8, &'static str)> {
     let mut keys = keys::function_keys();
     let width = |keys: &[(u8, &str)]| {
-        1 + keys.iter().map(|(number, label)| number.to_string().len() + label.len() + 1).sum::<usize>()
+        keys.iter().map(|(number, label)| number.to_string().len() + label.len() + 1).sum::<usize>()
     };
     // The blank behind the last needs no room.
     while keys.len() > 2 && width(&keys) > usize::from(columns) + 1 {
@@ -132,11 +142,10 @@ mod tests {
     #[test]
     fn keys_go_from_the_left_but_help_and_quit_stay() {
         let labels = |columns| keys_that_fit(columns).into_iter().map(|(_, label)| label).collect::<Vec<_>>();
-        assert_eq!(labels(80), ["Help", "View", "Follow", "Glyphs", "Quit"]);
+        assert_eq!(labels(80), labels(35));
         assert_eq!(labels(35), ["Help", "View", "Follow", "Glyphs", "Quit"]);
-        assert_eq!(labels(34), ["Help", "Follow", "Glyphs", "Quit"]);
-        assert_eq!(labels(28), ["Help", "Glyphs", "Quit"]);
-        assert_eq!(labels(20), ["Help", "Quit"]);
+        assert_eq!(labels(33), ["Help", "Follow", "Glyphs", "Quit"]);
+        assert_eq!(labels(20), ["Help", "Glyphs", "Quit"]);
         assert_eq!(labels(1), ["Help", "Quit"]);
     }
 }

@@ -6,7 +6,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Clear, Widget};
 
 use super::Painter;
-use super::keys::Action;
+use super::actions::Action;
 use super::theme::Theme;
 use crate::frame::Request;
 use crate::math::Size;
@@ -80,7 +80,7 @@ impl Following {
             height: 1,
         };
         if let Some(cell) = buffer.cell_mut(at.as_position()).filter(|_| picture.contains(at.as_position())) {
-            cell.set_symbol("┼").set_style(theme.bright);
+            cell.set_symbol("┼").set_style(theme.mark);
         }
         let height = (screen.height / 2).max(3).min(screen.height);
         let is_below = at.y < screen.y + screen.height / 2;
@@ -104,7 +104,7 @@ impl Following {
         let room = usize::from(inside.height);
         let first = in_hand.saturating_sub(room / 2).min(rows.len().saturating_sub(room));
         for (row, y) in rows[first..].iter().zip(inside.top()..inside.bottom()) {
-            let style = if row.line == self.step { theme.label } else { theme.text };
+            let style = if row.line == self.step { theme.chosen } else { theme.text };
             let area = Rect { y, height: 1, ..inside };
             buffer.set_style(area, style);
             Line::from(row.to_string()).style(style).render(area, buffer);
@@ -117,7 +117,8 @@ impl Following {
 mod tests {
     use super::*;
     use crate::app::Settings;
-    use crate::app::model::{Model, Window};
+    use crate::app::model::Model;
+    use crate::app::window::Window;
     use crate::frame::Studio;
     use crate::glyph::Palette;
     use crate::scene::{ReadOptions, Scene, read};

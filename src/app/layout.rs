@@ -21,6 +21,26 @@ const LARGEST: Size = Size::new(1920, 720);
 /// what a wide screen has to spare.
 const CHART_COLUMNS: [u16; 2] = [26, 36];
 
+/// Whether panels are wanted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Panelling {
+    /// Where they have room.
+    #[default]
+    WherePossible,
+    /// Nowhere: the screen is the picture's.
+    Never,
+}
+
+impl Panelling {
+    /// The other.
+    pub const fn other(self) -> Self {
+        match self {
+            Self::WherePossible => Self::Never,
+            Self::Never => Self::WherePossible,
+        }
+    }
+}
+
 /// The places of a screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layout {
@@ -69,11 +89,11 @@ pub struct Panels {
 
 impl Layout {
     /// The places on a screen of a size that the terminal reported. Where it reported nothing, 80 × 25.
-    pub fn new(reported: Size) -> Self {
+    pub fn new(reported: Size, panelling: Panelling) -> Self {
         let size = if reported.width == 0 || reported.height == 0 { USUAL } else { reported };
         let screen = Rect::new(0, 0, size.width.min(LARGEST.width), size.height.min(LARGEST.height));
         let fits = |least: Size| screen.width >= least.width && screen.height >= least.height;
-        if fits(FULL) {
+        if fits(FULL) && panelling == Panelling::WherePossible {
             let panels = Panels::on(screen);
             Self { screen, picture: inside(panels.picture), around: Around::Panels(panels) }
         } else if fits(TITLED) {
@@ -122,10 +142,14 @@ pub const fn inside(area: Rect) -> Rect {
 mod tests {
     use super::*;
 
+    fn layout(size: Size) -> Layout {
+        Layout::new(size, Panelling::WherePossible)
+    }
+
     #[test]
     fn the_smallest_full_screen_has_every_panel() {
         for (height, status) in [(24, 21), (25, 22)] {
-            let layout = Layout::new(Size::new(80, height));
+            let layout = layout(Size::new(80, height));
             assert_eq!(layout.picture, Rect::new(28, 2, 50, height - 6));
             let Around::Panels(panels) = layout.around else { panic!("panels") };
             assert_eq!(panels.status, Rect::new(1, status, 78, 1));
@@ -135,7 +159,7 @@ mod tests {
 
     #[test]
     fn a_large_screen_gives_its_space_to_the_picture() {
-        let layout = Layout::new(Size::new(200, 60));
+        let layout = layout(Size::new(200, 60));
         assert_eq!(layout.picture, Rect::new(38, 2, 160, 54));
     }
 
@@ -144,7 +168,7 @@ mod tests {
         for size in
             [Size::new(79, 25), Size::new(80, 23), Size::new(40, 10), Size::new(20, 5), Size::new(200, 5)]
         {
-            let layout = Layout::new(size);
+            let layout = layout(size);
             let Around::Rows(Rows { title, bar }) = layout.around else { panic!("rows at {size}") };
             assert_eq!([title.y, bar.y], [0, size.height - 1]);
             assert_eq!(layout.picture, Rect::new(0, 1, size.width, size.height - 2));
@@ -152,9 +176,15 @@ mod tests {
     }
 
     #[test]
+    fn without_panels_the_picture_has_all_but_two_rows() {
+        let alone = Layout::new(Size::new(200, 60), Panelling::Never);
+        assert_eq!(alone.picture, Rect::new(0, 1, 200, 58));
+    }
+
+    #[test]
     fn the_smallest_screens_are_all_picture() {
         for size in [Size::new(19, 5), Size::new(20, 4), Size::new(200, 1), Size::new(1, 1)] {
-            let layout = Layout::new(size);
+            let layout = layout(size);
             assert_eq!(layout.around, Around::Nothing);
             assert_eq!(layout.picture.as_size(), size);
         }
@@ -163,8 +193,8 @@ mod tests {
     #[test]
     fn no_size_is_taken_as_80_by_25_and_silly_sizes_are_bounded() {
         for size in [Size::new(0, 0), Size::new(0, 25), Size::new(80, 0)] {
-            assert_eq!(Layout::new(size), Layout::new(Size::new(80, 25)));
+            assert_eq!(layout(size), layout(Size::new(80, 25)));
         }
-        assert_eq!(Layout::new(Size::new(u16::MAX, u16::MAX)).screen.as_size(), LARGEST);
+        assert_eq!(layout(Size::new(u16::MAX, u16::MAX)).screen.as_size(), LARGEST);
     }
 }

@@ -9,10 +9,11 @@ use std::time::Duration;
 use ratatui::buffer::Buffer;
 use ratatui::widgets::Widget;
 
+use super::actions::Action;
 use super::around::{self, Labels};
 use super::events::{Event, Gone, Inbox};
-use super::keys::{self, Action};
-use super::layout::{self, Around, Layout};
+use super::keys;
+use super::layout::{self, Around, Layout, Panelling};
 use super::suspend::suspend;
 use super::terminal::{self, Terminal};
 use super::theme::Theme;
@@ -96,7 +97,7 @@ impl<P: Send + 'static, E: Send + 'static> Loading<P, E> {
         self.watch.begin();
         let mut step = self.progress.now();
         loop {
-            let layout = Layout::new(terminal::window().cells);
+            let layout = Layout::new(terminal::window().cells, Panelling::WherePossible);
             let mut buffer = Buffer::empty(layout.screen);
             draw(opening, &layout, step, &mut buffer);
             terminal.queue(buffer);
@@ -142,7 +143,8 @@ fn draw(opening: &Opening, layout: &Layout, step: WorkStep, buffer: &mut Buffer)
         let chart = FlowChart::idle().working(Some(step)).styles(theme.text, theme.dim);
         chart.render(layout::inside(panels.chart), buffer);
     }
-    caption::draw(&around::words(step), theme.text, layout.picture, buffer);
+    buffer.set_style(layout.picture, theme.picture);
+    caption::draw(&around::words(step), theme.picture, layout.picture, buffer);
     charset::fit(buffer, layout.screen, opening.terminal);
 }
 
@@ -154,7 +156,7 @@ mod tests {
     use ratatui::layout::Size;
 
     fn seen(width: u16, height: u16, terminal: Capabilities) -> String {
-        let layout = Layout::new(Size::new(width, height));
+        let layout = Layout::new(Size::new(width, height), Panelling::WherePossible);
         let mut buffer = Buffer::empty(layout.screen);
         let opening = Opening { title: "gears.csg".to_owned(), terminal, ..Opening::default() };
         draw(&opening, &layout, WorkStep { task: Task::Reading, percent: Some(37) }, &mut buffer);

@@ -7,10 +7,15 @@
 //! by the clock only while something is waited for, the rest of a key or the terminal's answer: at rest the
 //! program does nothing and sends nothing.
 
+mod actions;
 mod around;
+#[cfg(test)]
+mod attributes;
 mod buffer;
 mod caption;
 mod charset;
+mod choices;
+mod chord;
 mod colors;
 mod error;
 mod events;
@@ -39,8 +44,10 @@ mod suspend;
 mod terminal;
 mod theme;
 mod tracer;
+mod travel;
 mod viewer;
 mod watch;
+mod window;
 
 use std::env;
 use std::io;
@@ -56,6 +63,7 @@ use crate::stage::Progress;
 
 pub use error::AppError;
 use events::{Event, Inbox};
+pub(crate) use help::key_list;
 use identity::Identity;
 pub use loading::Opening;
 use loading::{Loading, Waited};

@@ -1,23 +1,16 @@
 //! What the viewer knows, and how each action changes it. No terminal, no thread, no clock.
 
-use ratatui::layout::Size;
-
+use super::actions::{Action, StandardView};
 use super::following::Following;
-use super::keys::Action;
-use super::layout::Layout;
+use super::layout::{Layout, Panelling};
 use super::motion::{self, FLY_STEP, ORBIT_STEP, ZOOM_STEP};
 use super::theme::Theme;
+use super::window::Window;
 use super::{Painter, Settings};
 use crate::frame::{Request, Wants};
-use crate::glyph::{CELL_ASPECT, GlyphMode};
 use crate::math;
-use crate::plan::Shading;
 use crate::scene::Camera;
 use crate::view::{Picture, PinholeCamera};
-
-/// The widths of a cell divided by its height that are believed: fonts for text are taller than wide, up to
-/// the square cells of some consoles; terminals that report nonsense report it far outside.
-const CELL_ASPECTS: std::ops::RangeInclusive<f64> = 0.25..=1.0;
 
 /// The state of the viewer.
 #[derive(Clone, Debug)]
@@ -38,8 +31,17 @@ pub struct Model {
     pub mistake: Option<String>,
     /// Where things stand.
     pub layout: Layout,
-    views: usize,
-    cell_aspect: f64,
+    /// How many views the scene has.
+    pub views: usize,
+    /// Width of a character cell divided by its height.
+    pub cell_aspect: f64,
+    /// Where the eye was before it jumped, the last behind.
+    pub history: Vec<Camera>,
+    /// A camera of draughtsmen, and whose it is, where the eye went there.
+    pub standing: Option<(Camera, StandardView)>,
+    /// Whether panels are wanted where they have room.
+    panelling: Panelling,
+    window: Window,
 }
 
 /// What a picture shows, and how.
@@ -55,7 +57,7 @@ pub struct Subject {
 pub enum Effect {
     /// Nothing beyond the model.
     None,
-    /// Send the whole screen again.
+    /// Send the whole screen once more.
     Redraw,
     /// Stop until the shell continues us.
     Suspend,
@@ -63,29 +65,10 @@ pub enum Effect {
     Quit,
 }
 
-/// What the terminal reports of itself.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Window {
-    /// Columns and rows; 0 where it does not say.
-    pub cells: Size,
-    /// Width and height of all cells in pixels; 0 where it does not say.
-    pub pixels: Size,
-}
-
-impl Window {
-    /// Width of a cell divided by its height; 1:2 where the terminal does not say or what it says is no cell.
-    fn cell_aspect(self) -> f64 {
-        let width = f64::from(self.pixels.width) / f64::from(self.cells.width);
-        let height = f64::from(self.pixels.height) / f64::from(self.cells.height);
-        // A size of 0 gives a NaN or an infinity, which no range contains.
-        Some(width / height).filter(|aspect| CELL_ASPECTS.contains(aspect)).unwrap_or(CELL_ASPECT)
-    }
-}
-
 impl Model {
     /// The viewer before the first key.
     pub fn new(painter: &dyn Painter, settings: Settings, window: Window) -> Self {
-        let layout = Layout::new(window.cells);
+        let panelling = Panelling::default();
         let mut model = Self {
             camera: painter.camera(settings.view, 1.0),
             settings,
@@ -94,9 +77,13 @@ impl Model {
             following: None,
             notes: painter.scene().notes.clone(),
             mistake: None,
-            layout,
+            layout: Layout::new(window.cells, panelling),
             views: painter.scene().views.len(),
             cell_aspect: window.cell_aspect(),
+            history: Vec::new(),
+            standing: None,
+            panelling,
+            window,
         };
         model.go_home(painter);
         model
@@ -104,7 +91,8 @@ impl Model {
 
     /// Takes the size that the terminal has now. A view that nobody has moved is framed anew.
     pub fn resize(&mut self, painter: &dyn Painter, window: Window) {
-        self.layout = Layout::new(window.cells);
+        self.window = window;
+        self.layout = Layout::new(window.cells, self.panelling);
         self.cell_aspect = window.cell_aspect();
         if !self.moved {
             self.go_home(painter);
@@ -178,7 +166,13 @@ impl Model {
             Action::ZoomOut => self.look(motion::zoom(camera, 1.0 / ZOOM_STEP)),
             Action::NextView => self.go_to_view(painter, 1),
             Action::PreviousView => self.go_to_view(painter, self.views.saturating_sub(1)),
-            Action::Home => self.go_home(painter),
+            Action::Standard(view) => self.go_to_standard(painter, view),
+            Action::Home => {
+                self.remember();
+                self.go_home(painter);
+            }
+            Action::FitAll => self.fit_all(painter),
+            Action::LastView => self.go_back(),
             Action::ShadingDown => self.settings.options.shading = self.shading(usize::checked_sub),
             Action::ShadingUp => self.settings.options.shading = self.shading(usize::checked_add),
             Action::NextGlyphs => self.settings.glyphs = self.next_glyphs(),
@@ -191,6 +185,10 @@ impl Model {
             Action::Help => self.help = true,
             // The keys have been closed above.
             Action::Close => self.following = None,
+            Action::Panels => {
+                self.panelling = self.panelling.other();
+                self.resize(painter, self.window);
+            }
             Action::Redraw => return Effect::Redraw,
             Action::Suspend => return Effect::Suspend,
             Action::Quit => return Effect::Quit,
@@ -253,6 +251,9 @@ impl Model {
 
     /// What the picture's panel calls the view.
     pub fn view_name(&self) -> String {
+        if let Some((_, view)) = self.standing.as_ref().filter(|(camera, _)| *camera == self.camera) {
+            return view.name().to_owned();
+        }
         let name = match &self.camera.name {
             Some(name) => name.clone(),
             None if self.views == 0 => "whole".to_owned(),
@@ -260,63 +261,17 @@ impl Model {
         };
         if self.moved { name + "*" } else { name }
     }
-
-    fn look(&mut self, camera: Camera) {
-        self.moved |= camera != self.camera;
-        self.camera = camera;
-    }
-
-    fn go_to_view(&mut self, painter: &dyn Painter, further: usize) {
-        // From a camera of one's own the first stop is the view it stands for.
-        if self.settings.camera.take().is_none() {
-            self.settings.view = (self.settings.view + further) % self.views.max(1);
-        }
-        self.go_home(painter);
-    }
-
-    fn go_home(&mut self, painter: &dyn Painter) {
-        let picture = self.layout.picture;
-        let aspect = self.cell_aspect * f64::from(picture.width) / f64::from(picture.height.max(1));
-        let view = || painter.camera(self.settings.view, aspect);
-        self.camera = self.settings.camera.clone().unwrap_or_else(view);
-        self.moved = false;
-    }
-
-    /// The next set of characters that the terminal draws; the present one where it draws no other.
-    fn next_glyphs(&self) -> GlyphMode {
-        let now = self.settings.glyphs;
-        let dotted = |glyphs| matches!(glyphs, GlyphMode::Half | GlyphMode::Quadrant);
-        let coarse = |glyphs| dotted(glyphs) && !self.settings.palette.has_levels();
-        let drawn =
-            |&glyphs: &GlyphMode| glyphs == now || self.settings.terminal.draws(glyphs) && !coarse(glyphs);
-        let all: Vec<_> = GlyphMode::ALL.into_iter().filter(drawn).collect();
-        after(&all, now)
-    }
-
-    /// The shading model one step away, or the present one where there is none.
-    fn shading(&self, step: impl Fn(usize, usize) -> Option<usize>) -> Shading {
-        let now = self.settings.options.shading;
-        let place = Shading::ALL.iter().position(|&model| model == now);
-        place
-            .and_then(|place| step(place, 1))
-            .and_then(|place| Shading::ALL.get(place))
-            .copied()
-            .unwrap_or(now)
-    }
-}
-
-/// The element after `now`, the first after the last.
-fn after<T: Copy + PartialEq>(all: &[T], now: T) -> T {
-    let next = all.iter().skip_while(|&&one| one != now).nth(1);
-    next.or(all.first()).copied().unwrap_or(now)
 }
 
 #[cfg(test)]
 mod tests {
+    use ratatui::layout::Size;
+
     use super::*;
     use crate::frame::{Frame, Studio};
-    use crate::glyph::{ColorDepth, Palette};
+    use crate::glyph::{ColorDepth, GlyphMode, Palette};
     use crate::math::{DAffine3, DVec3};
+    use crate::plan::Shading;
     use crate::scene::{Material, MaterialId, Object, Primitive, Scene, Shape, Solid};
 
     /// A scene of three views; the framing depends on the aspect, as one from bounds does.

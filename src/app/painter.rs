@@ -1,6 +1,7 @@
 //! Who makes the pictures: a [`Studio`], or something in its place.
 
 use crate::frame::{FollowedRay, Frame, Request, Studio};
+use crate::math::DVec3;
 use crate::scene::{Camera, Scene};
 use crate::stage::{GiveUp, Progress};
 
@@ -12,6 +13,12 @@ pub trait Painter: Send + Sync {
     /// The camera of a view; the framing from the bounds where `index` is past the last. `aspect` is the
     /// width of the whole picture divided by its height, on the screen.
     fn camera(&self, index: usize, aspect: f64) -> Camera;
+
+    /// A camera that sees all of the scene from a side: `back` is the direction from the scene to the eye,
+    /// and `up` is upwards in the picture. The framing from the bounds where a painter has no other.
+    fn framed(&self, _back: DVec3, _up: DVec3, aspect: f64) -> Camera {
+        self.camera(usize::MAX, aspect)
+    }
 
     /// Draws one picture.
     fn draw(&self, request: &Request) -> Frame;
@@ -39,6 +46,10 @@ impl Painter for Studio {
 
     fn camera(&self, index: usize, aspect: f64) -> Camera {
         self.camera(index, aspect)
+    }
+
+    fn framed(&self, back: DVec3, up: DVec3, aspect: f64) -> Camera {
+        self.framed_from(back, up, aspect)
     }
 
     fn draw(&self, request: &Request) -> Frame {

@@ -38,6 +38,7 @@ pub fn draw(model: &Model, shown: Option<&Shown>, working: Option<WorkStep>, buf
     charset::fit(buffer, model.layout.screen, terminal);
     // The picture is in characters that were chosen for it; what is written over it was not.
     let picture = model.layout.picture;
+    buffer.set_style(picture, theme.picture);
     let over = match shown {
         Some(Shown { frame: Frame { cells: Some(cells), nothing, .. }, .. }) => {
             PictureWidget(cells).render(picture, buffer);
@@ -47,7 +48,7 @@ pub fn draw(model: &Model, shown: Option<&Shown>, working: Option<WorkStep>, buf
         _ => Some(working.map_or_else(|| Task::Tracing.name().to_owned(), around::words)),
     };
     if let Some(over) = over {
-        let place = caption::draw(&over, theme.text, picture, buffer);
+        let place = caption::draw(&over, theme.picture, picture, buffer);
         charset::fit(buffer, place, terminal);
     }
     if let Some(mistake) = &model.mistake {
@@ -132,9 +133,11 @@ mod tests {
     use ratatui::layout::Size;
 
     use super::*;
-    use crate::app::model::Window;
+    use crate::app::actions::Action;
+    use crate::app::attributes::{text, text_and_attributes};
     use crate::app::refinement::RaysTold;
-    use crate::app::{Painter, Settings, keys::Action};
+    use crate::app::window::Window;
+    use crate::app::{Painter, Settings};
     use crate::frame::{NothingInView, Request, Space, Studio};
     use crate::glyph::{self, GlyphMode, Ground, Paint, Palette};
     use crate::math::{self, DVec3, Grid};
@@ -221,21 +224,29 @@ mod tests {
         buffer
     }
 
-    fn text(buffer: &Buffer) -> String {
-        let rows = buffer.content.chunks(buffer.area.width.into());
-        rows.map(|row| row.iter().map(Cell::symbol).collect::<String>() + "\n").collect()
-    }
-
     #[test]
     fn the_whole_screen_at_80_by_25() {
         let model = model(80, 25);
-        insta::assert_snapshot!(text(&drawn(&model, Some(&shown(&model)))));
+        insta::assert_snapshot!(text_and_attributes(&drawn(&model, Some(&shown(&model)))));
     }
 
     #[test]
     fn the_whole_screen_at_80_by_24() {
         let model = model(80, 24);
-        insta::assert_snapshot!(text(&drawn(&model, Some(&shown(&model)))));
+        insta::assert_snapshot!(text_and_attributes(&drawn(&model, Some(&shown(&model)))));
+    }
+
+    #[test]
+    fn the_whole_screen_at_200_by_60() {
+        let model = model(200, 60);
+        insta::assert_snapshot!(text_and_attributes(&drawn(&model, Some(&shown(&model)))));
+    }
+
+    #[test]
+    fn the_whole_screen_without_colours() {
+        let mut model = model(80, 24);
+        model.settings.palette = Palette::MONO;
+        insta::assert_snapshot!(text_and_attributes(&drawn(&model, Some(&shown(&model)))));
     }
 
     #[test]
@@ -243,7 +254,7 @@ mod tests {
         for (width, height) in [(80, 23), (40, 10), (20, 5)] {
             let model = model(width, height);
             let name = format!("rows_at_{width}_by_{height}");
-            insta::assert_snapshot!(name, text(&drawn(&model, Some(&shown(&model)))));
+            insta::assert_snapshot!(name, text_and_attributes(&drawn(&model, Some(&shown(&model)))));
         }
     }
 
@@ -336,15 +347,15 @@ mod tests {
     fn the_help_over_the_screen() {
         let mut model = model(80, 25);
         model.update(&still(), Some(Action::Help));
-        insta::assert_snapshot!(text(&drawn(&model, Some(&shown(&model)))));
+        insta::assert_snapshot!(text_and_attributes(&drawn(&model, Some(&shown(&model)))));
     }
 
     /// With its picture below or above, wherever the dot is not.
     #[test]
     fn a_followed_ray_over_the_screen() {
-        let text = include_str!("../../tests/files/follow.scene");
+        let file = include_str!("../../tests/files/follow.scene");
         let scene =
-            crate::scene::read("follow.scene", text.as_bytes(), &crate::scene::ReadOptions::default());
+            crate::scene::read("follow.scene", file.as_bytes(), &crate::scene::ReadOptions::default());
         let studio = Studio::new(scene.unwrap()).unwrap();
         for (width, height, steps) in [(80, 24, 0), (80, 25, 9), (200, 60, 30)] {
             let window = Window { cells: Size::new(width, height), ..Window::default() };
@@ -362,7 +373,7 @@ mod tests {
             };
             insta::assert_snapshot!(
                 format!("a_followed_ray_at_{width}_by_{height}"),
-                self::text(&drawn(&model, Some(&shown)))
+                text_and_attributes(&drawn(&model, Some(&shown)))
             );
         }
     }

@@ -23,7 +23,7 @@ use super::fence::{self, Fence};
 #[cfg(unix)]
 use super::input;
 use super::input::Answer;
-use super::model::Window;
+use super::window::Window;
 use crate::output::{Capabilities, Encoder};
 
 /// Asks a terminal to say that it has come this far (DSR 5, ECMA-48): every terminal since the VT100 answers.

@@ -3,6 +3,9 @@
 use clap::CommandFactory;
 use clap_complete::Shell;
 use clap_mangen::Man;
+use clap_mangen::roff::{Roff, bold, roman};
+
+use crate::app;
 
 use super::arguments::Arguments;
 use super::error::CliError;
@@ -33,5 +36,20 @@ pub fn page(command: Option<&str>) -> Result<(), CliError> {
     let mut text = Vec::new();
     let written = Man::new(page).render(&mut text);
     written.map_err(|e| CliError::Output(format!("the page could not be written: {e}")))?;
+    if command.is_none() {
+        keys()
+            .to_writer(&mut text)
+            .map_err(|e| CliError::Output(format!("the page could not be written: {e}")))?;
+    }
     print(&text)
+}
+
+/// The section of the keys.
+fn keys() -> Roff {
+    let mut section = Roff::new();
+    section.control("SH", ["KEYS"]);
+    for (keys, sentence) in app::key_list() {
+        section.control("TP", []).text([bold(keys)]).text([roman(format!("{sentence}."))]);
+    }
+    section
 }

@@ -11,7 +11,7 @@ use crate::plan::StructureChoice;
 use crate::scene::{Camera, Scene};
 use crate::solid::{Assembly, AssemblyError};
 use crate::stage::Progress;
-use crate::view::framed;
+use crate::view::{framed, framed_from};
 
 use super::frame_cache::FrameCache;
 use super::scratch_pool::ScratchPool;
@@ -148,6 +148,23 @@ impl Studio {
             return framed(DVec3::length, aspect);
         }
         framed(|v| self.assembly.support(v), aspect)
+    }
+
+    /// A camera that sees the whole scene from a side: `back` is the direction from the scene to the eye, and
+    /// `up` is upwards in the picture. That of [`Studio::framed`] where these are no directions, or one.
+    pub fn framed_from(&self, back: DVec3, up: DVec3, aspect: f64) -> Camera {
+        let largest = |v: DVec3| v.abs().max_element();
+        // Scaled first, so that no square overflows or vanishes.
+        let [back, up] = [back, up].map(|v| (v / largest(v)).normalize());
+        // Their product has the sine of the angle between them as its length; below, none of its digits
+        // holds.
+        if !(back.is_finite() && up.is_finite() && back.cross(up).length() > f64::EPSILON) {
+            return self.framed(aspect);
+        }
+        if self.assembly.objects.is_empty() {
+            return framed_from(back, up, DVec3::length, aspect);
+        }
+        framed_from(back, up, |v| self.assembly.support(v), aspect)
     }
 
     /// The lattice, built now if it was not before; else why there is none.

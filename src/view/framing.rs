@@ -12,20 +12,25 @@ const FILLED: f64 = 0.94;
 /// The paper's field, in degrees.
 const FIELD: [f64; 2] = [40.0, 25.0];
 
-/// A camera that sees all of a scene, in the middle of a picture `aspect` times as wide as high on the
-/// screen. `support(v)` is the greatest `p · v` of the scene's points.
-///
-/// A point q is left of the picture's right rim where `q·right − a ≤ t · (d − q·back)`, the eye being at
-/// `a·right + b·up + d·back` and t the tangent of half the field: where `q · (right + t·back) ≤ a + t·d`. The
-/// four rims ask for the support in four directions; two opposite ones give `d` by their sum, `a` or `b` by
-/// their difference.
+/// A camera that sees all of a scene from where OpenSCAD first does: [`framed_from`] there.
 pub fn framed(support: impl Fn(DVec3) -> f64, aspect: f64) -> Camera {
     let [about_x, about_z] = VIEW_ROTATION.map(f64::to_radians);
     let (sx, cx) = libm::sincos(about_x);
     let (sz, cz) = libm::sincos(about_z);
     // Where the z axis goes when it is turned about x, then about z: from the target to the eye.
-    let back = DVec3::new(sx * sz, -sx * cz, cx);
-    let right = DVec3::Z.cross(back).normalize();
+    framed_from(DVec3::new(sx * sz, -sx * cz, cx), DVec3::Z, support, aspect)
+}
+
+/// A camera that sees all of a scene, in the middle of a picture `aspect` times as wide as high on the
+/// screen. `back` is the direction from the target to the eye, of length 1, and `pole` upwards in the picture,
+/// not along `back`; `support(v)` is the greatest `p · v` of the scene's points.
+///
+/// A point q is left of the picture's right rim where `q·right − a ≤ t · (d − q·back)`, the eye being at
+/// `a·right + b·up + d·back` and t the tangent of half the field: where `q · (right + t·back) ≤ a + t·d`. The
+/// four rims ask for the support in four directions; two opposite ones give `d` by their sum, `a` or `b` by
+/// their difference.
+pub fn framed_from(back: DVec3, pole: DVec3, support: impl Fn(DVec3) -> f64, aspect: f64) -> Camera {
+    let right = pole.cross(back).normalize();
     let up = back.cross(right);
     let half = |degrees: f64| libm::tan(0.5 * degrees.to_radians()) * FILLED;
     let (tx, ty) = (half(FIELD[0]), half(FIELD[1]));
@@ -44,7 +49,7 @@ pub fn framed(support: impl Fn(DVec3) -> f64, aspect: f64) -> Camera {
         name: None,
         eye: at(d),
         target: at(middle),
-        up: DVec3::Z,
+        up: pole,
         field: FIELD,
         span: FieldSpan::Edges,
         zoom: 1.0,

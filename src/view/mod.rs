@@ -14,7 +14,7 @@ mod tile_share;
 pub use block::{BLOCK, Block};
 pub use direction::{all_settled, settled};
 pub use edge_model::{EdgeModel, Extent, FITTED, Share};
-pub use framing::framed;
+pub use framing::{framed, framed_from};
 pub use pinhole::{Picture, PinholeCamera};
 pub use point_packet::PointPacket;
 pub use sample_points::{edge_error, missed_edge_error, sample_point};

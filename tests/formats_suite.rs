@@ -4,6 +4,7 @@ mod support {
     pub mod agreement;
     pub mod beside;
     pub mod cases;
+    pub mod drawings;
     pub mod mesh_files;
     pub mod openscad;
     pub mod oracle;
@@ -15,7 +16,9 @@ mod support {
 
 mod formats {
     mod any_text;
+    mod drawings;
     mod hostile;
+    mod hostile_drawings;
     mod imports;
     mod leaves;
     mod memory;

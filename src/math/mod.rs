@@ -18,7 +18,7 @@ mod vector;
 pub use bounds::Bounds;
 pub(crate) use dispatch::dispatch;
 pub use exact::{product_rest, two_product_in_range, two_sum};
-pub use glam::{DAffine3, DMat3, DVec2, DVec3};
+pub use glam::{DAffine2, DAffine3, DMat2, DMat3, DVec2, DVec3};
 pub use grid::{Grid, Size};
 pub use number::{LANES, Mask, Number, PACKET, Powers};
 pub use packet::{LaneVector, Lanes, REGISTERS, RayIndex, RayPacket, lanes, mask_of, places};

@@ -4,6 +4,7 @@ mod bounded;
 mod content;
 mod degrees;
 mod diagnostic;
+mod drawing;
 mod embedded;
 mod groups;
 mod gzip;
@@ -23,6 +24,7 @@ mod screen_colors;
 mod triangles;
 mod triangulation;
 mod unit_vector;
+mod xml;
 
 pub use diagnostic::{Diagnostic, Diagnostics, Severity};
 pub use embedded::{EmbeddedScene, embedded};

@@ -158,6 +158,7 @@ fn what_can_not_be_read_is_said_at_its_place() {
     write(&at, "cut.stl", &MeshText::brick().stl_binary(b"")[..300]);
     write(&at, "far.obj", MeshText::brick().obj().replace("f 3//1", "f 99//1"));
     write(&at, "other.scene", "cube(1);");
+    write(&at, "a.DXF", "0\nSECTION\nSVG\n");
     write(&at, "flat.off", "OFF 3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n");
     for (call, says) in [
         ("import(\"none.stl\");", "a.scene:1:8: error: `none.stl` can not be imported: No such file"),
@@ -166,8 +167,9 @@ fn what_can_not_be_read_is_said_at_its_place() {
         ("import(\"far.obj\");", "a face names corner 99"),
         ("import(\"other.scene\");", "it is no mesh: STL, OFF, PLY, OBJ, 3MF and AMF are read"),
         ("import(\"flat.off\");", "not closed"),
-        ("import(\"a.svg\");", "SVG files are not read yet"),
-        ("import(file = \"a.DXF\", layer = \"x\");", "DXF files are not read yet"),
+        ("import(file = \"a.DXF\", layer = \"x\");", "`a.DXF` can not be imported: line 3: a group code"),
+        ("import(file = \"a.DXF\", layer = 5);", "`layer` of `import` takes a text"),
+        ("import(file = \"a.DXF\", origin = 5);", "`origin` of `import` takes [x, y, z] or [x, y]"),
         ("import();", "`import` needs `file`"),
         ("import(5);", "`file` of `import` takes a text"),
         ("import(\"\");", "`file` of `import` takes a text"),

@@ -10,14 +10,7 @@ use crate::support::openscad::{exported, in_parallel, is_missing};
 const FOLDER: &str = "/usr/share/openscad/examples";
 
 /// Those that do not open, and a word of why.
-const NOT_YET: [(&str, &str); 6] = [
-    ("echo", "empty"),
-    ("example007", "DXF"),
-    ("example008", "DXF"),
-    ("example009", "DXF"),
-    ("example013", "DXF"),
-    ("example015", "DXF"),
-];
+const NOT_YET: [(&str, &str); 1] = [("echo", "empty")];
 
 fn programs() -> Vec<PathBuf> {
     let files = |folder: &Path| -> Vec<PathBuf> {

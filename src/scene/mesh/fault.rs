@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::scene::xml::{XmlError, XmlFault};
 use crate::scene::{Diagnostic, Diagnostics};
 
 /// Why a mesh file gave no mesh: the first mistake in it.
@@ -96,9 +97,9 @@ pub enum MeshFault {
     /// A part of an archive is not what its sum says.
     #[error("`{0}` in the archive is damaged")]
     Damaged(String),
-    /// A text is no XML.
-    #[error("this is no XML: {0}")]
-    NoXml(String),
+    /// A text is no XML, or not as that of a model is.
+    #[error(transparent)]
+    Xml(#[from] XmlFault),
     /// An object that is named is not there.
     #[error("an object `{0}` is named, which there is not")]
     NoObject(String),
@@ -135,6 +136,12 @@ impl MeshFault {
     /// The error of this fault in the file as a whole.
     pub fn of_all(self) -> MeshError {
         MeshError { place: MeshPlace::Whole, fault: self }
+    }
+}
+
+impl From<XmlError> for MeshError {
+    fn from(XmlError { place, fault }: XmlError) -> Self {
+        Self { place: place.map_or(MeshPlace::Whole, MeshPlace::Text), fault: MeshFault::Xml(fault) }
     }
 }
 

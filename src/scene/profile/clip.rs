@@ -35,6 +35,17 @@ pub enum Join {
     Chamfered,
 }
 
+/// How a line ends that is drawn with a width.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LineEnd {
+    /// Where the line does.
+    Flat,
+    /// Half its width later.
+    Square,
+    /// In half a circle.
+    Round,
+}
+
 /// The grid on which a sweep computes, and the places that its points came from.
 struct Grid {
     unit: f64,
@@ -213,6 +224,31 @@ pub fn grown(figure: &Figure, by: f64, join: Join) -> Figure {
     offset.execute_tree(by / grid.unit, &mut tree);
     let grown = grid.figure(&tree);
     Figure { error: grown.error + figure.error, ..grown }
+}
+
+/// The outlines of a line as wide as `width`, as OpenSCAD draws those of an SVG file: corners are sharp up to
+/// twice half the width.
+pub fn stroked(line: &[DVec2], width: f64, end: LineEnd) -> Result<Vec<Vec<DVec2>>, Tangled> {
+    // Round ends are off circles by a quarter of OpenSCAD's unit, a ten-thousandth; but a circle has no more
+    // than a thousand sides.
+    const OFF: f64 = 0.25e-4;
+    let line = line.to_vec();
+    if is_tangled(std::iter::once(&line)) {
+        return Err(Tangled);
+    }
+    let half = 0.5 * width;
+    let off = OFF.max(half * (1.0 - libm::cos(std::f64::consts::PI / 1000.0)));
+    let mut grid = Grid::new(line.iter().map(|p| p.abs().max_element()).fold(2.0 * width, f64::max));
+    let end = match end {
+        LineEnd::Flat => EndType::Butt,
+        LineEnd::Square => EndType::Square,
+        LineEnd::Round => EndType::Round,
+    };
+    let mut offset = ClipperOffset::new(2.0, off / grid.unit, false, false);
+    offset.add_path(&grid.inward(&line), JoinType::Miter, end);
+    let mut tree = PolyTree64::new();
+    offset.execute_tree(half / grid.unit, &mut tree);
+    Ok(grid.figure(&tree).rings().cloned().collect())
 }
 
 /// Whether paths have too many crossings, or too many sides beside each other, for a sweep to look at each.

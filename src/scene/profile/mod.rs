@@ -16,7 +16,7 @@ mod work;
 
 pub use arcs::{Fragments, MOST_CORNERS, corners};
 pub use carved::{NotCarved, united_meshes};
-pub use clip::{Join, combined, filled, grown, wound};
+pub use clip::{Join, LineEnd, combined, filled, grown, stroked, wound};
 pub use convex_hull::{hull_of_figures, hull_of_solid};
 pub use faceted::faceted;
 pub use figure::{Figure, FigureOperator, Region};

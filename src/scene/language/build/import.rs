@@ -11,28 +11,31 @@ use super::lost::Lost;
 use super::origin::Origin;
 use super::pieces::{Made, Piece, united};
 use crate::math::DAffine3;
+use crate::scene::drawing::DrawingFormat;
 use crate::scene::language::nearest::quoted;
 use crate::scene::language::syntax::Call;
 use crate::scene::language::vocabulary::Word;
 use crate::scene::memory::ASSEMBLED_OPERATOR;
 use crate::scene::mesh::{self, MeshSolids, NoSolids};
 use crate::scene::named_files::NamedFile;
+use crate::scene::profile::Fragments;
 use crate::scene::{Diagnostic, Format, MaterialId, Mesh, MeshFacts, Primitive, Shape, Solid, gzip};
 
 /// What a file is to `import`.
 enum Kind {
     /// Something solid, which its content says.
     Mesh,
-    /// A plane figure, of a format of this name.
-    Drawing(&'static str),
+    /// A plane figure.
+    Drawing(DrawingFormat),
 }
 
 impl Kind {
     /// That of a file by its name, as OpenSCAD decides.
     fn of(name: &str) -> Self {
         let ending = Path::new(name).extension().unwrap_or_default();
-        let drawing = ["SVG", "DXF"].into_iter().find(|format| ending.eq_ignore_ascii_case(format));
-        drawing.map_or(Self::Mesh, Self::Drawing)
+        let formats = [("dxf", DrawingFormat::Dxf), ("svg", DrawingFormat::Svg)];
+        let drawing = formats.into_iter().find(|(name, _)| ending.eq_ignore_ascii_case(name));
+        drawing.map_or(Self::Mesh, |(_, format)| Self::Drawing(format))
     }
 }
 
@@ -54,7 +57,8 @@ impl Builder {
     ) -> Result<Made, Lost> {
         let arguments = BoundArguments::bind(call, word, &mut self.sink)?;
         let origin = Origin::of(word, call);
-        let piece = self.imported(&arguments)?;
+        let fragments = arguments.fragments(context.fragments);
+        let piece = self.imported(&arguments, fragments)?;
         if context.space == FormSpace::Faceted {
             return self.placed_piece(piece, context, origin).map(Made::Piece);
         }
@@ -62,19 +66,12 @@ impl Builder {
     }
 
     /// What a file has in it, in the file's own coordinates.
-    fn imported(&mut self, arguments: &BoundArguments<'_, '_>) -> Result<Piece, Lost> {
+    fn imported(&mut self, arguments: &BoundArguments<'_, '_>, fragments: Fragments) -> Result<Piece, Lost> {
         let Some(name) = arguments.text("file", &mut self.sink)? else {
             return Err(arguments.missing("file", &mut self.sink));
         };
         match Kind::of(name) {
-            // A figure of `scene::profile`, once there is a reader.
-            Kind::Drawing(format) => {
-                let error =
-                    Diagnostic::error(arguments.place_of("file"), format!("{format} files are not read yet"));
-                let error =
-                    error.help("of other files it imports only meshes: STL, OFF, PLY, OBJ, 3MF and AMF");
-                Err(self.not_imported(error, arguments))
-            }
+            Kind::Drawing(format) => self.drawing_file(format, name, arguments, fragments),
             Kind::Mesh => self.mesh_file(name, arguments),
         }
     }
@@ -83,11 +80,7 @@ impl Builder {
         self.note_what_is_of_drawings(arguments)?;
         let place = arguments.place_of("file");
         let shown = quoted(name);
-        let file = self.imports.files.find(name).map_err(|why| {
-            let error = Diagnostic::error(place, format!("`{shown}` can not be imported: {why}"));
-            let error = why.help().into_iter().fold(error, Diagnostic::help);
-            self.not_imported(error, arguments)
-        })?;
+        let file = self.file_to_import(name, arguments)?;
         let known = self.imports.known.get(&file.path).cloned();
         let solids = if let Some(known) = known {
             known
@@ -115,27 +108,16 @@ impl Builder {
 
     /// The solids of a file, or what is wrong with it.
     fn read_mesh(&mut self, name: &str, file: &NamedFile) -> Result<Result<MeshSolids, String>, Lost> {
-        if !self.memory.has_room_for(file.length) {
-            return Err(self.no_room_to_read(file.length));
-        }
-        let bytes = match file.read() {
+        let (bytes, name) = match self.bytes_to_import(name, file)? {
             Ok(bytes) => bytes,
-            Err(why) => return Ok(Err(why.to_string())),
-        };
-        let (bytes, name) = if gzip::is_gzip(&bytes) {
-            match gzip::unpacked(&bytes, Some(self.memory.left())) {
-                Ok(inner) => (inner, gzip::inner_name(name)),
-                Err(error) => return Ok(Err(error.message)),
-            }
-        } else {
-            (bytes, name)
+            Err(why) => return Ok(Err(why)),
         };
         let format = mesh::format_of(&bytes).unwrap_or_else(|| Format::of(name));
         match mesh::solids(&bytes, format, self.memory.left()) {
             Ok(solids) => Ok(Ok(solids)),
             Err(NoSolids::Wrong(why)) => Ok(Err(why)),
             Err(NoSolids::NoMesh) => {
-                Ok(Err("it is no mesh: STL, OFF, PLY, OBJ, 3MF and AMF are read".to_owned()))
+                Ok(Err("it is no mesh: STL, OFF, PLY, OBJ, 3MF and AMF are read, and drawings by their names: DXF and SVG".to_owned()))
             }
             Err(NoSolids::NoRoom(needed)) => Err(self.no_room_to_read(needed)),
         }
@@ -171,8 +153,44 @@ impl Builder {
         Ok(())
     }
 
+    /// Finds a file that may be read.
+    pub(super) fn file_to_import(
+        &mut self,
+        name: &str,
+        arguments: &BoundArguments<'_, '_>,
+    ) -> Result<NamedFile, Lost> {
+        self.imports.files.find(name).map_err(|why| {
+            let error = Diagnostic::error(
+                arguments.place_of("file"),
+                format!("`{}` can not be imported: {why}", quoted(name)),
+            );
+            let error = why.help().into_iter().fold(error, Diagnostic::help);
+            self.not_imported(error, arguments)
+        })
+    }
+
+    /// The bytes of a file, unpacked, and its name as such; or what is wrong with it.
+    pub(super) fn bytes_to_import<'n>(
+        &mut self,
+        name: &'n str,
+        file: &NamedFile,
+    ) -> Result<Result<(Vec<u8>, &'n str), String>, Lost> {
+        if !self.memory.has_room_for(file.length) {
+            return Err(self.no_room_to_read(file.length));
+        }
+        let bytes = match file.read() {
+            Ok(bytes) => bytes,
+            Err(why) => return Ok(Err(why.to_string())),
+        };
+        if !gzip::is_gzip(&bytes) {
+            return Ok(Ok((bytes, name)));
+        }
+        let inner = gzip::unpacked(&bytes, Some(self.memory.left()));
+        Ok(inner.map(|inner| (inner, gzip::inner_name(name))).map_err(|error| error.message))
+    }
+
     /// The error of a file that is not there, or is not what it should be.
-    fn not_imported(&mut self, error: Diagnostic, arguments: &BoundArguments<'_, '_>) -> Lost {
+    pub(super) fn not_imported(&mut self, error: Diagnostic, arguments: &BoundArguments<'_, '_>) -> Lost {
         arguments.refuse(error, Lost::Missing, &mut self.sink)
     }
 }

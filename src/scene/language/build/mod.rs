@@ -5,6 +5,7 @@ mod chain;
 mod colors;
 mod context;
 mod definitions;
+mod drawings;
 mod facets;
 mod figures;
 mod form;

@@ -7,10 +7,10 @@ use super::super::fault::{MeshError, MeshFault};
 use super::super::index::CornerNumbers;
 use super::super::polygons::PolygonMesh;
 use super::tree::{Instance, ModelObject, ObjectTree};
-use super::xml::{XmlElement, XmlEvent, XmlText, index, number, outermost};
 use super::zip::{ZipArchive, is_zip};
 use crate::math::{DAffine3, DMat3, DVec3};
 use crate::scene::degrees;
+use crate::scene::xml::{XmlElement, XmlEvent, XmlText, index, number, outermost};
 use crate::scene::{MAX_FILE_BYTES, Material};
 
 /// Whether the bytes are a text of this format.

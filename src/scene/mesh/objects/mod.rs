@@ -3,7 +3,6 @@
 pub mod amf;
 pub mod three_mf;
 mod tree;
-mod xml;
 mod zip;
 
 use crate::scene::Format;

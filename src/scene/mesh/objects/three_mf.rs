@@ -8,10 +8,10 @@ use super::super::fault::{MeshError, MeshFault};
 use super::super::index::CornerNumbers;
 use super::super::polygons::PolygonMesh;
 use super::tree::{Instance, ModelObject, ObjectTree, shortened};
-use super::xml::{XmlElement, XmlEvent, XmlText, number};
 use super::zip::ZipArchive;
 use crate::math::{DAffine3, DVec3};
 use crate::scene::screen_colors::by_digits;
+use crate::scene::xml::{XmlElement, XmlEvent, XmlText, number};
 use crate::scene::{MAX_FILE_BYTES, Material};
 
 /// The model where nothing says which file it is.
@@ -56,7 +56,7 @@ fn root(archive: &ZipArchive<'_>, left: &mut u64) -> Result<String, MeshError> {
         file => file?,
     };
     *left -= file.len() as u64;
-    let within = |error: MeshError| error.within("_rels/.rels", &file);
+    let within = |error| MeshError::from(error).within("_rels/.rels", &file);
     let mut text = XmlText::new(&file).map_err(within)?;
     loop {
         match text.next().map_err(within)? {
@@ -274,7 +274,7 @@ impl<'m> ModelReader<'m> {
 
 /// The whole number that an attribute is, where it is there.
 fn optional(element: &XmlElement<'_>, attribute: &str) -> Result<Option<i64>, MeshError> {
-    element.attribute(attribute)?.map(|_| element.index(attribute)).transpose()
+    Ok(element.attribute(attribute)?.map(|_| element.index(attribute)).transpose()?)
 }
 
 /// The name by which an object is known.

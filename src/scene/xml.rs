@@ -1,5 +1,5 @@
-//! XML as files of models have it: elements and their text, with the place of each. What could be expanded,
-//! entities of a document type, is an error.
+//! XML as files of models and drawings have it: elements and their text, with the place of each. Nothing is
+//! expanded: entities of a document type are an error.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -9,10 +9,46 @@ use quick_xml::XmlVersion;
 use quick_xml::escape::resolve_predefined_entity;
 use quick_xml::events::{BytesEnd, BytesStart, Event};
 
-use super::super::fault::{MeshError, MeshFault};
+/// Elements are nested no deeper: models have ten levels, drawings some dozens.
+const DEEPEST: usize = 256;
 
-/// Elements are nested no deeper: models have ten levels.
-const DEEPEST: usize = 64;
+/// What is wrong with a text.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum XmlFault {
+    /// It is no XML.
+    #[error("this is no XML: {0}")]
+    NoXml(String),
+    /// It has what is not read.
+    #[error("{0}, which ray13 does not read")]
+    Unsupported(String),
+    /// It ends too soon.
+    #[error("the file is cut off: it ends where {0} should be")]
+    CutOff(String),
+    /// Something else stands here.
+    #[error("{0} is expected here")]
+    Unexpected(String),
+    /// A number that is none.
+    #[error("{0} is no number")]
+    NoNumber(String),
+    /// A number that is infinite, or none.
+    #[error("{0} is not a finite number")]
+    NotFinite(String),
+}
+
+/// What is wrong with a text, and where.
+#[derive(Clone, Debug, PartialEq)]
+pub struct XmlError {
+    /// Bytes of the text; none where it is all of it.
+    pub place: Option<Range<usize>>,
+    /// What it is.
+    pub fault: XmlFault,
+}
+
+impl XmlFault {
+    fn at(self, place: Range<usize>) -> XmlError {
+        XmlError { place: Some(place), fault: self }
+    }
+}
 
 /// What comes next in a text.
 #[derive(Clone, Debug)]
@@ -45,37 +81,46 @@ pub struct XmlText<'a> {
     depth: usize,
     /// The name of the outermost element, where that is known and it has not come yet.
     root: Option<&'static str>,
+    /// Whether a document type is passed over.
+    passes_doctype: bool,
     /// The place of the event before.
     pub place: Range<usize>,
 }
 
 impl<'a> XmlText<'a> {
     /// Those of a text.
-    pub fn new(bytes: &'a [u8]) -> Result<Self, MeshError> {
+    pub fn new(bytes: &'a [u8]) -> Result<Self, XmlError> {
         let bytes = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
         let text = std::str::from_utf8(bytes).map_err(|error| {
             let at = error.valid_up_to();
-            MeshFault::Unexpected("UTF-8 text".to_owned()).at(at..at + 1)
+            XmlFault::Unexpected("UTF-8 text".to_owned()).at(at..at + 1)
         })?;
         let mut reader = Reader::from_str(text);
         let config = reader.config_mut();
         config.expand_empty_elements = true;
         config.trim_text(true);
-        Ok(Self { reader, depth: 0, root: None, place: 0..0 })
+        Ok(Self { reader, depth: 0, root: None, passes_doctype: false, place: 0..0 })
     }
 
     /// Those of a text whose outermost element has this name; without it, it is an error.
-    pub fn rooted(bytes: &'a [u8], root: &'static str) -> Result<Self, MeshError> {
+    pub fn rooted(bytes: &'a [u8], root: &'static str) -> Result<Self, XmlError> {
         Ok(Self { root: Some(root), ..Self::new(bytes)? })
     }
 
+    /// The same where a document type is passed over. What it defines is not known: where that is used, it is
+    /// an error.
+    #[must_use]
+    pub fn passing_doctype(self) -> Self {
+        Self { passes_doctype: true, ..self }
+    }
+
     /// The next event.
-    pub fn next(&mut self) -> Result<XmlEvent<'a>, MeshError> {
+    pub fn next(&mut self) -> Result<XmlEvent<'a>, XmlError> {
         loop {
             let start = self.reader.buffer_position() as usize;
             let event = self.reader.read_event().map_err(|error| {
                 let at = self.reader.error_position() as usize;
-                MeshFault::NoXml(error.to_string()).at(at..at + 1)
+                XmlFault::NoXml(error.to_string()).at(at..at + 1)
             })?;
             self.place = start..(self.reader.buffer_position() as usize).max(start + 1);
             match event {
@@ -83,7 +128,7 @@ impl<'a> XmlText<'a> {
                     self.depth += 1;
                     if self.depth > DEEPEST {
                         let what = format!("elements are nested deeper than {DEEPEST}");
-                        return Err(MeshFault::Unsupported(what).at(self.place.clone()));
+                        return Err(XmlFault::Unsupported(what).at(self.place.clone()));
                     }
                     let element = XmlElement { tag, place: self.place.clone() };
                     if let Some(root) = self.root.take().filter(|root| *root != element.name()) {
@@ -107,30 +152,30 @@ impl<'a> XmlText<'a> {
                         None => return Err(self.no_entity(&name)),
                     }
                 }
-                Event::DocType(_) => {
+                Event::DocType(_) if !self.passes_doctype => {
                     let what = "a document type, which may define entities".to_owned();
-                    return Err(MeshFault::Unsupported(what).at(self.place.clone()));
+                    return Err(XmlFault::Unsupported(what).at(self.place.clone()));
                 }
                 // Empty elements come as a start and an end.
-                Event::Comment(_) | Event::Decl(_) | Event::PI(_) | Event::Empty(_) => {}
+                Event::Comment(_) | Event::Decl(_) | Event::PI(_) | Event::Empty(_) | Event::DocType(_) => {}
                 Event::Eof if self.depth > 0 => {
-                    return Err(MeshFault::CutOff("the end of an element".to_owned()).at(self.place.clone()));
+                    return Err(XmlFault::CutOff("the end of an element".to_owned()).at(self.place.clone()));
                 }
                 Event::Eof => match self.root {
-                    Some(root) => return Err(no_root(root).of_all()),
+                    Some(root) => return Err(XmlError { place: None, fault: no_root(root) }),
                     None => return Ok(XmlEvent::End),
                 },
             }
         }
     }
 
-    fn no_entity(&self, name: &str) -> MeshError {
-        MeshFault::Unsupported(format!("an entity `{name}`")).at(self.place.clone())
+    fn no_entity(&self, name: &str) -> XmlError {
+        XmlFault::Unsupported(format!("an entity `{name}`")).at(self.place.clone())
     }
 }
 
-fn no_root(name: &str) -> MeshFault {
-    MeshFault::Unexpected(format!("an element `{name}`"))
+fn no_root(name: &str) -> XmlFault {
+    XmlFault::Unexpected(format!("an element `{name}`"))
 }
 
 impl XmlEnd<'_> {
@@ -151,8 +196,8 @@ impl XmlElement<'_> {
     }
 
     /// The value of an attribute by its name without a prefix; the first of several.
-    pub fn attribute(&self, name: &str) -> Result<Option<Cow<'_, str>>, MeshError> {
-        let wrong = |why: &dyn std::fmt::Display| MeshFault::NoXml(why.to_string()).at(self.place.clone());
+    pub fn attribute(&self, name: &str) -> Result<Option<Cow<'_, str>>, XmlError> {
+        let wrong = |why: &dyn std::fmt::Display| XmlFault::NoXml(why.to_string()).at(self.place.clone());
         for attribute in self.tag.attributes().with_checks(false) {
             let attribute = attribute.map_err(|error| wrong(&error))?;
             if attribute.key.local_name().as_ref() == name {
@@ -165,33 +210,33 @@ impl XmlElement<'_> {
     }
 
     /// The finite number that an attribute must be.
-    pub fn number(&self, name: &str) -> Result<f64, MeshError> {
+    pub fn number(&self, name: &str) -> Result<f64, XmlError> {
         number(&self.needed(name)?, name).map_err(|fault| fault.at(self.place.clone()))
     }
 
     /// The whole number that an attribute must be.
-    pub fn index(&self, name: &str) -> Result<i64, MeshError> {
+    pub fn index(&self, name: &str) -> Result<i64, XmlError> {
         index(&self.needed(name)?, name).map_err(|fault| fault.at(self.place.clone()))
     }
 
-    fn needed(&self, name: &str) -> Result<Cow<'_, str>, MeshError> {
-        let missing = || MeshFault::Unexpected(format!("an attribute `{name}`")).at(self.place.clone());
+    fn needed(&self, name: &str) -> Result<Cow<'_, str>, XmlError> {
+        let missing = || XmlFault::Unexpected(format!("an attribute `{name}`")).at(self.place.clone());
         self.attribute(name)?.ok_or_else(missing)
     }
 }
 
 /// The finite number that a word is.
-pub fn number(word: &str, what: &str) -> Result<f64, MeshFault> {
+pub fn number(word: &str, what: &str) -> Result<f64, XmlFault> {
     match word.trim().parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),
-        Ok(_) => Err(MeshFault::NotFinite(format!("`{what}`"))),
-        Err(_) => Err(MeshFault::NoNumber(format!("`{what}`"))),
+        Ok(_) => Err(XmlFault::NotFinite(format!("`{what}`"))),
+        Err(_) => Err(XmlFault::NoNumber(format!("`{what}`"))),
     }
 }
 
 /// The whole number that a word is.
-pub fn index(word: &str, what: &str) -> Result<i64, MeshFault> {
-    word.trim().parse().map_err(|_| MeshFault::NoNumber(format!("`{what}`")))
+pub fn index(word: &str, what: &str) -> Result<i64, XmlFault> {
+    word.trim().parse().map_err(|_| XmlFault::NoNumber(format!("`{what}`")))
 }
 
 /// The name of the outermost element of a text that begins as XML does; none of any other.

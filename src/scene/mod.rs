@@ -1,5 +1,6 @@
 //! Stage 1, OBJECTS: bytes in, [`Scene`] out. Kind, place, size and surface of every solid.
 
+mod bezier;
 mod bounded;
 mod content;
 mod degrees;
@@ -23,6 +24,7 @@ mod triangles;
 mod triangulation;
 mod unit_vector;
 
+pub use bezier::BezierPatches;
 pub use diagnostic::{Diagnostic, Diagnostics, Severity};
 pub use embedded::{EmbeddedScene, embedded};
 pub use language::reference;

@@ -125,6 +125,11 @@ macro_rules! conformance {
             }
 
             #[test]
+            fn random_patches_agree_with_the_oracle() {
+                random::random_patches_agree_with_the_oracle::<$subject>();
+            }
+
+            #[test]
             fn a_sponge_is_one_in_any_order() {
                 laws::a_sponge_is_one_in_any_order::<$subject>();
             }

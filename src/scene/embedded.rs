@@ -44,5 +44,10 @@ pub const fn embedded() -> &'static [EmbeddedScene] {
             title: "polished balls and a pawn between two looking-glasses",
             text: include_str!("../../scenes/mirrors.scene"),
         },
+        EmbeddedScene {
+            name: "teapot",
+            title: "the teapot of 1975, of Bézier patches",
+            text: include_str!("../../scenes/teapot.scene"),
+        },
     ]
 }

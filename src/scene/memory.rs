@@ -21,6 +21,10 @@ pub const ASSEMBLED_FACES: u64 = 450;
 /// measured.
 pub const ASSEMBLED_TRIANGLE: u64 = 330;
 
+/// Bytes that showing a piece of a Bézier patch takes: its control points, twice while pieces are put
+/// in order, and its share of the boxes.
+pub const ASSEMBLED_PIECE: u64 = 1000;
+
 /// Bytes more that an operator takes, in the scene and as expressions for rays: 800 were measured.
 pub const ASSEMBLED_OPERATOR: u64 = 800;
 

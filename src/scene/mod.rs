@@ -1,5 +1,6 @@
 //! Stage 1, OBJECTS: bytes in, [`Scene`] out. Kind, place, size and surface of every solid.
 
+mod bezier;
 mod bounded;
 mod content;
 mod degrees;
@@ -26,6 +27,7 @@ mod triangulation;
 mod unit_vector;
 mod xml;
 
+pub use bezier::BezierPatches;
 pub use diagnostic::{Diagnostic, Diagnostics, Severity};
 pub use embedded::{EmbeddedScene, embedded};
 pub use language::reference;

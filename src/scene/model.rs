@@ -6,7 +6,7 @@ use std::vec::Drain;
 
 use crate::math::{Bounds, DAffine3, DVec3};
 
-use super::{Mesh, MeshFacts};
+use super::{BezierPatches, Mesh, MeshFacts};
 
 /// Scenes reach no farther than this from the origin along any axis. It is a thousandth of the largest
 /// number: so far may an eye that sees all of a scene stand off, and the lights that go with it.
@@ -200,6 +200,9 @@ pub enum Shape {
     /// A closed solid of triangles, not necessarily convex: the points around which an odd number of
     /// surfaces lie.
     Mesh(Arc<Mesh>),
+    /// Bézier patches: a solid where they close ([`BezierPatches::is_closed`]), not necessarily convex; else
+    /// a surface.
+    Bezier(Arc<BezierPatches>),
     /// A surface: a polygon, which may be concave and, by what rounding its corners takes, not quite flat.
     /// Three corners or more, no two neighbours the same, with an area. Points around which its outline turns
     /// an even number of times are outside.
@@ -217,8 +220,11 @@ pub enum Shape {
 
 impl Shape {
     /// Whether it is a surface, seen and lit from both sides, and not a solid.
-    pub const fn is_surface(&self) -> bool {
-        matches!(self, Self::Face(_) | Self::Patch(_) | Self::Tube { .. })
+    pub fn is_surface(&self) -> bool {
+        match self {
+            Self::Bezier(patches) => !patches.is_closed(),
+            _ => matches!(self, Self::Face(_) | Self::Patch(_) | Self::Tube { .. }),
+        }
     }
 
     /// A box around the shape, in its own coordinates.
@@ -229,6 +235,7 @@ impl Shape {
             }
             Self::Facets(facets) => facets.bounds,
             Self::Mesh(mesh) => Bounds::around(mesh.points.iter().copied()),
+            Self::Bezier(patches) => Bounds::around(patches.points().iter().copied()),
             Self::Face(corners) => Bounds::around(corners.iter().copied()),
             Self::Patch(corners) => Bounds::around(corners.iter().map(|corner| corner.place)),
         }

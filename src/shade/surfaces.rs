@@ -107,8 +107,8 @@ impl Surfaces {
             let (primitive, surface) = (nearest.primitive.0[lane], nearest.surface.0[lane]);
             let own = &assembly.primitives[primitive as usize];
             let mut group = rest & nearest.primitive.rays_of(simd, primitive);
-            // A mesh may have so many that each ray meets its own.
-            if !matches!(own.form, WorldShape::Mesh(_)) {
+            // A mesh may have so many that each ray meets its own; of Bézier patches each place is one.
+            if !matches!(own.form, WorldShape::Mesh(_) | WorldShape::Bezier(_)) {
                 group &= nearest.surface.rays_of(simd, surface);
             }
             rest &= !group;
@@ -142,6 +142,19 @@ impl Surfaces {
                         let some = group >> (register * LANES) & 0xFF;
                         if some != 0 {
                             let normal = mesh.normals_of(simd, some, register, &nearest.surface);
+                            let others = self.normal.load(simd, register);
+                            let own = mask_of(simd, group, register);
+                            self.normal.store(register, Vector::choose(own, normal, others));
+                        }
+                    }
+                }
+                WorldShape::Bezier(patches) => {
+                    for register in lane / LANES..REGISTERS {
+                        let some = group >> (register * LANES) & 0xFF;
+                        if some != 0 {
+                            let surfaces = &nearest.surface.0[register * LANES..][..LANES];
+                            let p = self.p.load(simd, register);
+                            let normal = patches.normals_of(simd, some, surfaces, p);
                             let others = self.normal.load(simd, register);
                             let own = mask_of(simd, group, register);
                             self.normal.store(register, Vector::choose(own, normal, others));

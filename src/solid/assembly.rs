@@ -11,6 +11,7 @@ use crate::scene::{self, MaterialId, Scene, Solid};
 use crate::stage::{Progress, Task};
 
 use super::ball::Ball;
+use super::bezier::BezierSurface;
 use super::expression::{CsgTree, Expression};
 use super::mesh::TriangleMesh;
 use super::primitive::{WorldPrimitive, WorldShape};
@@ -118,6 +119,8 @@ pub enum BatchKind {
     Tube,
     /// One mesh that is no operand.
     Mesh,
+    /// A solid of Bézier patches that is no operand.
+    Bezier,
     /// Anything else: one ray at a time.
     Other,
 }
@@ -333,6 +336,7 @@ impl Assembly {
         } else {
             primitives.par_iter().map(numbers).reduce(|| (0.0, f64::INFINITY), join)
         };
+        let is_mesh = |p: &WorldPrimitive| matches!(p.form, WorldShape::Mesh(_));
         let alone = |object: &WorldObject| match &object.body {
             &Body::Single(index) | &Body::Surface(index) => match primitives[index as usize].form {
                 WorldShape::Ball(_) => (index, BatchKind::Ball),
@@ -340,14 +344,15 @@ impl Assembly {
                 _ => (index, BatchKind::Other),
             },
             Body::Composite { tree, .. } => match **tree {
-                CsgTree::Leaf(index) => (index, BatchKind::Mesh),
-                _ => (MANY, BatchKind::Other),
+                CsgTree::Leaf(index) if is_mesh(&primitives[index as usize]) => (index, BatchKind::Mesh),
+                CsgTree::Leaf(index) => (index, BatchKind::Bezier),
+                CsgTree::Any(_) | CsgTree::All(_) => (MANY, BatchKind::Other),
             },
         };
         let alone: Vec<_> = objects.iter().map(alone).collect();
         let balls = alone.iter().filter(|(_, kind)| *kind == BatchKind::Ball).count();
         let surfaces = objects.iter().filter(|o| matches!(o.body, Body::Surface(_))).count();
-        let meshes = primitives.iter().filter(|p| matches!(p.form, WorldShape::Mesh(_))).count();
+        let meshes = primitives.iter().filter(|&p| is_mesh(p)).count();
         let lone_meshes = alone.iter().filter(|(_, kind)| *kind == BatchKind::Mesh).count();
         let stats =
             AssemblyStats { thinnest, balls, surfaces, cut_meshes: meshes.saturating_sub(lone_meshes) };
@@ -359,7 +364,7 @@ impl Assembly {
     #[inline]
     pub fn alone(&self, object: u32) -> Option<u32> {
         let (index, kind) = self.alone[object as usize];
-        (index != MANY && kind != BatchKind::Mesh).then_some(index)
+        (index != MANY && !matches!(kind, BatchKind::Mesh | BatchKind::Bezier)).then_some(index)
     }
 
     /// The mesh that an object is, and its index among the primitives, where it is nothing else.
@@ -371,6 +376,18 @@ impl Assembly {
         }
         let WorldShape::Mesh(mesh) = &self.primitives[index as usize].form else { return None };
         Some((index, mesh))
+    }
+
+    /// The solid of Bézier patches that an object is, and its index among the primitives, where it is nothing
+    /// else.
+    #[inline]
+    pub fn patches(&self, object: u32) -> Option<(u32, &BezierSurface)> {
+        let (index, kind) = self.alone[object as usize];
+        if kind != BatchKind::Bezier {
+            return None;
+        }
+        let WorldShape::Bezier(patches) = &self.primitives[index as usize].form else { return None };
+        Some((index, patches))
     }
 
     /// What kind of object it is; and the primitive that it is, where it is one alone.

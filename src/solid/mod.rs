@@ -3,6 +3,12 @@
 
 mod assembly;
 mod ball;
+mod bezier;
+mod bezier_cell;
+mod bezier_edge;
+mod bezier_packet;
+mod bezier_piece;
+mod bezier_steep;
 mod classification;
 mod crossing;
 mod crossings;
@@ -42,6 +48,8 @@ mod unit_space;
 
 pub use assembly::{Assembly, AssemblyError, AssemblyStats, BatchKind, Body, SceneFrame, WorldObject};
 pub use ball::Ball;
+pub use bezier::BezierSurface;
+pub use bezier_packet::{BezierPacket, BezierQuery};
 pub use classification::Classification;
 pub use crossing::{
     Crossing, FirstCrossings, RayStarts, Scratch, TRange, first_of_expression, first_of_span, firsts_of_spans,

@@ -92,11 +92,18 @@ impl<S: Simd, const MAIN: usize> Row<S, MAIN> {
     /// The places of a point in the planes.
     #[inline(always)]
     fn place(&self, p: DVec3) -> [f64x8<S>; 2] {
+        let [x, y, _] = self.sheared(p);
+        [x, y]
+    }
+
+    /// The places of a point in the planes, and how far it lies from the starts along the main axis.
+    #[inline(always)]
+    pub fn sheared(&self, p: DVec3) -> [f64x8<S>; 3] {
         let p = p.to_array();
         let along = -self.o[0] + p[MAIN];
         let x = (-self.o[1] + p[(MAIN + 1) % 3]) - self.shear[0] * along;
         let y = (-self.o[2] + p[(MAIN + 2) % 3]) - self.shear[1] * along;
-        [x, y]
+        [x, y, along]
     }
 
     /// Adds a stretch of an outline: `RayShear::crosses_odd` for eight.

@@ -6,6 +6,7 @@ use crate::math::{Bounds, DAffine3, DMat3, DVec3, Number, Placement, Ray, Rays, 
 use crate::scene::{MaterialId, Shape};
 
 use super::ball::Ball;
+use super::bezier::BezierSurface;
 use super::classification::Classification;
 use super::face::Face;
 use super::facets::ConvexPolyhedron;
@@ -42,6 +43,8 @@ pub enum WorldShape {
     Facets(Box<ConvexPolyhedron>),
     /// A closed surface of triangles.
     Mesh(Box<TriangleMesh>),
+    /// Bézier patches: a closed surface, or a surface that bounds nothing.
+    Bezier(Box<BezierSurface>),
     /// A polygon: a surface.
     Face(Box<Face>),
     /// A polygon with a normal at each corner: a surface.
@@ -83,6 +86,7 @@ impl WorldShape {
                 Some(facets) => Self::Facets(Box::new(facets)),
                 None => Self::Mesh(Box::new(TriangleMesh::new(unit, &place, error))),
             },
+            Shape::Bezier(unit) => Self::Bezier(Box::new(BezierSurface::new(unit, &place, error))),
             Shape::Face(corners) => Self::Face(Box::new(Face::new(corners.iter().copied(), &place, error))),
             Shape::Patch(corners) => Self::Patch(Box::new(Patch::new(corners, &place, error))),
             Shape::Tube { bottom, top } => Self::Tube(Box::new(Tube::new(&place, *bottom, *top, error))),
@@ -104,7 +108,7 @@ impl WorldShape {
             Self::SkewBox(slabs) => Some(slabs.spans(rays)),
             Self::Quadric(quadric) => Some(quadric.spans(rays)),
             Self::Facets(facets) => Some(facets.spans(rays)),
-            Self::Mesh(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => None,
+            Self::Mesh(_) | Self::Bezier(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => None,
         }
     }
 
@@ -118,6 +122,7 @@ impl WorldShape {
             Self::Quadric(quadric) => quadric.place_error(),
             Self::Facets(facets) => facets.place_error(),
             Self::Mesh(mesh) => mesh.place_error(),
+            Self::Bezier(patches) => patches.place_error(),
             Self::Face(face) => face.place_error(),
             Self::Patch(patch) => patch.face.place_error(),
             Self::Tube(tube) => tube.place_error(),
@@ -133,7 +138,7 @@ impl WorldShape {
             Self::SkewBox(slabs) => slabs.thickness(),
             Self::Quadric(quadric) => quadric.thickness(),
             Self::Facets(facets) => facets.thickness(),
-            Self::Mesh(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => f64::INFINITY,
+            Self::Mesh(_) | Self::Bezier(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => f64::INFINITY,
         }
     }
 
@@ -147,7 +152,7 @@ impl WorldShape {
             Self::SkewBox(slabs) => slabs.rounding_share(),
             Self::Quadric(quadric) => quadric.rounding_share(),
             Self::Facets(facets) => facets.rounding_share(),
-            Self::Mesh(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => 1.0,
+            Self::Mesh(_) | Self::Bezier(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => 1.0,
         }
     }
 
@@ -155,11 +160,15 @@ impl WorldShape {
     /// and inside.
     #[inline]
     pub fn crossings(&self, ray: &Ray, mut found: impl FnMut(End)) {
-        if let Self::Mesh(mesh) = self {
-            mesh.crossings(ray, found);
-        } else if let Some(span) = self.span(ray) {
-            found(span.enter);
-            found(span.leave);
+        match self {
+            Self::Mesh(mesh) => mesh.crossings(ray, found),
+            Self::Bezier(patches) => patches.crossings(ray, found),
+            _ => {
+                if let Some(span) = self.span(ray) {
+                    found(span.enter);
+                    found(span.leave);
+                }
+            }
         }
     }
 
@@ -168,14 +177,17 @@ impl WorldShape {
     pub fn is_convex(&self) -> bool {
         match self {
             Self::Ball(_) | Self::AxisBox(_) | Self::SkewBox(_) | Self::Quadric(_) | Self::Facets(_) => true,
-            Self::Mesh(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => false,
+            Self::Mesh(_) | Self::Bezier(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => false,
         }
     }
 
     /// Whether it is a surface, which bounds no solid.
     #[inline]
     pub fn is_surface(&self) -> bool {
-        matches!(self, Self::Face(_) | Self::Patch(_) | Self::Tube(_))
+        match self {
+            Self::Bezier(patches) => !patches.is_closed(),
+            _ => matches!(self, Self::Face(_) | Self::Patch(_) | Self::Tube(_)),
+        }
     }
 
     /// The normal that light is answered with at a point of a surface: [`WorldShape::normal`] everywhere but
@@ -187,29 +199,23 @@ impl WorldShape {
         }
     }
 
-    /// The normal of the surface itself at a point of it, as for [`WorldShape::normals`].
+    /// The normal of the surface itself at a point of it, of length 1 within rounding; outward except for
+    /// triangles and Bézier patches, which may turn either way. A face and a patch turn to the left around
+    /// theirs; a tube's points away from its axis.
     #[inline]
     pub fn normal(&self, p: DVec3, surface: u32) -> DVec3 {
-        self.normals(Vector::from(p), surface).into()
-    }
-
-    /// The normals of the surface itself at points of it, of length 1 within rounding; outward except for a
-    /// mesh, whose triangles may turn either way. A face and a patch turn to the left around theirs; a tube's
-    /// points away from its axis.
-    #[inline(always)]
-    pub fn normals<N: Number>(&self, p: Vector<N>, surface: u32) -> Vector<N> {
-        let flat = match self {
-            Self::Ball(ball) => return ball.normals(p),
-            Self::Quadric(quadric) => return quadric.normals(p, surface),
-            Self::Tube(tube) => return tube.normals(p),
+        match self {
+            Self::Ball(ball) => ball.normals(Vector::from(p)).into(),
+            Self::Quadric(quadric) => quadric.normals(Vector::from(p), surface).into(),
+            Self::Tube(tube) => tube.normals(Vector::from(p)).into(),
             Self::AxisBox(_) => AxisBox::normal(surface),
             Self::SkewBox(slabs) => slabs.normal(surface),
             Self::Facets(facets) => facets.normal(surface),
             Self::Mesh(mesh) => mesh.normal(surface),
+            Self::Bezier(patches) => patches.normal(p, surface),
             Self::Face(face) => face.normal(),
             Self::Patch(patch) => patch.face.normal(),
-        };
-        p.same(flat)
+        }
     }
 
     /// The box around it. Faces of a box along the axes are exact; all other bounds are moved outward by what
@@ -222,6 +228,7 @@ impl WorldShape {
             Self::Quadric(quadric) => quadric.bounds(),
             Self::Facets(facets) => facets.bounds(),
             Self::Mesh(mesh) => mesh.bounds(),
+            Self::Bezier(patches) => patches.bounds(),
             Self::Face(face) => face.bounds(),
             Self::Patch(patch) => patch.face.bounds(),
             Self::Tube(tube) => tube.bounds(),
@@ -236,6 +243,7 @@ impl WorldShape {
             Self::Quadric(quadric) => quadric.support(v),
             Self::SkewBox(slabs) => slabs.support(v),
             Self::Mesh(mesh) => mesh.support(v),
+            Self::Bezier(patches) => patches.support(v),
             Self::Face(face) => face.support(v),
             Self::Patch(patch) => patch.face.support(v),
             Self::Tube(tube) => tube.support(v),
@@ -260,6 +268,7 @@ impl WorldShape {
             Self::Quadric(quadric) => quadric.classify(b),
             Self::Facets(facets) => facets.classify(b),
             Self::Mesh(mesh) => Classification::of(mesh.misses(b), || false),
+            Self::Bezier(patches) => Classification::of(patches.misses(b), || false),
             Self::Face(face) => Classification::of(face.misses(b), || false),
             Self::Patch(patch) => Classification::of(patch.face.misses(b), || false),
             Self::Tube(tube) => Classification::of(tube.misses(b), || false),

@@ -19,8 +19,10 @@ pub(super) const ROUNDED: f64 = 1.5 * f64::EPSILON;
 /// The plane across a ray: two axes of the world sheared along it.
 pub(super) struct RayShear<'a> {
     ray: &'a Ray,
+    /// The axis that the ray goes farthest on, and the others.
     axes: [usize; 3],
-    shear: [f64; 2],
+    /// How far the ray goes along each of the others for a step along the first: 1 at most.
+    pub(super) shear: [f64; 2],
 }
 
 impl<'a> RayShear<'a> {
@@ -40,9 +42,23 @@ impl<'a> RayShear<'a> {
     /// The place of a point in the plane.
     #[inline]
     fn place(&self, p: DVec3) -> Coord<f64> {
+        let [x, y, _] = self.sheared(p);
+        Coord { x, y }
+    }
+
+    /// The place of a point in the plane, and how far it lies from the ray's start along the axis that the
+    /// ray goes farthest on.
+    #[inline]
+    pub fn sheared(&self, p: DVec3) -> [f64; 3] {
         let q = (p - self.ray.o).to_array();
         let along = q[self.axes[0]];
-        Coord { x: q[self.axes[1]] - self.shear[0] * along, y: q[self.axes[2]] - self.shear[1] * along }
+        [q[self.axes[1]] - self.shear[0] * along, q[self.axes[2]] - self.shear[1] * along, along]
+    }
+
+    /// How far the ray goes along that axis on a way of length 1: at least 1/√3 either way.
+    #[inline]
+    pub fn step(&self) -> f64 {
+        self.ray.d[self.axes[0]]
     }
 
     /// Whether the line passes through a triangle. One without area across the line is never passed through.
@@ -83,7 +99,7 @@ impl<'a> RayShear<'a> {
 
 /// Whether an edge crosses the half-line to the right of the line's point, that point itself moved by (ε,
 /// ε²).
-fn is_right(p: Coord<f64>, q: Coord<f64>) -> bool {
+pub(super) fn is_right(p: Coord<f64>, q: Coord<f64>) -> bool {
     if (p.y > 0.0) == (q.y > 0.0) {
         return false;
     }

@@ -46,6 +46,17 @@ pub fn first_of_surface(
             let first = firsts_of_tube(&Rays::from(ray), tube, &primitive.form, &starts);
             first.any.then(|| crossing(first.end.one(), first.entering))
         }
+        // It may be met again by a ray that leaves it, elsewhere.
+        WorldShape::Bezier(patches) => {
+            let mut first: Option<End> = None;
+            patches.crossings(ray, |end| {
+                if !at_start(&end) && first.is_none_or(|first| end.t < first.t) {
+                    first = Some(end);
+                }
+            });
+            let enters = |end: &End| patches.normal(ray.at(end.t), end.surface).dot(ray.d) < 0.0;
+            first.map(|end| crossing(end, enters(&end)))
+        }
         _ => None,
     };
     meter.record(|| RayEvent::Tested { primitive: index, span: found.map(|crossing| [crossing.t; 2]) });

@@ -50,6 +50,7 @@ pub fn firsts_of_surface<S: Simd>(
                 WorldShape::Face(face) => asking.polygon(simd, face, wanted, sheared, found),
                 WorldShape::Patch(patch) => asking.polygon(simd, &patch.face, wanted, sheared, found),
                 WorldShape::Tube(tube) => asking.tube(simd, tube, wanted, found),
+                WorldShape::Bezier(_) => found.uncertain = wanted,
                 _ => {}
             }
         },

@@ -15,7 +15,7 @@ fn lists_the_embedded_scenes() {
 #[test]
 fn prints_each_as_a_file_that_can_be_read() {
     let folder = folder("prints_each");
-    for name in ["hanyang", "die", "bolt", "temple"] {
+    for name in ["hanyang", "die", "bolt", "temple", "teapot"] {
         let file = folder.join(format!("{name}.scene"));
         fs::write(&file, done(&run(&["scenes", name]))).unwrap();
         done(&run(&["check", file.to_str().unwrap()]));

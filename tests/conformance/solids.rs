@@ -3,7 +3,11 @@
 use std::sync::Arc;
 
 use ray13::math::{Bounds, DAffine3, DMat3, DVec3};
-use ray13::scene::{Facets, HalfSpace, Material, MaterialId, Mesh, Object, Primitive, Scene, Shape, Solid};
+use ray13::scene::{
+    BezierPatches, Facets, HalfSpace, Material, MaterialId, Mesh, Object, Primitive, Scene, Shape, Solid,
+};
+
+use crate::conformance::chance::Chance;
 
 pub const CYLINDER: Shape = Shape::Cone { bottom: 1.0, top: 1.0 };
 pub const CONE: Shape = Shape::Cone { bottom: 1.0, top: 0.0 };
@@ -31,6 +35,45 @@ pub fn mesh() -> Shape {
     let first = [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]];
     let second = [[0, 1, 4], [0, 1, 5], [0, 4, 5], [1, 4, 5]];
     Shape::Mesh(Arc::new(Mesh { points: points.to_vec(), triangles: [first, second].concat() }))
+}
+
+/// Six patches around a cube whose sides bulge and dent: not convex.
+pub fn pillow() -> Shape {
+    let at = |i: usize| i as f64 / 1.5 - 1.0;
+    let (mut points, mut patches) = (Vec::new(), Vec::new());
+    for axis in 0..3 {
+        for (side, height) in [(-1.0, 0.9), (1.0, -0.6)] {
+            // Sides share their rims, which are bent as well: a point of the cube is moved by where it is.
+            let bent = |i: usize| {
+                let (a, b) = (at(i % 4), at(i / 4));
+                let is_inner = (i % 4) % 3 != 0 && (i / 4) % 3 != 0;
+                let along = side * if is_inner { 1.0 + height } else { 1.0 };
+                let mut p = [a, b, along];
+                p.rotate_right(axis);
+                let [x, y, z] = p;
+                DVec3::new(x + 0.2 * y * z, y - 0.15 * z * z, z + 0.1 * x * y * y)
+            };
+            let first = points.len() as u32;
+            points.extend((0..16).map(bent));
+            patches.push(std::array::from_fn(|i| first + i as u32));
+        }
+    }
+    let pillow = BezierPatches::new(&points, &patches);
+    assert!(pillow.is_closed());
+    Shape::Bezier(Arc::new(pillow))
+}
+
+/// A patch of any shape, and now and then with a side that is one point.
+pub fn any_patch(chance: &mut Chance) -> Shape {
+    let mut points: Vec<DVec3> = (0..16)
+        .map(|i| DVec3::new((i % 4) as f64, (i / 4) as f64, 0.0) / 1.5 - DVec3::new(1.0, 1.0, 0.0))
+        .map(|p| p + chance.point() * 0.4)
+        .collect();
+    if chance.below(3) == 0 {
+        let end = points[0];
+        points[..4].fill(end);
+    }
+    Shape::Bezier(Arc::new(BezierPatches::new(&points, &[std::array::from_fn(|i| i as u32)])))
 }
 
 pub fn primitive(shape: &Shape, linear: DMat3, center: DVec3) -> Primitive {

@@ -84,6 +84,13 @@ fn inside_the_program() {
 }
 
 #[test]
+fn of_patches() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/files/cushion.scene");
+    let scene = read_file(&file, &ReadOptions::default()).unwrap_or_else(|e| panic!("{e}"));
+    all_same("cushion", scene, &[StructureChoice::None, StructureChoice::Boxes, StructureChoice::Tree]);
+}
+
+#[test]
 fn of_openscad() {
     for (name, scene) in with_those_beside(&CSG, "openscad") {
         all_same(&name, scene, &[StructureChoice::None, StructureChoice::Boxes]);

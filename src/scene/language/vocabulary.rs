@@ -58,6 +58,8 @@ pub enum SolidWord {
     Cylinder,
     Cone,
     Polyhedron,
+    Patch,
+    Patches,
     Surface,
 }
 
@@ -159,6 +161,8 @@ pub enum Takes {
     Flags,
     /// A list of points.
     Points,
+    /// Four rows of four points.
+    Net,
     /// A list of points of a plane.
     FlatPoints,
     /// A list of indices, or of lists of them.
@@ -201,6 +205,7 @@ impl Takes {
             Self::NewSize => "[x, y, z] or [x, y], each 0 or more",
             Self::Flags => "true or false, or a list of them",
             Self::Points => "a list of [x, y, z]",
+            Self::Net => "four rows of four [x, y, z]",
             Self::FlatPoints => "a list of [x, y]",
             Self::Paths => "a list of indices, or of lists of them",
             Self::Faces => "a list of lists of indices",

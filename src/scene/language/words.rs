@@ -100,6 +100,26 @@ pub static WORDS: &[Word] = &[
         "A solid with flat faces. They must close: every edge belongs to two faces.",
     ),
     word(
+        "patch",
+        Meaning::Solid(SolidWord::Patch),
+        &[placed("points", Takes::Net, "–", "the control points")],
+        "A bicubic Bézier patch: a surface, which bounds no solid.",
+    ),
+    word(
+        "patches",
+        Meaning::Solid(SolidWord::Patches),
+        &[
+            placed("points", Takes::Points, "–", "the control points"),
+            placed(
+                "patches",
+                Takes::Faces,
+                "–",
+                "for each patch its 16 control points, four rows of four, as indices from 0",
+            ),
+        ],
+        "Bicubic Bézier patches: a solid, where every side belongs to two of them, else a surface.",
+    ),
+    word(
         "import",
         Meaning::Import,
         &[

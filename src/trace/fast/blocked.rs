@@ -179,6 +179,7 @@ struct Blockers<'a> {
 
 impl HitSink<f64> for Blockers<'_> {
     const FEW_LEAVES: usize = SOME_LEAVES;
+    const NEEDS_SIDES: bool = false;
 
     #[inline(always)]
     fn offer<S: Simd>(&mut self, simd: S, register: usize, met: &HitCandidate<f64, S>) {

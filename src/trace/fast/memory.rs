@@ -3,7 +3,8 @@
 use crate::lattice::{FRUSTA, Frustum, FrustumSoa};
 use crate::math::{RayPacket, Real};
 use crate::solid::{
-    MeshLists, MeshPacket, PacketCrossings, PacketRange, PacketScratch, PacketShear, PrunedExpr, Pruning,
+    BezierPacket, MeshLists, MeshPacket, PacketCrossings, PacketRange, PacketScratch, PacketShear,
+    PrunedExpr, Pruning,
 };
 use crate::stage::Counts;
 
@@ -41,6 +42,8 @@ pub struct TileMemory {
     /// The rays that are intersected with a mesh, and its nodes to be walked.
     pub(super) mesh: Box<MeshPacket>,
     pub(super) mesh_stack: Vec<MeshItem>,
+    /// The rays that are intersected with Bézier patches.
+    pub(super) bezier: Box<BezierPacket>,
     /// What they cross of a mesh that is an operand.
     pub(super) mesh_lists: Box<MeshLists>,
     /// Whether the frustums end at a light.
@@ -138,6 +141,7 @@ impl Default for TileMemory {
             in_cells: Vec::new(),
             mesh: Box::new(MeshPacket::EMPTY),
             mesh_stack: Vec::new(),
+            bezier: Box::new(BezierPacket::EMPTY),
             mesh_lists: Box::new(MeshLists::EMPTY),
             ends_at_light: false,
             mesh_by_rays: Vec::new(),

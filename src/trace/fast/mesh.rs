@@ -8,7 +8,9 @@ use crate::solid::{AheadQuery, ExprView, FirstAhead, Leaf, MeshAnswer, MeshLearn
 
 use super::Fast;
 use super::memory::TileMemory;
-use super::mesh_walk::{AskingRays, KnownStart, MeshLister, MeshObject, TRIANGLES_PER_RAY, walk_mesh};
+use super::mesh_walk::{
+    AskingRays, KnownStart, MeshLister, MeshObject, NearestTriangles, TRIANGLES_PER_RAY, walk_parts,
+};
 use super::object::PacketTest;
 use super::packet_culler::Slabs;
 use super::precision::Precision;
@@ -84,7 +86,10 @@ impl Fast<'_> {
             let budget = TRIANGLES_PER_RAY * u64::from(wanted.count_ones());
             let [nodes, triangles] = simd.vectorize(
                 #[inline(always)]
-                || walk_mesh(simd, of.mesh, frustum, &mut **rays, mesh_stack, budget),
+                || {
+                    let nearest = &mut NearestTriangles { mesh: of.mesh, rays: &mut **rays };
+                    walk_parts(simd, of.mesh.boxes(), frustum, nearest, mesh_stack, budget)
+                },
             );
             counts.cells_visited += nodes;
             counts.primitive_tests += triangles;
@@ -198,10 +203,10 @@ impl Fast<'_> {
         let mut by_rays = !is_within || mesh_by_rays.contains(&of.primitive);
         if !by_rays {
             let budget = TRIANGLES_PER_RAY * u64::from(wanted.count_ones());
-            let lister = &mut MeshLister { rays, lists };
+            let lister = &mut MeshLister { mesh: of.mesh, rays, lists };
             let [nodes, triangles] = simd.vectorize(
                 #[inline(always)]
-                || walk_mesh(simd, of.mesh, frustum, lister, mesh_stack, budget),
+                || walk_parts(simd, of.mesh.boxes(), frustum, lister, mesh_stack, budget),
             );
             counts.cells_visited += nodes;
             counts.primitive_tests += triangles;

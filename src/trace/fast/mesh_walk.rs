@@ -1,14 +1,14 @@
-//! The walk of a packet's frustum through the boxes of a mesh, the nearest first: rays are intersected with
-//! the triangles that it meets.
+//! The walk of a packet's frustum through the boxes of a mesh, or of patches, the nearest first: rays are
+//! intersected with the triangles, or pieces, that it meets.
 
 use fearless_simd::Simd;
 
-use crate::bvh::{BvhChild, WIDE};
+use crate::bvh::{Bvh8, BvhChild, WIDE};
 use crate::lattice::Frustum;
 use crate::math::DVec3;
 use crate::solid::{MeshLists, MeshPacket, TriangleMesh};
 
-/// A node of a mesh that is to be walked.
+/// A node of a mesh, or of patches, that is to be walked.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MeshItem {
     /// No ray meets it nearer than this.
@@ -42,38 +42,44 @@ pub(super) struct KnownStart {
     pub inside: bool,
 }
 
-/// What a walk through a mesh does with the triangles that it meets.
-pub(super) trait MeshVisitor<S: Simd> {
-    /// Intersects the packet's rays with a triangle, whose box lies no nearer to any start than `near`.
-    fn visit(&mut self, simd: S, corners: [DVec3; 3], surface: u32, near: f32);
+/// What a walk does with the triangles or pieces that it meets.
+pub(super) trait PartVisitor<S: Simd> {
+    /// Intersects the packet's rays with a part, whose box lies no nearer to any start than `near`.
+    fn visit(&mut self, simd: S, part: u32, near: f32);
 
     /// How far any of the rays still matters.
     fn farthest(&self, simd: S) -> f32;
 }
 
-/// The nearest crossings.
-impl<S: Simd> MeshVisitor<S> for MeshPacket {
+/// The nearest crossings of a mesh.
+pub(super) struct NearestTriangles<'a> {
+    pub mesh: &'a TriangleMesh,
+    pub rays: &'a mut MeshPacket,
+}
+
+impl<S: Simd> PartVisitor<S> for NearestTriangles<'_> {
     #[inline(always)]
-    fn visit(&mut self, simd: S, corners: [DVec3; 3], surface: u32, near: f32) {
-        self.intersect(simd, corners, surface, near);
+    fn visit(&mut self, simd: S, part: u32, near: f32) {
+        self.rays.intersect(simd, self.mesh.corners(part), part, near);
     }
 
     #[inline(always)]
     fn farthest(&self, simd: S) -> f32 {
-        Self::farthest(self, simd)
+        self.rays.farthest(simd)
     }
 }
 
 /// All crossings within the rays' limits.
 pub(super) struct MeshLister<'a> {
+    pub mesh: &'a TriangleMesh,
     pub rays: &'a MeshPacket,
     pub lists: &'a mut MeshLists,
 }
 
-impl<S: Simd> MeshVisitor<S> for MeshLister<'_> {
+impl<S: Simd> PartVisitor<S> for MeshLister<'_> {
     #[inline(always)]
-    fn visit(&mut self, simd: S, corners: [DVec3; 3], surface: u32, near: f32) {
-        self.rays.list(simd, corners, surface, near, self.lists);
+    fn visit(&mut self, simd: S, part: u32, near: f32) {
+        self.rays.list(simd, self.mesh.corners(part), part, near, self.lists);
     }
 
     #[inline(always)]
@@ -85,18 +91,18 @@ impl<S: Simd> MeshVisitor<S> for MeshLister<'_> {
 /// More triangles than this for each of a packet's rays take longer than the rays do one by one.
 pub(super) const TRIANGLES_PER_RAY: u64 = 8;
 
-/// Walks the boxes of a mesh with a packet's frustum, until more than `budget` triangles were looked at.
-/// Answers how many nodes and triangles were.
+/// Walks boxes with a packet's frustum, until more than `budget` parts were looked at. Answers how many nodes
+/// and parts were.
 #[inline(always)]
-pub(super) fn walk_mesh<S: Simd>(
+pub(super) fn walk_parts<S: Simd>(
     simd: S,
-    mesh: &TriangleMesh,
+    boxes: &Bvh8,
     frustum: &Frustum,
-    rays: &mut impl MeshVisitor<S>,
+    rays: &mut impl PartVisitor<S>,
     stack: &mut Vec<MeshItem>,
     budget: u64,
 ) -> [u64; 2] {
-    let nodes = mesh.boxes().nodes();
+    let nodes = boxes.nodes();
     let (mut visited, mut tested) = (0, 0);
     let mut farthest = rays.farthest(simd);
     stack.clear();
@@ -113,15 +119,15 @@ pub(super) fn walk_mesh<S: Simd>(
         let (lo, hi) = node.sides(simd);
         let met = frustum.meets_boxes(simd, &lo, &hi);
         let near: [f32; WIDE] = met.near.into();
-        let mut triangles = met.boxes & !node.inner();
-        let some = triangles != 0;
-        while triangles != 0 {
-            let slot = triangles.trailing_zeros() as usize;
-            triangles &= triangles - 1;
-            let Some(BvhChild::Object(surface)) = node.child(slot) else { continue };
+        let mut parts = met.boxes & !node.inner();
+        let some = parts != 0;
+        while parts != 0 {
+            let slot = parts.trailing_zeros() as usize;
+            parts &= parts - 1;
+            let Some(BvhChild::Object(part)) = node.child(slot) else { continue };
             if near[slot] <= farthest {
                 tested += 1;
-                rays.visit(simd, mesh.corners(surface), surface, near[slot]);
+                rays.visit(simd, part, near[slot]);
             }
         }
         if some {

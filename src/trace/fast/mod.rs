@@ -6,6 +6,7 @@
 //! stream. Where a ray's answer needs more than that, two surfaces in one place or a solid that is not
 //! convex, that ray is left to the exact engine.
 
+mod bezier;
 mod blocked;
 mod cell_rays;
 mod cells;

@@ -9,6 +9,7 @@ use crate::solid::{
 };
 
 use super::Fast;
+use super::bezier::BezierObject;
 use super::cells::CellsTest;
 use super::composite::CompositeTest;
 use super::memory::TileMemory;
@@ -57,6 +58,15 @@ impl Fast<'_> {
         if let Some((primitive, mesh)) = self.assembly.mesh(object) {
             return self.mesh_of_packet(simd, &MeshObject { object, primitive, mesh }, test, sink, memory);
         }
+        if let Some((primitive, patches)) = self.assembly.patches(object) {
+            return self.patches_of_packet(
+                simd,
+                &BezierObject { object, primitive, patches },
+                test,
+                sink,
+                memory,
+            );
+        }
         let own = &self.assembly.objects[object as usize];
         match &own.body {
             Body::Single(index) => {
@@ -81,8 +91,12 @@ impl Fast<'_> {
                 true
             }
             Body::Surface(index) => {
-                memory.counts.primitive_tests += 1;
                 let primitive = &primitives[*index as usize];
+                if let WorldShape::Bezier(patches) = &primitive.form {
+                    let of = BezierObject { object, primitive: *index, patches };
+                    return self.patches_of_packet(simd, &of, test, sink, memory);
+                }
+                memory.counts.primitive_tests += 1;
                 let TileMemory { cullers, sheared, doubles, .. } = memory;
                 let (sheared, found) = (&mut sheared[k], &mut *doubles.found);
                 let (rays, departures) = (source.full_rays, source.full_departures);

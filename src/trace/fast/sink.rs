@@ -18,6 +18,9 @@ pub(super) trait HitSink<T: Real> {
     /// [`SOME_LEAVES`] where what is nearest mostly hides the others.
     const FEW_LEAVES: usize;
 
+    /// Whether it matters if a ray goes into a solid where it crosses it, or comes out of it.
+    const NEEDS_SIDES: bool = true;
+
     /// Takes crossings of the rays of a register with an object.
     fn offer<S: Simd>(&mut self, simd: S, register: usize, met: &HitCandidate<T, S>);
 

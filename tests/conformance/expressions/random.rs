@@ -10,7 +10,9 @@ use crate::conformance::chance::Chance;
 use crate::conformance::engine::{Cut, Found, Subject};
 use crate::conformance::faults::assert_none;
 use crate::conformance::long::{cases, report};
-use crate::conformance::solids::{CONE, CYLINDER, TRUNCATED_CONE, mesh, moved, prism, scene, solid};
+use crate::conformance::solids::{
+    CONE, CYLINDER, TRUNCATED_CONE, any_patch, mesh, moved, pillow, prism, scene, solid,
+};
 use crate::conformance::tally::ulp;
 use crate::support::oracle::{Big, Hit, Oracle};
 
@@ -161,6 +163,30 @@ pub fn random_surfaces_agree_with_the_oracle<S: Subject>() {
         all.compare::<S>(Case { name: "surfaces", number: case }, &world, &rays, chance.one_of(&Cut::ALL));
     }
     all.assert_right("surfaces");
+}
+
+/// Patches that bound nothing, and closed ones alone and in expressions, at random scales and turned.
+pub fn random_patches_agree_with_the_oracle<S: Subject>() {
+    let mut all = Comparison::default();
+    for case in 0..cases(40, 100) {
+        let chance = &mut Chance::new("patches", case as u64);
+        let scale = if chance.below(2) == 0 { 1.0 } else { chance.decade(-12.0, 12.0) };
+        let by = DAffine3::from_mat3(chance.turn() * scale);
+        let part = match case % 4 {
+            0 | 1 => solid(&any_patch(chance), chance.turn(), chance.point() * 0.5),
+            2 => solid(&pillow(), DMat3::from_diagonal(DVec3::new(1.0, 0.8, 0.6)), chance.point() * 0.5),
+            _ => {
+                let own = || solid(&pillow(), DMat3::IDENTITY, DVec3::ZERO);
+                let other = any_primitive(chance);
+                let parts = vec![own(), other];
+                if chance.below(2) == 0 { Solid::Difference(parts) } else { Solid::Intersection(parts) }
+            }
+        };
+        let world: Scene = scene([moved(&part, &by)]);
+        let rays: Vec<Ray> = (0..25).map(|_| any_ray(&by, chance)).collect();
+        all.compare::<S>(Case { name: "patches", number: case }, &world, &rays, chance.one_of(&Cut::ALL));
+    }
+    all.assert_right("patches");
 }
 
 /// A star-shaped polygon, a triangle with normals, a tube, or a ball.

@@ -12,6 +12,7 @@ mod big;
 mod chord;
 mod number;
 mod open;
+mod patch;
 mod side;
 mod triangle;
 mod wide;
@@ -28,6 +29,7 @@ pub use wide::Wide;
 use ball::Ball;
 use number::unit;
 use open::Open;
+use patch::Patch;
 use side::{Row, Side, along, direction, point, sides};
 use triangle::Triangle;
 
@@ -74,6 +76,8 @@ enum Surface<N> {
     Convex(Vec<Side<N>>),
     /// Inside an odd number of times.
     Parity(Vec<Triangle<N>>),
+    /// The same of Bézier patches.
+    Patches(Vec<Patch<N>>),
     /// Without an inside.
     Open(Open<N>),
 }
@@ -281,6 +285,7 @@ impl<N: Number> Piece<N> {
         map.translation *= unit.recip();
         let surface = match &primitive.shape {
             Shape::Mesh(mesh) => Surface::Parity(Triangle::of(mesh, &map)),
+            Shape::Bezier(patches) if patches.is_closed() => Surface::Patches(Patch::of(patches, &map)),
             open if open.is_surface() => Surface::Open(Open::new(open, &map)),
             convex => Surface::Convex(sides(convex, &map)),
         };
@@ -298,6 +303,13 @@ impl<N: Number> Piece<N> {
                 let (from, d) = (DVec3::from_array(std::array::from_fn(|i| p[i].value())), direction(toward));
                 let near = triangles.iter().filter(|t| t.ball.may_meet(from, toward));
                 let in_front = near.filter_map(|t| t.crossing(p, &d)).filter(|t| t.sign() > 0);
+                in_front.count() % 2 == 1
+            }
+            Surface::Patches(patches) => {
+                let toward = DVec3::new(0.537_651_3, 0.831_874_9, 0.137_229_1).normalize();
+                let (from, d) = (DVec3::from_array(std::array::from_fn(|i| p[i].value())), direction(toward));
+                let near = patches.iter().filter(|patch| patch.ball.may_meet(from, toward));
+                let in_front = near.flat_map(|patch| patch.crossings(p, &d)).filter(|on| on.t.sign() > 0);
                 in_front.count() % 2 == 1
             }
             Surface::Open(_) => false,
@@ -323,6 +335,14 @@ impl<N: Number> Piece<N> {
                 for triangle in triangles.iter().filter(|t| t.ball.may_meet(ray.origin, toward)) {
                     if let Some(t) = triangle.crossing(ray.o, ray.d).filter(|t| t.sign() > 0) {
                         add(t, triangle.unit_normal());
+                    }
+                }
+            }
+            Surface::Patches(patches) => {
+                let toward = ray.toward.normalize();
+                for patch in patches.iter().filter(|patch| patch.ball.may_meet(ray.origin, toward)) {
+                    for on in patch.crossings(ray.o, ray.d).into_iter().filter(|on| on.t.sign() > 0) {
+                        add(on.t, on.normal);
                     }
                 }
             }

@@ -5,6 +5,7 @@ use ray13::math::{DAffine3, DVec3};
 use ray13::scene::Shape;
 
 use super::number::{Number, unit};
+use super::patch::Patch;
 use super::side::{Row, Side, along, sides};
 use super::triangle::Triangle;
 
@@ -13,8 +14,12 @@ use super::triangle::Triangle;
 pub enum Open<N> {
     /// The first side is the wall, the others cut it off.
     Tube(Vec<Side<N>>),
+    Bezier(Vec<Patch<N>>),
     /// A flat polygon, with the normals of its corners where it is a triangle that has them.
-    Polygon { frusta: Vec<Triangle<N>>, normals: Option<[DVec3; 3]> },
+    Polygon {
+        frusta: Vec<Triangle<N>>,
+        normals: Option<[DVec3; 3]>,
+    },
 }
 
 impl<N: Number> Open<N> {
@@ -30,6 +35,7 @@ impl<N: Number> Open<N> {
                 let places: Vec<DVec3> = corners.iter().map(|corner| corner.place).collect();
                 polygon(&places, Some(normals))
             }
+            Shape::Bezier(patches) => Self::Bezier(Patch::of(patches, map)),
             tube => Self::Tube(sides(tube, map)),
         }
     }
@@ -46,6 +52,13 @@ impl<N: Number> Open<N> {
                 let (t, p) = between.reduce(|a, b| if b.0 < a.0 { b } else { a })?;
                 let normal = against(unit(&wall.gradient(&p)), toward);
                 Some((t, normal, normal))
+            }
+            Self::Bezier(patches) => {
+                let all = patches.iter().flat_map(|patch| patch.crossings(o, d));
+                let ahead = all.filter(|on| on.t.sign() > 0);
+                let first = ahead.reduce(|a, b| if b.t < a.t { b } else { a })?;
+                let normal = against(first.normal, toward);
+                Some((first.t, normal, normal))
             }
             Self::Polygon { frusta, normals } => {
                 let inside = frusta.iter().filter(|triangle| triangle.crossing(o, d).is_some()).count();

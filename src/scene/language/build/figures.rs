@@ -168,6 +168,9 @@ impl Builder {
         let arguments = BoundArguments::bind(call, word, &mut self.sink)?;
         let fragments = arguments.fragments(context.fragments);
         let (shape, local) = self.shape(kind, &arguments, None, call)?;
+        if let Shape::Bezier(_) = shape {
+            return Err(self.not_yet("what holds it is made of facets, which patches have none of", origin));
+        }
         let largest = local.matrix3.x_axis.abs().max(local.matrix3.y_axis.abs()).max_element();
         let Some(mesh) = faceted(&shape, largest, &fragments) else { return Err(self.too_many(origin)) };
         self.check_corners(mesh.points.len() as f64, origin)?;

@@ -13,10 +13,10 @@ use super::origin::Origin;
 use super::pieces::Made;
 use super::{Builder, forms, maps};
 use crate::scene::diagnostic::Reported;
-use crate::scene::language::syntax::Call;
+use crate::scene::language::syntax::{Call, TextSpan};
 use crate::scene::language::vocabulary::{FormWord, MapWord, Meaning, OperatorWord, Word};
 use crate::scene::profile::Fragments;
-use crate::scene::{Diagnostic, Object};
+use crate::scene::{Diagnostic, Object, Solid};
 
 impl Builder {
     /// Begins the scene, with the settings of the whole file.
@@ -200,6 +200,22 @@ impl Builder {
         Ok((form, Rc::new(inner)))
     }
 
+    /// Whether what an `object` holds can be one: several things only where all are solids.
+    fn is_object(&mut self, solid: &Solid, place: TextSpan) -> bool {
+        if matches!(solid, Solid::Primitive(_)) {
+            return true;
+        }
+        let mut has_surface = false;
+        solid.visit(&mut |primitive| has_surface |= primitive.shape.is_surface());
+        if has_surface {
+            let error = Diagnostic::error(place, "`object` holds a surface beside something else");
+            self.sink.report(
+                error.help("a surface is an object by itself: give each part an `object` of its own"),
+            );
+        }
+        !has_surface
+    }
+
     /// The innermost open call ends.
     pub(super) fn close(&mut self) {
         if self.passed_over > 0 {
@@ -240,7 +256,7 @@ impl Builder {
             Role::Object(ref name) => {
                 let name = name.clone();
                 if let BuiltCall::Solids(run, _) = self.ended(&frame) {
-                    let solid = self.solid(start, run);
+                    let solid = self.solid(start, run).filter(|solid| self.is_object(solid, place));
                     let objects = solid.map(|solid| Object { name: name.map(String::from), solid });
                     self.scene.objects.extend(objects);
                 }

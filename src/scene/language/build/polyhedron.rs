@@ -3,7 +3,8 @@
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-use super::arguments::{BoundArguments, numbers};
+use super::arguments::BoundArguments;
+use super::lists::{index, items, length, no_point, points};
 use super::lost::Lost;
 use crate::math::DVec3;
 use crate::scene::diagnostic::Sink;
@@ -25,12 +26,8 @@ pub fn bytes(arguments: &BoundArguments<'_, '_>) -> u64 {
         Some(Value::List(items)) => items.as_slice(),
         _ => &[],
     };
-    let corners = |face: &Spanned<'_>| match &face.value {
-        Value::List(corners) => corners.len() as u64,
-        _ => 0,
-    };
     let faces = items("faces").iter().chain(items("triangles"));
-    OF_POINT * items("points").len() as u64 + OF_CORNER * faces.map(corners).sum::<u64>()
+    OF_POINT * items("points").len() as u64 + OF_CORNER * faces.map(length).sum::<u64>()
 }
 
 /// The mesh of a `polyhedron` call.
@@ -129,7 +126,7 @@ impl Call<'_, '_> {
         let corners = self.corners(merging, sink)?;
         let mut triangles = Vec::new();
         let mut lost = Lost::Empty;
-        for face in self.items(self.faces, "faces", "a list of faces, each a list of indices", sink)? {
+        for face in self.faces(self.faces, sink)? {
             let Some(polygon) = self.polygon(&corners, face, sink)? else {
                 lost = Lost::Missing;
                 continue;
@@ -155,18 +152,7 @@ impl Call<'_, '_> {
 
     fn corners(&self, merging: Merging<'_>, sink: &mut Sink) -> Result<Corners, Lost> {
         let mut corners = Corners::default();
-        for item in self.items(self.points, "points", "a list of points [x, y, z]", sink)? {
-            let Some(&[x, y, z]) = numbers(&item.value).as_deref() else {
-                let error = Diagnostic::error(item.span, "a point of `polyhedron` is [x, y, z]");
-                let error = error.label(format!("this is {}", item.value.describe()));
-                return Err(self.arguments.refuse(error, Lost::Missing, sink));
-            };
-            // Adding 0 makes −0 and 0 the same point.
-            let point = DVec3::new(x, y, z) + DVec3::ZERO;
-            if !point.is_finite() {
-                let error = Diagnostic::error(item.span, "a point of `polyhedron` is no place");
-                return Err(self.arguments.refuse(error, Lost::Missing, sink));
-            }
+        for point in points(self.arguments, self.points, sink)? {
             corners.add(point, merging);
         }
         Ok(corners)
@@ -180,7 +166,7 @@ impl Call<'_, '_> {
         face: &Spanned<'_>,
         sink: &mut Sink,
     ) -> Result<Option<Vec<u32>>, Lost> {
-        let indices = self.items(face, "faces", "a list of faces, each a list of indices", sink)?;
+        let indices = self.faces(face, sink)?;
         let refuse = |error: Diagnostic, sink: &mut Sink| {
             if !sink.leaves_out() {
                 return Err(sink.report(error).into());
@@ -194,14 +180,11 @@ impl Call<'_, '_> {
             return refuse(Diagnostic::error(face.span, message).help("a face needs three or more"), sink);
         }
         let mut polygon: Vec<u32> = Vec::with_capacity(indices.len());
-        for index in indices {
-            let place = match index.value {
-                Value::Number(number) if number >= 0.0 && number.fract() == 0.0 => {
-                    corners.merged.get(number as usize).copied()
-                }
-                _ => None,
+        for item in indices {
+            let place = index(&item.value).and_then(|index| corners.merged.get(index).copied());
+            let Some(place) = place else {
+                return refuse(no_point("a face", item, corners.merged.len()), sink);
             };
-            let Some(place) = place else { return refuse(corners.no_point(index), sink) };
             if polygon.last() != Some(&place) {
                 polygon.push(place);
             }
@@ -212,19 +195,9 @@ impl Call<'_, '_> {
         Ok(Some(polygon))
     }
 
-    fn items<'l, 'a>(
-        &self,
-        list: &'l Spanned<'a>,
-        name: &str,
-        takes: &str,
-        sink: &mut Sink,
-    ) -> Result<&'l [Spanned<'a>], Lost> {
-        if let Value::List(items) = &list.value {
-            return Ok(items);
-        }
-        let error = Diagnostic::error(list.span, format!("`{name}` of `polyhedron` takes {takes}"));
-        let error = error.label(format!("this is {}", list.value.describe()));
-        Err(self.arguments.refuse(error, Lost::Missing, sink))
+    /// All faces, or the corners of one.
+    fn faces<'l, 'a>(&self, list: &'l Spanned<'a>, sink: &mut Sink) -> Result<&'l [Spanned<'a>], Lost> {
+        items(self.arguments, list, "faces", "a list of faces, each a list of indices", sink)
     }
 }
 
@@ -274,15 +247,6 @@ impl Corners {
         });
         let known = cells.filter(|(_, cell)| self.cells.contains_key(cell));
         known.min_by_key(|&(distance, _)| distance).map_or(own, |(_, cell)| cell)
-    }
-
-    fn no_point(&self, index: &Spanned<'_>) -> Diagnostic {
-        let error = Diagnostic::error(index.span, "a face names a point that there is not");
-        let error = error.label(format!("this is {}", index.value.describe()));
-        match self.merged.len() {
-            0 => error.help("`points` is empty"),
-            count => error.help(format!("points are numbered from 0 to {}", count - 1)),
-        }
     }
 }
 

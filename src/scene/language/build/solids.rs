@@ -4,15 +4,16 @@ use super::arguments::{BoundArguments, refuse};
 use super::chain::Numbers;
 use super::context::Context;
 use super::facets::Polygons;
+use super::frame::OpenCall;
 use super::lost::Lost;
 use super::origin::Origin;
 use super::pieces::carried;
-use super::{Builder, facets, polyhedron};
+use super::{Builder, facets, patches, polyhedron};
 use crate::math::{DAffine3, DMat3, DVec3, Placement};
 use crate::scene::diagnostic::Sink;
 use crate::scene::language::syntax::Call;
-use crate::scene::language::vocabulary::{SolidWord, Word};
-use crate::scene::memory::{ASSEMBLED, ASSEMBLED_FACES, ASSEMBLED_TRIANGLE};
+use crate::scene::language::vocabulary::{OperatorWord, SolidWord, Word};
+use crate::scene::memory::{ASSEMBLED, ASSEMBLED_FACES, ASSEMBLED_PIECE, ASSEMBLED_TRIANGLE};
 use crate::scene::model::is_within_reach;
 use crate::scene::{Diagnostic, Object, Primitive, REACH, Shape, Solid};
 
@@ -28,6 +29,17 @@ impl Builder {
         let arguments = BoundArguments::bind(call, word, &mut self.sink)?;
         let sides = facets::sides(arguments.fragments(context.fragments));
         let (shape, local) = self.shape(kind, &arguments, sides, call)?;
+        if let Shape::Bezier(surface) = &shape
+            && let Some(open) = surface.open_side()
+        {
+            let is_operand = |frame: &OpenCall| {
+                matches!(frame.operator(), Some(OperatorWord::Difference | OperatorWord::Intersection))
+            };
+            if self.frames.iter().any(is_operand) {
+                let error = patches::not_closed(&arguments, open);
+                return Err(arguments.refuse(error, Lost::Missing, &mut self.sink));
+            }
+        }
         self.put(shape, local, DVec3::ZERO, context, Origin::of(word, call)).map(Solid::Primitive)
     }
 
@@ -47,6 +59,14 @@ impl Builder {
             SolidWord::Cylinder => cylinder(arguments, &mut round, sink),
             SolidWord::Cone => cone(arguments, &mut round, sink),
             SolidWord::Surface => Ok((self.surface(arguments)?, DAffine3::IDENTITY)),
+            SolidWord::Patch => Ok((patches::patch(arguments, sink)?, DAffine3::IDENTITY)),
+            SolidWord::Patches => {
+                let bytes = patches::bytes(arguments);
+                if !self.memory.has_room_for(bytes) {
+                    return Err(self.no_room(bytes, Origin::of(arguments.word(), call)));
+                }
+                Ok((patches::patches(arguments, sink)?, DAffine3::IDENTITY))
+            }
             SolidWord::Polyhedron => {
                 let bytes = polyhedron::bytes(arguments);
                 if !self.memory.has_room_for(bytes) {
@@ -90,6 +110,11 @@ impl Builder {
             Shape::Mesh(mesh) => {
                 let bytes = size_of_val(mesh.points.as_slice()) + size_of_val(mesh.triangles.as_slice());
                 bytes as u64 + ASSEMBLED_FACES + ASSEMBLED_TRIANGLE * mesh.triangles.len() as u64
+            }
+            Shape::Bezier(patches) => {
+                let bytes = size_of_val(patches.points()) + size_of_val(patches.patches());
+                let pieces = (patches.patches().len() as u64) << (2 * patches.cuts());
+                bytes as u64 + ASSEMBLED_FACES + ASSEMBLED_PIECE * pieces
             }
             Shape::Facets(_) => ASSEMBLED_FACES,
             _ => 0,

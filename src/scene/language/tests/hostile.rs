@@ -43,6 +43,8 @@ const PIECES: &[&str] = &[
     "cylinder",
     "cone(",
     "polyhedron(",
+    "patches(",
+    "patch(",
     "union()",
     "difference()",
     "intersection()",

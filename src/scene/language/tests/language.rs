@@ -214,7 +214,7 @@ fn a_file_as_openscad_writes_it() {
 #[test]
 fn embedded_scenes_read_and_have_views_and_lights() {
     let names: Vec<_> = embedded().iter().map(|scene| scene.name).collect();
-    assert_eq!(names, ["hanyang", "die", "bolt", "temple", "glass", "mirrors"]);
+    assert_eq!(names, ["hanyang", "die", "bolt", "temple", "glass", "mirrors", "teapot"]);
     for embedded in embedded() {
         let scene = scene(embedded.text);
         assert!(

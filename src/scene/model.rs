@@ -204,6 +204,8 @@ pub enum Shape {
     /// Three corners or more, no two neighbours the same, with an area. Points around which its outline turns
     /// an even number of times are outside.
     Face(Arc<[DVec3]>),
+    /// A surface: triangles that need not close around anything.
+    Sheet(Arc<Mesh>),
     /// A surface: a polygon whose normal is interpolated between those of its corners.
     Patch(Arc<[Corner]>),
     /// A surface: the side of a [`Shape::Cone`], without its caps.
@@ -218,7 +220,7 @@ pub enum Shape {
 impl Shape {
     /// Whether it is a surface, seen and lit from both sides, and not a solid.
     pub const fn is_surface(&self) -> bool {
-        matches!(self, Self::Face(_) | Self::Patch(_) | Self::Tube { .. })
+        matches!(self, Self::Face(_) | Self::Sheet(_) | Self::Patch(_) | Self::Tube { .. })
     }
 
     /// A box around the shape, in its own coordinates.
@@ -228,7 +230,7 @@ impl Shape {
                 Bounds::new(DVec3::NEG_ONE, DVec3::ONE)
             }
             Self::Facets(facets) => facets.bounds,
-            Self::Mesh(mesh) => Bounds::around(mesh.points.iter().copied()),
+            Self::Mesh(mesh) | Self::Sheet(mesh) => Bounds::around(mesh.points.iter().copied()),
             Self::Face(corners) => Bounds::around(corners.iter().copied()),
             Self::Patch(corners) => Bounds::around(corners.iter().map(|corner| corner.place)),
         }

@@ -116,6 +116,28 @@ impl TriangleMesh {
         end.is_none()
     }
 
+    /// The nearest crossing of a ray, but that of the triangle that it `leaves` and those that lie at its
+    /// start.
+    pub fn first_crossing(
+        &self,
+        ray: &Ray,
+        leaves: Option<u32>,
+        at_start: impl Fn(&End) -> bool,
+    ) -> Option<End> {
+        let mut first: Option<End> = None;
+        let crossed = self.crossed_by(ray);
+        self.boxes().walk::<()>(ray, 0.0, f64::INFINITY, &mut |surface: u32, _: f64| {
+            if leaves != Some(surface)
+                && let Some(end) = crossed(surface).filter(|end| !at_start(end))
+                && first.is_none_or(|known| (end.t, end.surface) < (known.t, known.surface))
+            {
+                first = Some(end);
+            }
+            ControlFlow::Continue(first.map_or(f64::INFINITY, |end| end.t))
+        });
+        first
+    }
+
     /// Whether a crossing lies where the ray meets the plane of the triangle, whichever way that is computed.
     fn is_steep(&self, end: &End) -> bool {
         2.0 * STEEP * end.error <= self.place_error()

@@ -42,6 +42,8 @@ pub enum WorldShape {
     Facets(Box<ConvexPolyhedron>),
     /// A closed surface of triangles.
     Mesh(Box<TriangleMesh>),
+    /// Triangles that need not close around anything: a surface.
+    Sheet(Box<TriangleMesh>),
     /// A polygon: a surface.
     Face(Box<Face>),
     /// A polygon with a normal at each corner: a surface.
@@ -83,6 +85,7 @@ impl WorldShape {
                 Some(facets) => Self::Facets(Box::new(facets)),
                 None => Self::Mesh(Box::new(TriangleMesh::new(unit, &place, error))),
             },
+            Shape::Sheet(unit) => Self::Sheet(Box::new(TriangleMesh::new(unit, &place, error))),
             Shape::Face(corners) => Self::Face(Box::new(Face::new(corners.iter().copied(), &place, error))),
             Shape::Patch(corners) => Self::Patch(Box::new(Patch::new(corners, &place, error))),
             Shape::Tube { bottom, top } => Self::Tube(Box::new(Tube::new(&place, *bottom, *top, error))),
@@ -104,7 +107,7 @@ impl WorldShape {
             Self::SkewBox(slabs) => Some(slabs.spans(rays)),
             Self::Quadric(quadric) => Some(quadric.spans(rays)),
             Self::Facets(facets) => Some(facets.spans(rays)),
-            Self::Mesh(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => None,
+            Self::Mesh(_) | Self::Sheet(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => None,
         }
     }
 
@@ -117,7 +120,7 @@ impl WorldShape {
             Self::SkewBox(slabs) => slabs.place_error(),
             Self::Quadric(quadric) => quadric.place_error(),
             Self::Facets(facets) => facets.place_error(),
-            Self::Mesh(mesh) => mesh.place_error(),
+            Self::Mesh(mesh) | Self::Sheet(mesh) => mesh.place_error(),
             Self::Face(face) => face.place_error(),
             Self::Patch(patch) => patch.face.place_error(),
             Self::Tube(tube) => tube.place_error(),
@@ -133,7 +136,7 @@ impl WorldShape {
             Self::SkewBox(slabs) => slabs.thickness(),
             Self::Quadric(quadric) => quadric.thickness(),
             Self::Facets(facets) => facets.thickness(),
-            Self::Mesh(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => f64::INFINITY,
+            Self::Mesh(_) | Self::Sheet(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => f64::INFINITY,
         }
     }
 
@@ -147,7 +150,7 @@ impl WorldShape {
             Self::SkewBox(slabs) => slabs.rounding_share(),
             Self::Quadric(quadric) => quadric.rounding_share(),
             Self::Facets(facets) => facets.rounding_share(),
-            Self::Mesh(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => 1.0,
+            Self::Mesh(_) | Self::Sheet(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => 1.0,
         }
     }
 
@@ -168,14 +171,14 @@ impl WorldShape {
     pub fn is_convex(&self) -> bool {
         match self {
             Self::Ball(_) | Self::AxisBox(_) | Self::SkewBox(_) | Self::Quadric(_) | Self::Facets(_) => true,
-            Self::Mesh(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => false,
+            Self::Mesh(_) | Self::Sheet(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => false,
         }
     }
 
     /// Whether it is a surface, which bounds no solid.
     #[inline]
     pub fn is_surface(&self) -> bool {
-        matches!(self, Self::Face(_) | Self::Patch(_) | Self::Tube(_))
+        matches!(self, Self::Sheet(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_))
     }
 
     /// The normal that light is answered with at a point of a surface: [`WorldShape::normal`] everywhere but
@@ -205,7 +208,7 @@ impl WorldShape {
             Self::AxisBox(_) => AxisBox::normal(surface),
             Self::SkewBox(slabs) => slabs.normal(surface),
             Self::Facets(facets) => facets.normal(surface),
-            Self::Mesh(mesh) => mesh.normal(surface),
+            Self::Mesh(mesh) | Self::Sheet(mesh) => mesh.normal(surface),
             Self::Face(face) => face.normal(),
             Self::Patch(patch) => patch.face.normal(),
         };
@@ -221,7 +224,7 @@ impl WorldShape {
             Self::SkewBox(slabs) => slabs.bounds(),
             Self::Quadric(quadric) => quadric.bounds(),
             Self::Facets(facets) => facets.bounds(),
-            Self::Mesh(mesh) => mesh.bounds(),
+            Self::Mesh(mesh) | Self::Sheet(mesh) => mesh.bounds(),
             Self::Face(face) => face.bounds(),
             Self::Patch(patch) => patch.face.bounds(),
             Self::Tube(tube) => tube.bounds(),
@@ -235,7 +238,7 @@ impl WorldShape {
             Self::Ball(ball) => ball.support(v),
             Self::Quadric(quadric) => quadric.support(v),
             Self::SkewBox(slabs) => slabs.support(v),
-            Self::Mesh(mesh) => mesh.support(v),
+            Self::Mesh(mesh) | Self::Sheet(mesh) => mesh.support(v),
             Self::Face(face) => face.support(v),
             Self::Patch(patch) => patch.face.support(v),
             Self::Tube(tube) => tube.support(v),
@@ -259,7 +262,7 @@ impl WorldShape {
             Self::SkewBox(slabs) => slabs.classify(b),
             Self::Quadric(quadric) => quadric.classify(b),
             Self::Facets(facets) => facets.classify(b),
-            Self::Mesh(mesh) => Classification::of(mesh.misses(b), || false),
+            Self::Mesh(mesh) | Self::Sheet(mesh) => Classification::of(mesh.misses(b), || false),
             Self::Face(face) => Classification::of(face.misses(b), || false),
             Self::Patch(patch) => Classification::of(patch.face.misses(b), || false),
             Self::Tube(tube) => Classification::of(tube.misses(b), || false),

@@ -49,6 +49,7 @@ fn shape_name(shape: &Shape) -> &'static str {
         Shape::Cone { .. } => "truncated cone",
         Shape::Facets(_) => "polyhedron",
         Shape::Mesh(_) => "mesh",
+        Shape::Sheet(_) => "open mesh",
         Shape::Face(_) => "polygon",
         Shape::Patch(_) => "patch",
         Shape::Tube { .. } => "tube",

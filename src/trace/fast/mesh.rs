@@ -48,9 +48,14 @@ impl Fast<'_> {
             },
         );
         let here = source.departures.map_or(0, |departures| departures.here(simd, of.primitive).0);
+        let is_sheet = self.assembly.kind(of.object).0 == BatchKind::Sheet;
         for lane in lanes(hits) {
             let (ray, t, leaves) = (packet.ray(lane), found.t.0[lane], here >> lane & 1 == 1);
-            let enters = self.enters(of, &ray, t, leaves, mesh_start);
+            let enters = if is_sheet {
+                of.mesh.normal(found.surface.0[lane]).dot(ray.d) < 0.0
+            } else {
+                self.enters(of, &ray, t, leaves, mesh_start)
+            };
             found.entering |= u64::from(enters) << lane;
         }
         offer_crossings(simd, found, of.object, sink);

@@ -207,6 +207,8 @@ pub enum Shape {
     /// Three corners or more, no two neighbours the same, with an area. Points around which its outline turns
     /// an even number of times are outside.
     Face(Arc<[DVec3]>),
+    /// A surface: triangles that need not close around anything.
+    Sheet(Arc<Mesh>),
     /// A surface: a polygon whose normal is interpolated between those of its corners.
     Patch(Arc<[Corner]>),
     /// A surface: the side of a [`Shape::Cone`], without its caps.
@@ -223,7 +225,7 @@ impl Shape {
     pub fn is_surface(&self) -> bool {
         match self {
             Self::Bezier(patches) => !patches.is_closed(),
-            _ => matches!(self, Self::Face(_) | Self::Patch(_) | Self::Tube { .. }),
+            _ => matches!(self, Self::Face(_) | Self::Sheet(_) | Self::Patch(_) | Self::Tube { .. }),
         }
     }
 
@@ -234,7 +236,7 @@ impl Shape {
                 Bounds::new(DVec3::NEG_ONE, DVec3::ONE)
             }
             Self::Facets(facets) => facets.bounds,
-            Self::Mesh(mesh) => Bounds::around(mesh.points.iter().copied()),
+            Self::Mesh(mesh) | Self::Sheet(mesh) => Bounds::around(mesh.points.iter().copied()),
             Self::Bezier(patches) => Bounds::around(patches.points().iter().copied()),
             Self::Face(corners) => Bounds::around(corners.iter().copied()),
             Self::Patch(corners) => Bounds::around(corners.iter().map(|corner| corner.place)),

@@ -121,6 +121,8 @@ pub enum BatchKind {
     Mesh,
     /// A solid of Bézier patches that is no operand.
     Bezier,
+    /// One surface of triangles.
+    Sheet,
     /// Anything else: one ray at a time.
     Other,
 }
@@ -341,6 +343,7 @@ impl Assembly {
             &Body::Single(index) | &Body::Surface(index) => match primitives[index as usize].form {
                 WorldShape::Ball(_) => (index, BatchKind::Ball),
                 WorldShape::Tube(_) => (index, BatchKind::Tube),
+                WorldShape::Sheet(_) => (index, BatchKind::Sheet),
                 _ => (index, BatchKind::Other),
             },
             Body::Composite { tree, .. } => match **tree {
@@ -367,14 +370,17 @@ impl Assembly {
         (index != MANY && !matches!(kind, BatchKind::Mesh | BatchKind::Bezier)).then_some(index)
     }
 
-    /// The mesh that an object is, and its index among the primitives, where it is nothing else.
+    /// The mesh, or surface of triangles, that an object is, and its index among the primitives, where it is
+    /// nothing else.
     #[inline]
     pub fn mesh(&self, object: u32) -> Option<(u32, &TriangleMesh)> {
         let (index, kind) = self.alone[object as usize];
-        if kind != BatchKind::Mesh {
+        if !matches!(kind, BatchKind::Mesh | BatchKind::Sheet) {
             return None;
         }
-        let WorldShape::Mesh(mesh) = &self.primitives[index as usize].form else { return None };
+        let (WorldShape::Mesh(mesh) | WorldShape::Sheet(mesh)) = &self.primitives[index as usize].form else {
+            return None;
+        };
         Some((index, mesh))
     }
 

@@ -47,16 +47,13 @@ impl AheadQuery {
 impl TriangleMesh {
     /// What a ray crosses first.
     pub fn first_ahead(&self, ray: &Ray, asked: &AheadQuery) -> FirstAhead {
-        let ([limit, limit_error], room) = (asked.limit, asked.room(self));
+        let [limit, limit_error] = asked.limit;
         let mut first: Option<(End, f64)> = None;
         let mut second = limit - limit_error;
-        let crossed = self.crossed_by(ray);
-        let end = self.boxes().walk(ray, asked.from(), limit + limit_error, &mut |surface: u32, _: f64| {
-            let to = |first: Option<(End, f64)>| first.map_or(limit + limit_error, |(end, own)| end.t + own);
-            let Some(end) = crossed(surface).filter(|_| asked.leaves != Some(surface)) else {
-                return ControlFlow::Continue(to(first));
-            };
-            let own = room * end.error;
+        let are_all_apart = self.walk_ahead(ray, asked, |end, own, to| {
+            if asked.leaves == Some(end.surface) {
+                return ControlFlow::Continue(());
+            }
             // What is not a number is not known to be apart.
             let is_apart = end.t.abs() > own;
             if !is_apart {
@@ -66,42 +63,83 @@ impl TriangleMesh {
                 let is_nearer = first.is_none_or(|(known, _)| end.t < known.t);
                 let other = if is_nearer { first.replace((end, own)) } else { Some((end, own)) };
                 second = other.map_or(second, |(other, own)| second.min(other.t - own));
+                *to = first.map_or(*to, |(end, own)| end.t + own);
             }
-            ControlFlow::Continue(to(first))
+            ControlFlow::Continue(())
         });
-        match (end, first) {
-            (None, None) => FirstAhead::Nothing,
-            (None, Some((end, own))) if end.t + own < second && self.is_steep(&end) => {
+        match first {
+            _ if !are_all_apart => FirstAhead::Uncertain,
+            None => FirstAhead::Nothing,
+            Some((end, own)) if end.t + own < second && self.is_steep(&end) => {
                 FirstAhead::Triangle(end.surface)
             }
-            (None, Some((end, own))) if end.t - own > limit + limit_error => FirstAhead::Nothing,
-            _ => FirstAhead::Uncertain,
+            Some((end, own)) if end.t - own > limit + limit_error => FirstAhead::Nothing,
+            Some(_) => FirstAhead::Uncertain,
         }
-    }
-
-    /// Whether a crossing lies where the ray meets the plane of the triangle, whichever way that is computed.
-    fn is_steep(&self, end: &End) -> bool {
-        2.0 * STEEP * end.error <= self.place_error()
     }
 
     /// The triangles that a ray crosses ahead of its start, in no order, and the one that it leaves, where
     /// its line passes that. False where one may lie at the start itself, or is seen edge on.
     pub fn all_ahead(&self, ray: &Ray, asked: &AheadQuery, mut found: impl FnMut(u32)) -> bool {
-        let ([limit, limit_error], room) = (asked.limit, asked.room(self));
-        let to = limit + limit_error;
-        let crossed = self.crossed_by(ray);
-        let end = self.boxes().walk(ray, asked.from(), to, &mut |surface: u32, _: f64| {
-            let Some(end) = crossed(surface) else { return ControlFlow::Continue(to) };
-            let is_left = asked.leaves == Some(surface);
-            let is_certain = end.t.abs() > room * end.error && self.is_steep(&end);
+        self.walk_ahead(ray, asked, |end, own, _| {
+            let is_left = asked.leaves == Some(end.surface);
+            let is_certain = end.t.abs() > own && self.is_steep(&end);
             if !is_left && !is_certain {
                 return ControlFlow::Break(());
             }
             if is_left || end.t > 0.0 {
-                found(surface);
+                found(end.surface);
+            }
+            ControlFlow::Continue(())
+        })
+    }
+
+    /// Shows each crossing of a ray's line from a little before its start on, the nearest first but for those
+    /// in boxes that overlap; how far from it another may be one place with it; and up to where crossings
+    /// matter, which may come nearer. False where that was broken off.
+    #[inline]
+    fn walk_ahead(
+        &self,
+        ray: &Ray,
+        asked: &AheadQuery,
+        mut show: impl FnMut(End, f64, &mut f64) -> ControlFlow<()>,
+    ) -> bool {
+        let ([limit, limit_error], room) = (asked.limit, asked.room(self));
+        let mut to = limit + limit_error;
+        let crossed = self.crossed_by(ray);
+        let end = self.boxes().walk(ray, asked.from(), to, &mut |surface: u32, _: f64| {
+            if let Some(end) = crossed(surface) {
+                show(end, room * end.error, &mut to)?;
             }
             ControlFlow::Continue(to)
         });
         end.is_none()
+    }
+
+    /// The nearest crossing of a ray, but that of the triangle that it `leaves` and those that lie at its
+    /// start.
+    pub fn first_crossing(
+        &self,
+        ray: &Ray,
+        leaves: Option<u32>,
+        at_start: impl Fn(&End) -> bool,
+    ) -> Option<End> {
+        let mut first: Option<End> = None;
+        let crossed = self.crossed_by(ray);
+        self.boxes().walk::<()>(ray, 0.0, f64::INFINITY, &mut |surface: u32, _: f64| {
+            if leaves != Some(surface)
+                && let Some(end) = crossed(surface).filter(|end| !at_start(end))
+                && first.is_none_or(|known| (end.t, end.surface) < (known.t, known.surface))
+            {
+                first = Some(end);
+            }
+            ControlFlow::Continue(first.map_or(f64::INFINITY, |end| end.t))
+        });
+        first
+    }
+
+    /// Whether a crossing lies where the ray meets the plane of the triangle, whichever way that is computed.
+    fn is_steep(&self, end: &End) -> bool {
+        2.0 * STEEP * end.error <= self.place_error()
     }
 }

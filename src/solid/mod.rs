@@ -24,6 +24,8 @@ mod mesh_lists;
 mod mesh_packet;
 mod mesh_ray;
 mod mesh_spans;
+mod mesh_triangle;
+mod operator_bits;
 mod packet_shear;
 mod patch;
 mod primitive;

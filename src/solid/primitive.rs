@@ -45,6 +45,8 @@ pub enum WorldShape {
     Mesh(Box<TriangleMesh>),
     /// Bézier patches: a closed surface, or a surface that bounds nothing.
     Bezier(Box<BezierSurface>),
+    /// Triangles that need not close around anything: a surface.
+    Sheet(Box<TriangleMesh>),
     /// A polygon: a surface.
     Face(Box<Face>),
     /// A polygon with a normal at each corner: a surface.
@@ -87,6 +89,7 @@ impl WorldShape {
                 None => Self::Mesh(Box::new(TriangleMesh::new(unit, &place, error))),
             },
             Shape::Bezier(unit) => Self::Bezier(Box::new(BezierSurface::new(unit, &place, error))),
+            Shape::Sheet(unit) => Self::Sheet(Box::new(TriangleMesh::new(unit, &place, error))),
             Shape::Face(corners) => Self::Face(Box::new(Face::new(corners.iter().copied(), &place, error))),
             Shape::Patch(corners) => Self::Patch(Box::new(Patch::new(corners, &place, error))),
             Shape::Tube { bottom, top } => Self::Tube(Box::new(Tube::new(&place, *bottom, *top, error))),
@@ -108,7 +111,12 @@ impl WorldShape {
             Self::SkewBox(slabs) => Some(slabs.spans(rays)),
             Self::Quadric(quadric) => Some(quadric.spans(rays)),
             Self::Facets(facets) => Some(facets.spans(rays)),
-            Self::Mesh(_) | Self::Bezier(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => None,
+            Self::Mesh(_)
+            | Self::Bezier(_)
+            | Self::Sheet(_)
+            | Self::Face(_)
+            | Self::Patch(_)
+            | Self::Tube(_) => None,
         }
     }
 
@@ -121,7 +129,7 @@ impl WorldShape {
             Self::SkewBox(slabs) => slabs.place_error(),
             Self::Quadric(quadric) => quadric.place_error(),
             Self::Facets(facets) => facets.place_error(),
-            Self::Mesh(mesh) => mesh.place_error(),
+            Self::Mesh(mesh) | Self::Sheet(mesh) => mesh.place_error(),
             Self::Bezier(patches) => patches.place_error(),
             Self::Face(face) => face.place_error(),
             Self::Patch(patch) => patch.face.place_error(),
@@ -138,7 +146,12 @@ impl WorldShape {
             Self::SkewBox(slabs) => slabs.thickness(),
             Self::Quadric(quadric) => quadric.thickness(),
             Self::Facets(facets) => facets.thickness(),
-            Self::Mesh(_) | Self::Bezier(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => f64::INFINITY,
+            Self::Mesh(_)
+            | Self::Bezier(_)
+            | Self::Sheet(_)
+            | Self::Face(_)
+            | Self::Patch(_)
+            | Self::Tube(_) => f64::INFINITY,
         }
     }
 
@@ -152,7 +165,12 @@ impl WorldShape {
             Self::SkewBox(slabs) => slabs.rounding_share(),
             Self::Quadric(quadric) => quadric.rounding_share(),
             Self::Facets(facets) => facets.rounding_share(),
-            Self::Mesh(_) | Self::Bezier(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => 1.0,
+            Self::Mesh(_)
+            | Self::Bezier(_)
+            | Self::Sheet(_)
+            | Self::Face(_)
+            | Self::Patch(_)
+            | Self::Tube(_) => 1.0,
         }
     }
 
@@ -177,7 +195,12 @@ impl WorldShape {
     pub fn is_convex(&self) -> bool {
         match self {
             Self::Ball(_) | Self::AxisBox(_) | Self::SkewBox(_) | Self::Quadric(_) | Self::Facets(_) => true,
-            Self::Mesh(_) | Self::Bezier(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => false,
+            Self::Mesh(_)
+            | Self::Bezier(_)
+            | Self::Sheet(_)
+            | Self::Face(_)
+            | Self::Patch(_)
+            | Self::Tube(_) => false,
         }
     }
 
@@ -186,7 +209,7 @@ impl WorldShape {
     pub fn is_surface(&self) -> bool {
         match self {
             Self::Bezier(patches) => !patches.is_closed(),
-            _ => matches!(self, Self::Face(_) | Self::Patch(_) | Self::Tube(_)),
+            _ => matches!(self, Self::Sheet(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_)),
         }
     }
 
@@ -211,7 +234,7 @@ impl WorldShape {
             Self::AxisBox(_) => AxisBox::normal(surface),
             Self::SkewBox(slabs) => slabs.normal(surface),
             Self::Facets(facets) => facets.normal(surface),
-            Self::Mesh(mesh) => mesh.normal(surface),
+            Self::Mesh(mesh) | Self::Sheet(mesh) => mesh.normal(surface),
             Self::Bezier(patches) => patches.normal(p, surface),
             Self::Face(face) => face.normal(),
             Self::Patch(patch) => patch.face.normal(),
@@ -227,7 +250,7 @@ impl WorldShape {
             Self::SkewBox(slabs) => slabs.bounds(),
             Self::Quadric(quadric) => quadric.bounds(),
             Self::Facets(facets) => facets.bounds(),
-            Self::Mesh(mesh) => mesh.bounds(),
+            Self::Mesh(mesh) | Self::Sheet(mesh) => mesh.bounds(),
             Self::Bezier(patches) => patches.bounds(),
             Self::Face(face) => face.bounds(),
             Self::Patch(patch) => patch.face.bounds(),
@@ -242,7 +265,7 @@ impl WorldShape {
             Self::Ball(ball) => ball.support(v),
             Self::Quadric(quadric) => quadric.support(v),
             Self::SkewBox(slabs) => slabs.support(v),
-            Self::Mesh(mesh) => mesh.support(v),
+            Self::Mesh(mesh) | Self::Sheet(mesh) => mesh.support(v),
             Self::Bezier(patches) => patches.support(v),
             Self::Face(face) => face.support(v),
             Self::Patch(patch) => patch.face.support(v),
@@ -267,7 +290,7 @@ impl WorldShape {
             Self::SkewBox(slabs) => slabs.classify(b),
             Self::Quadric(quadric) => quadric.classify(b),
             Self::Facets(facets) => facets.classify(b),
-            Self::Mesh(mesh) => Classification::of(mesh.misses(b), || false),
+            Self::Mesh(mesh) | Self::Sheet(mesh) => Classification::of(mesh.misses(b), || false),
             Self::Bezier(patches) => Classification::of(patches.misses(b), || false),
             Self::Face(face) => Classification::of(face.misses(b), || false),
             Self::Patch(patch) => Classification::of(patch.face.misses(b), || false),

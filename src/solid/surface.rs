@@ -33,6 +33,10 @@ pub fn first_of_surface(
             let end = if here.is_some() { None } else { face.crossing(ray) };
             end.filter(|end| !at_start(end)).map(|end| crossing(end, face.normal().dot(ray.d) < 0.0))
         }
+        WorldShape::Sheet(sheet) => {
+            let end = sheet.first_crossing(ray, here.map(|d| d.surface), |end| at_start(end));
+            end.map(|end| crossing(end, sheet.normal(end.surface).dot(ray.d) < 0.0))
+        }
         WorldShape::Patch(patch) => {
             let end = if here.is_some() { None } else { patch.face.crossing(ray) };
             end.filter(|end| !at_start(end)).map(|end| crossing(end, patch.face.normal().dot(ray.d) < 0.0))

@@ -50,6 +50,7 @@ fn shape_name(shape: &Shape) -> &'static str {
         Shape::Facets(_) => "polyhedron",
         Shape::Mesh(_) => "mesh",
         Shape::Bezier(_) => "Bézier patches",
+        Shape::Sheet(_) => "open mesh",
         Shape::Face(_) => "polygon",
         Shape::Patch(_) => "patch",
         Shape::Tube { .. } => "tube",

@@ -12,6 +12,7 @@ use crate::support::agreement::difference;
 use crate::support::nasty_meshes::{Extent, Nasty, nasty};
 use crate::support::request::request;
 use crate::support::same::{exact, fast};
+use ray13::tone::Tone;
 
 #[test]
 fn packets_find_of_nasty_meshes_what_single_rays_find() {
@@ -20,6 +21,36 @@ fn packets_find_of_nasty_meshes_what_single_rays_find() {
         look(&nasty.scene(), nasty, number, nasty.dots, &mut found);
     }
     found.assert_alike();
+}
+
+#[test]
+fn packets_find_of_open_meshes_what_single_rays_find() {
+    let mut found = Found::default();
+    for (number, nasty) in nasty().iter().enumerate() {
+        look(&nasty.open_scene(), nasty, number, nasty.dots, &mut found);
+    }
+    found.assert_alike();
+}
+
+/// Many triangles that are one surface are seen as the same triangles are that are objects each.
+#[test]
+fn an_open_mesh_is_the_triangles_that_it_has() {
+    for nasty in nasty().iter().take(2) {
+        let scene = nasty.open_scene();
+        let Solid::Primitive(Primitive { shape: Shape::Sheet(mesh), .. }) = &scene.objects[0].solid else {
+            panic!("{} is one surface", nasty.name)
+        };
+        let face = |triangle: &[u32; 3]| {
+            let shape = Shape::Face(triangle.iter().map(|&corner| mesh.points[corner as usize]).collect());
+            let solid = Solid::Primitive(Primitive::new(shape, DAffine3::IDENTITY, MaterialId(0)));
+            Object { name: None, solid }
+        };
+        let apart = Scene { objects: mesh.triangles.iter().map(face).collect(), ..scene.clone() };
+        let [one, many] = [scene, apart].map(|scene| Studio::new(scene).unwrap());
+        let request = request(nasty.cameras().swap_remove(0), Size::new(96, 96));
+        let [one, many] = [one, many].map(|studio| fast(&studio, &request).levels(Tone::default()));
+        assert_eq!(one, many, "{}", nasty.name);
+    }
 }
 
 /// Meshes as operands: cut by a ball and by themselves, cut from a box that ends flush with them, and common

@@ -222,9 +222,9 @@ fn flush_faces_are_the_first_in_the_file_however_aslant() {
     }
 }
 
-/// Where single precision finds a face on the box of its mesh, the hit may lie beside that box: a ray from there
-/// counted as one that starts outside, so that past the face it was inside for ever. Shadows fell where it
-/// passed over the hole, and glass was entered where it was left.
+/// Where single precision finds a face on the box of its mesh, the hit may lie beside that box: a ray from
+/// there counted as one that starts outside, so that past the face it was inside for ever. Shadows fell where
+/// it passed over the hole, and glass was entered where it was left.
 #[test]
 fn rays_leave_the_faces_of_meshes_that_end_with_their_boxes() {
     let star = |height: f64, size: f64| {

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-use crate::support::mesh_files::MeshText;
+use crate::support::mesh_files::{MeshText, gzip};
 
 /// An empty folder for a test.
 fn folder(name: &str) -> PathBuf {
@@ -157,6 +157,7 @@ fn what_can_not_be_read_is_said_at_its_place() {
     let at = folder("wrong");
     write(&at, "cut.stl", &MeshText::brick().stl_binary(b"")[..300]);
     write(&at, "far.obj", MeshText::brick().obj().replace("f 3//1", "f 99//1"));
+    write(&at, "twice.stl", gzip(&gzip(&MeshText::brick().stl_binary(b""))));
     write(&at, "other.scene", "cube(1);");
     write(&at, "a.DXF", "0\nSECTION\nSVG\n");
     write(&at, "flat.off", "OFF 3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n");
@@ -165,6 +166,7 @@ fn what_can_not_be_read_is_said_at_its_place() {
         ("import(\"scenes\");", "it is no plain file"),
         ("import(\"cut.stl\");", "the header, at byte 80: the file is cut off"),
         ("import(\"far.obj\");", "a face names corner 99"),
+        ("import(\"twice.stl\");", "it is a gzip archive, not a mesh"),
         ("import(\"other.scene\");", "it is no mesh: STL, OFF, PLY, OBJ, 3MF and AMF are read"),
         ("import(\"flat.off\");", "not closed"),
         ("import(file = \"a.DXF\", layer = \"x\");", "`a.DXF` can not be imported: line 3: a group code"),

@@ -1,10 +1,16 @@
 //! Eric Haines's standard scenes, counted as others counted them, and a small one of this repository's own,
 //! counted by the oracle.
 
+use std::sync::Arc;
+
 use ray13::frame::{Frame, Studio};
 use ray13::math::{DVec3, Size};
 use ray13::plan::StructureChoice;
-use ray13::scene::{Anchor, Camera, FieldSpan, ReadOptions, read, read_file};
+use ray13::scene::{
+    Anchor, Camera, FieldSpan, Material, MaterialId, ReadOptions, Scene, Shape, Solid, UpAxis, read,
+    read_file,
+};
+use ray13::tone::Tone;
 
 use crate::support::agreement::assert_same_picture;
 use crate::support::beside;
@@ -182,5 +188,42 @@ fn every_structure_shows_the_same_balls() {
         let lattice = assert_every_structure_shows_the_same(name, &studio);
         assert_eq!(lattice.over_budget.is_some(), passes, "{name}");
         assert_eq!(lattice.space.name(), if passes { "tree" } else { "lattice" }, "{name}");
+    }
+}
+
+/// The faces of a database as OBJ, and the scene with the same faces, flat and of one material.
+fn as_obj(scene: &Scene) -> (String, Scene) {
+    let mut text = String::new();
+    let mut flat = Scene { materials: vec![Material::default()], ..scene.clone() };
+    for object in &mut flat.objects {
+        let Solid::Primitive(primitive) = &mut object.solid else { panic!("a face is one primitive") };
+        let corners: Arc<[DVec3]> = match &primitive.shape {
+            Shape::Face(corners) => Arc::clone(corners),
+            Shape::Patch(corners) => corners.iter().map(|corner| corner.place).collect(),
+            other => panic!("a face is no {other:?}"),
+        };
+        for corner in &*corners {
+            text += &format!("v {} {} {}\n", corner.x, corner.y, corner.z);
+        }
+        let numbers: Vec<String> = (1..=corners.len()).rev().map(|back| format!("-{back}")).collect();
+        text += &format!("f {}\n", numbers.join(" "));
+        (primitive.shape, primitive.material) = (Shape::Face(corners), MaterialId(0));
+    }
+    (text, flat)
+}
+
+#[test]
+fn faces_are_seen_alike_as_obj() {
+    for name in ["teapot", "gears"] {
+        let Some(studio) = studio(name) else { return };
+        let (text, flat) = as_obj(studio.scene());
+        let options = ReadOptions { up: Some(UpAxis::Z), ..ReadOptions::default() };
+        let mesh = read("faces.obj", text.as_bytes(), &options).unwrap();
+        let mesh = Scene { objects: mesh.objects, ..flat.clone() };
+        let request = request(studio.camera(0, 1.0), Size::new(160, 160));
+        let [mesh, flat] = [mesh, flat].map(|scene| Studio::new(scene).unwrap().draw(&request));
+        assert!(flat.counts.primary_hits > 10_000, "{name}: {}", flat.counts.primary_hits);
+        let comparison = mesh.compare(&flat).unwrap();
+        assert_eq!(mesh.levels(Tone::default()), flat.levels(Tone::default()), "{name}: {comparison}");
     }
 }

@@ -169,6 +169,19 @@ impl Nasty {
         }
     }
 
+    /// All but every seventh of its triangles, as a surface.
+    pub fn open_scene(&self) -> Scene {
+        let mut mesh = self.mesh.clone();
+        let mut number = 0;
+        mesh.triangles.retain(|_| {
+            number += 1;
+            number % 7 != 0
+        });
+        let solid =
+            Solid::Primitive(Primitive::new(Shape::Sheet(Arc::new(mesh)), DAffine3::IDENTITY, MaterialId(0)));
+        Scene { objects: vec![Object { name: None, solid }], ..self.scene() }
+    }
+
     /// Where its triangles are.
     pub fn extent(&self) -> Extent {
         let points = &self.mesh.points;

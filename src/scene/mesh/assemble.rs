@@ -1,9 +1,10 @@
-//! From polygons to objects: a closed part is one solid, an open one a surface for each of its polygons.
+//! From polygons to objects: a closed part is one solid, an open one a surface of all its triangles, and one
+//! for each other polygon.
 
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::math::{Bounds, DAffine3, DVec3};
+use crate::math::{Bounds, DAffine3};
 use crate::scene::memory::{ASSEMBLED, ASSEMBLED_FACES, ASSEMBLED_TRIANGLE};
 use crate::scene::model::is_within_reach;
 use crate::scene::outline::{drop_repeated, has_area};
@@ -16,13 +17,13 @@ use super::polygons::{FaceRun, PolygonMesh};
 use super::topology::Topology;
 use super::weld::Welder;
 
-/// Bytes that reading takes for a point: its place, where it was welded to, and its entry in the map of
-/// places.
-const READ_POINT: u64 = 24 + 4 + 48;
+/// Bytes that reading takes for a point: its place as it is read and as it is welded, its number, and up to
+/// four slots in which numbers are looked up.
+const READ_POINT: u64 = 24 + 24 + 4 + 16;
 
-/// Bytes that reading takes for a corner of a face: its number, the triangle it makes, and three edges of
-/// that.
-const READ_CORNER: u64 = 4 + 24 + 36;
+/// Bytes that reading takes for a corner of a face: its number, the triangle it makes as it is cut and as it
+/// is kept, and three edges of that.
+const READ_CORNER: u64 = 4 + 24 + 12;
 
 /// Bytes that a mesh takes at most while it is read and shown, if all of it is shown as surfaces, which is
 /// the more expensive way.
@@ -32,9 +33,11 @@ pub fn bytes(mesh: &PolygonMesh) -> u64 {
 
 /// The same of a mesh that is still to be made, and has so many points, corners of faces, and faces.
 pub fn bytes_of(points: u64, corners: u64, faces: u64) -> u64 {
+    // Each polygon that is an object has one corner more than a triangle, at least.
+    let objects = corners.saturating_sub(3 * faces).min(faces);
     READ_POINT * points
         + READ_CORNER * corners
-        + (size_of::<Object>() as u64 + ASSEMBLED + ASSEMBLED_FACES) * faces
+        + (size_of::<Object>() as u64 + ASSEMBLED + ASSEMBLED_FACES) * objects
         + ASSEMBLED_TRIANGLE * corners.saturating_sub(2 * faces)
 }
 
@@ -90,7 +93,7 @@ pub fn assemble(mut mesh: PolygonMesh, up: UpAxis) -> Result<Scene, MeshError> {
             let shape = triangles.clone().map(Shape::Mesh);
             scene.objects.extend(shape.map(|shape| object(part, shape, part.material().unwrap_or(0))));
         } else {
-            flat += surfaces(&mesh, part, up, &mut scene.objects);
+            flat += surfaces(&mesh, part, up, triangles.as_ref(), &mut scene.objects);
         }
         if scene.objects.len() > objects {
             scene.meshes.push(MeshFacts {
@@ -235,37 +238,56 @@ pub fn triangle_mesh(mesh: &PolygonMesh, part: &mut MeshPart, up: UpAxis) -> Opt
     if !triangles.iter().any(|triangle| has_area(triangle.iter().map(|&corner| place(corner)))) {
         return None;
     }
-    // By corner: first whether it is used, then its number among those that are, which keep their order.
+    triangles.shrink_to_fit();
+    Some(Arc::new(by_themselves(mesh, triangles, up)))
+}
+
+/// Triangles of a mesh with those of its points that they use, which keep their order.
+fn by_themselves(mesh: &PolygonMesh, mut triangles: Vec<[u32; 3]>, up: UpAxis) -> Mesh {
+    // By corner: first whether it is used, then its number among those that are.
     let mut numbers = vec![0_u32; mesh.points.len()];
     triangles.iter().flatten().for_each(|&corner| numbers[corner as usize] = 1);
-    let mut points = Vec::with_capacity(part.topology.corners);
-    for (corner, number) in numbers.iter_mut().enumerate() {
+    let mut points = Vec::with_capacity(numbers.iter().map(|&used| used as usize).sum());
+    for (number, &point) in numbers.iter_mut().zip(&mesh.points) {
         if *number == 1 {
             *number = points.len() as u32;
-            points.push(place(corner as u32));
+            points.push(up.turned(point));
         }
     }
     triangles.iter_mut().flatten().for_each(|corner| *corner = numbers[*corner as usize]);
-    triangles.shrink_to_fit();
-    Some(Arc::new(Mesh { points, triangles }))
+    Mesh { points, triangles }
 }
 
-/// A surface for each polygon of a part; gives how many were left out, for they have no area.
-fn surfaces(mesh: &PolygonMesh, part: &MeshPart, up: UpAxis, objects: &mut Vec<Object>) -> usize {
+/// The surfaces of a part that is no solid: of each of its runs one for all triangles, and one for each other
+/// polygon. Gives how many were left out, for they have no area. `known` are the triangles of the part.
+fn surfaces(
+    mesh: &PolygonMesh,
+    part: &MeshPart,
+    up: UpAxis,
+    known: Option<&Arc<Mesh>>,
+    objects: &mut Vec<Object>,
+) -> usize {
     let mut flat = 0;
+    let mut polygon = Vec::new();
     for (faces, &material) in part.runs.iter().zip(&part.materials) {
+        let mut triangles = Vec::new();
         for face in faces.clone() {
-            let mut corners: Vec<DVec3> = mesh
-                .face(face as usize)
-                .iter()
-                .map(|&corner| up.turned(mesh.points[corner as usize]))
-                .collect();
-            drop_repeated(&mut corners, |&corner| corner);
-            if corners.len() >= 3 && has_area(corners.iter().copied()) {
-                objects.push(object(part, Shape::Face(Arc::from(corners)), material));
-            } else {
-                flat += 1;
+            let place = |&corner: &u32| up.turned(mesh.points[corner as usize]);
+            polygon.clear();
+            polygon.extend_from_slice(mesh.face(face as usize));
+            drop_repeated(&mut polygon, place);
+            match polygon[..] {
+                _ if polygon.len() < 3 || !has_area(polygon.iter().map(place)) => flat += 1,
+                [a, b, c] => triangles.push([a, b, c]),
+                _ => objects.push(object(part, Shape::Face(polygon.iter().map(place).collect()), material)),
             }
+        }
+        if !triangles.is_empty() {
+            triangles.shrink_to_fit();
+            let own = by_themselves(mesh, triangles, up);
+            // Mostly it is all that there is of the part.
+            let sheet = known.filter(|known| ***known == own).map_or_else(|| Arc::new(own), Arc::clone);
+            objects.push(object(part, Shape::Sheet(sheet), material));
         }
     }
     flat

@@ -26,7 +26,12 @@ pub fn faceted(shape: &Shape, radius: f64, fragments: &Fragments) -> Option<Arc<
         Shape::Cone { bottom, top } => {
             (count <= MOST_CORNERS).then(|| Arc::new(turned(count, &[(*bottom, -1.0), (*top, 1.0)])))
         }
-        Shape::Facets(_) | Shape::Bezier(_) | Shape::Face(_) | Shape::Patch(_) | Shape::Tube { .. } => None,
+        Shape::Facets(_)
+        | Shape::Bezier(_)
+        | Shape::Sheet(_)
+        | Shape::Face(_)
+        | Shape::Patch(_)
+        | Shape::Tube { .. } => None,
     }
 }
 

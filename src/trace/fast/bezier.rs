@@ -7,7 +7,7 @@ use crate::solid::{BezierPacket, BezierQuery, BezierSurface, PacketShear};
 
 use super::Fast;
 use super::memory::TileMemory;
-use super::mesh_walk::{PartVisitor, walk_parts};
+use super::mesh_walk::PartVisitor;
 use super::object::PacketTest;
 use super::precision::Precision;
 use super::sink::{HitSink, offer_crossings};
@@ -59,7 +59,7 @@ impl Fast<'_> {
             departures: test.source.full_departures,
             limits: &limits,
         };
-        let TileMemory { bezier, mesh_stack, frustums, sheared, counts, doubles, .. } = memory;
+        let TileMemory { bezier, mesh_walks, frustums, sheared, counts, doubles, .. } = memory;
         let Some(Some(frustum)) = frustums.get(k) else {
             sink.mark_uncertain(test.passing);
             return false;
@@ -67,12 +67,7 @@ impl Fast<'_> {
         bezier.set(&query);
         let found = &mut *doubles.found;
         let nearest = &mut NearestPieces { query: &query, rays: bezier, shear: &mut sheared[k] };
-        let [nodes, pieces] = simd.vectorize(
-            #[inline(always)]
-            || walk_parts(simd, patches.boxes(), frustum, nearest, mesh_stack, u64::MAX),
-        );
-        counts.cells_visited += nodes;
-        counts.primitive_tests += pieces;
+        mesh_walks.walk_all(simd, patches.boxes(), frustum, nearest, counts);
         bezier.answer(&query, found);
         sink.mark_uncertain(found.uncertain);
         if found.any == 0 {

@@ -17,6 +17,7 @@ use super::mesh_walk::AskingRays;
 use super::packet_culler::Slabs;
 use super::packet_hits::PacketHits;
 use super::precision::Precision;
+use super::ranked::push_ranked;
 use super::sink::{HitSink, offer_crossings, offer_hits};
 use super::source::PacketSource;
 
@@ -287,12 +288,13 @@ fn open_node<S: Simd>(simd: S, cells: &CsgCells, node: u32, frustum: &Frustum, s
             BvhChild::Node(node) => (false, node),
         };
         debug_assert_eq!(is_cell, inner >> slot & 1 == 0);
-        let near = met.near[slot];
-        let mut place = stack.len();
-        stack.push(CellItem { near, number, is_cell });
-        while place > first && stack[place - 1].near < near {
-            stack.swap(place - 1, place);
-            place -= 1;
-        }
+        let item = CellItem { near: met.near[slot], number, is_cell };
+        push_ranked(
+            stack,
+            first,
+            item,
+            #[inline(always)]
+            |item| item.near,
+        );
     }
 }

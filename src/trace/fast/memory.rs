@@ -10,7 +10,7 @@ use crate::stage::Counts;
 
 use super::cell_rays::{CellItem, CellRays};
 use super::incoherent::IncoherentRays;
-use super::mesh_walk::{KnownStart, MeshItem};
+use super::mesh_walk::{KnownStart, MeshWalks};
 use super::packet_culler::PacketCuller;
 use super::packet_hits::PacketHits;
 use super::reordering::RayReordering;
@@ -39,18 +39,15 @@ pub struct TileMemory {
     pub(super) near: Vec<u64>,
     /// The objects of the tile whose cells are walked at once, since slices took too much work.
     pub(super) in_cells: Vec<u32>,
-    /// The rays that are intersected with a mesh, and its nodes to be walked.
+    /// The rays that are intersected with a mesh, and their walks through it.
     pub(super) mesh: Box<MeshPacket>,
-    pub(super) mesh_stack: Vec<MeshItem>,
+    pub(super) mesh_walks: MeshWalks,
     /// The rays that are intersected with Bézier patches.
     pub(super) bezier: Box<BezierPacket>,
     /// What they cross of a mesh that is an operand.
     pub(super) mesh_lists: Box<MeshLists>,
     /// Whether the frustums end at a light.
     pub(super) ends_at_light: bool,
-    /// The meshes of the tile that have too many triangles for packets, by their indices among the
-    /// primitives: rays are asked one by one.
-    pub(super) mesh_by_rays: Vec<u32>,
     /// Where rays to a mesh started last, if that is known.
     pub(super) mesh_start: Option<KnownStart>,
     /// What rays meet of one object.
@@ -117,7 +114,7 @@ impl TileMemory {
     /// Forgets the planes across the rays of the last tile, and which objects were walked by cells.
     pub(super) fn forget_tile(&mut self) {
         self.in_cells.clear();
-        self.mesh_by_rays.clear();
+        self.mesh_walks.forget_tile();
         self.mesh_start = None;
         self.sheared.iter_mut().for_each(PacketShear::forget);
     }
@@ -140,11 +137,10 @@ impl Default for TileMemory {
             near: Vec::new(),
             in_cells: Vec::new(),
             mesh: Box::new(MeshPacket::EMPTY),
-            mesh_stack: Vec::new(),
+            mesh_walks: MeshWalks::default(),
             bezier: Box::new(BezierPacket::EMPTY),
             mesh_lists: Box::new(MeshLists::EMPTY),
             ends_at_light: false,
-            mesh_by_rays: Vec::new(),
             mesh_start: None,
             met: Box::default(),
             pruning: Pruning::default(),

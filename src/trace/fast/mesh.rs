@@ -4,13 +4,13 @@
 use fearless_simd::Simd;
 
 use crate::math::{DVec3, Lanes, PACKET, Ray, lanes};
-use crate::solid::{AheadQuery, ExprView, FirstAhead, Leaf, MeshAnswer, MeshLearning, MeshQuery, WorldShape};
+use crate::solid::{
+    AheadQuery, BatchKind, ExprView, FirstAhead, Leaf, MeshAnswer, MeshLearning, MeshQuery, WorldShape,
+};
 
 use super::Fast;
 use super::memory::TileMemory;
-use super::mesh_walk::{
-    AskingRays, KnownStart, MeshLister, MeshObject, NearestTriangles, TRIANGLES_PER_RAY, walk_parts,
-};
+use super::mesh_walk::{AskingRays, KnownStart, MeshLister, MeshObject, NearestTriangles};
 use super::object::PacketTest;
 use super::packet_culler::Slabs;
 use super::precision::Precision;
@@ -19,9 +19,6 @@ use super::source::PacketSource;
 
 /// What is seen is no farther than this from the origin along each axis, with room for rounding.
 const WITHIN: f64 = 2.01;
-
-/// From so many rays of a packet is told how the other packets of a tile fare with a mesh.
-const MANY_RAYS: u32 = 32;
 
 impl Fast<'_> {
     /// What a packet's rays cross first of a mesh. Answers whether any ray may have met it.
@@ -51,9 +48,14 @@ impl Fast<'_> {
             },
         );
         let here = source.departures.map_or(0, |departures| departures.here(simd, of.primitive).0);
+        let is_sheet = self.assembly.kind(of.object).0 == BatchKind::Sheet;
         for lane in lanes(hits) {
             let (ray, t, leaves) = (packet.ray(lane), found.t.0[lane], here >> lane & 1 == 1);
-            let enters = self.enters(of, &ray, t, leaves, mesh_start);
+            let enters = if is_sheet {
+                of.mesh.normal(found.surface.0[lane]).dot(ray.d) < 0.0
+            } else {
+                self.enters(of, &ray, t, leaves, mesh_start)
+            };
             found.entering |= u64::from(enters) << lane;
         }
         offer_crossings(simd, found, of.object, sink);
@@ -80,33 +82,20 @@ impl Fast<'_> {
         if !is_set {
             return nothing_known;
         }
-        let TileMemory { mesh: rays, mesh_stack, frustums, counts, mesh_by_rays, .. } = memory;
+        let TileMemory { mesh: rays, mesh_walks, frustums, counts, .. } = memory;
         let Some(Some(frustum)) = frustums.get(k) else { return nothing_known };
-        if !mesh_by_rays.contains(&of.primitive) {
-            let budget = TRIANGLES_PER_RAY * u64::from(wanted.count_ones());
-            let [nodes, triangles] = simd.vectorize(
+        let nearest = &mut NearestTriangles { mesh: of.mesh, rays: &mut **rays };
+        if mesh_walks.walk(simd, of, (frustum, wanted), nearest, counts) {
+            return simd.vectorize(
                 #[inline(always)]
-                || {
-                    let nearest = &mut NearestTriangles { mesh: of.mesh, rays: &mut **rays };
-                    walk_parts(simd, of.mesh.boxes(), frustum, nearest, mesh_stack, budget)
-                },
-            );
-            counts.cells_visited += nodes;
-            counts.primitive_tests += triangles;
-            if triangles <= budget {
-                return simd.vectorize(
-                    #[inline(always)]
-                    || rays.answer(simd),
-                );
-            }
-            if wanted.count_ones() >= MANY_RAYS {
-                mesh_by_rays.push(of.primitive);
-            }
-            simd.vectorize(
-                #[inline(always)]
-                || rays.set(simd, &query),
+                || rays.answer(simd),
             );
         }
+        // What a walk that was broken off has found is not all.
+        simd.vectorize(
+            #[inline(always)]
+            || rays.set(simd, &query),
+        );
         let mut answer = MeshAnswer { hits: 0, uncertain: 0 };
         for lane in lanes(wanted) {
             let asked = ahead_query(&query, lane, rays.limit_of(lane));
@@ -166,7 +155,7 @@ impl Fast<'_> {
             #[inline(always)]
             || culler.passing(simd, &Slabs::around(simd, b.lo, b.hi, 0.0), wanted),
         );
-        // Where a ray leaves the mesh it starts in its box, even if single precision found the start beside it.
+        // A ray that leaves the mesh starts in its box, even if single precision found the start beside it.
         let here = departures.map_or(0, |departures| departures.here(simd, of.primitive).0);
         let (mut boxed, mut complete) = (0, 0);
         for lane in lanes(wanted) {
@@ -182,16 +171,7 @@ impl Fast<'_> {
             complete |= u64::from(limit == f64::INFINITY || !b.contains(ray.at(limit))) << lane;
         }
         let query = self.mesh_query(of, source, wanted, &limits, self.assembly.place_error);
-        let TileMemory {
-            mesh: rays,
-            mesh_lists: lists,
-            mesh_stack,
-            frustums,
-            counts,
-            doubles,
-            mesh_by_rays,
-            ..
-        } = memory;
+        let TileMemory { mesh: rays, mesh_lists: lists, mesh_walks, frustums, counts, doubles, .. } = memory;
         let is_set = simd.vectorize(
             #[inline(always)]
             || rays.set(simd, &query),
@@ -200,25 +180,10 @@ impl Fast<'_> {
         lists.clear();
         // A cutter may reach out of the world, which frustums end with.
         let is_within = b.farthest().max_element() <= WITHIN;
-        let mut by_rays = !is_within || mesh_by_rays.contains(&of.primitive);
-        if !by_rays {
-            let budget = TRIANGLES_PER_RAY * u64::from(wanted.count_ones());
-            let lister = &mut MeshLister { mesh: of.mesh, rays, lists };
-            let [nodes, triangles] = simd.vectorize(
-                #[inline(always)]
-                || walk_parts(simd, of.mesh.boxes(), frustum, lister, mesh_stack, budget),
-            );
-            counts.cells_visited += nodes;
-            counts.primitive_tests += triangles;
-            by_rays = triangles > budget;
-            if by_rays {
-                lists.clear();
-                if wanted.count_ones() >= MANY_RAYS {
-                    mesh_by_rays.push(of.primitive);
-                }
-            }
-        }
-        if by_rays {
+        let lister = &mut MeshLister { mesh: of.mesh, rays, lists };
+        let is_known = is_within && mesh_walks.walk(simd, of, (frustum, wanted), lister, counts);
+        if !is_known {
+            lists.clear();
             for lane in lanes(wanted) {
                 let asked = ahead_query(&query, lane, rays.limit_of(lane));
                 lists.list_ray(lane, of.mesh, &packet.ray(lane), &asked);

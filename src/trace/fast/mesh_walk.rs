@@ -7,10 +7,13 @@ use crate::bvh::{Bvh8, BvhChild, WIDE};
 use crate::lattice::Frustum;
 use crate::math::DVec3;
 use crate::solid::{MeshLists, MeshPacket, TriangleMesh};
+use crate::stage::Counts;
+
+use super::ranked::push_ranked;
 
 /// A node of a mesh, or of patches, that is to be walked.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct MeshItem {
+struct MeshItem {
     /// No ray meets it nearer than this.
     near: f32,
     node: u32,
@@ -89,12 +92,78 @@ impl<S: Simd> PartVisitor<S> for MeshLister<'_> {
 }
 
 /// More triangles than this for each of a packet's rays take longer than the rays do one by one.
-pub(super) const TRIANGLES_PER_RAY: u64 = 8;
+const TRIANGLES_PER_RAY: u64 = 8;
+
+/// From so many rays of a packet is told how the other packets of a tile fare with a mesh.
+const MANY_RAYS: u32 = 32;
+
+/// What walks through meshes need, used again for every packet.
+#[derive(Clone, Debug, Default)]
+pub(super) struct MeshWalks {
+    /// Nodes to be walked.
+    stack: Vec<MeshItem>,
+    /// The meshes of the tile that have too many triangles for packets, by their indices among the
+    /// primitives.
+    by_rays: Vec<u32>,
+}
+
+impl MeshWalks {
+    /// Forgets how packets of the last tile fared.
+    pub fn forget_tile(&mut self) {
+        self.by_rays.clear();
+    }
+
+    /// Intersects the `wanted` rays of a packet with the triangles of a mesh that its frustum meets. False
+    /// where there are so many that the rays are to be asked one by one: not all triangles were looked at.
+    pub fn walk<S: Simd>(
+        &mut self,
+        simd: S,
+        of: &MeshObject,
+        (frustum, wanted): (&Frustum, u64),
+        rays: &mut impl PartVisitor<S>,
+        counts: &mut Counts,
+    ) -> bool {
+        if self.by_rays.contains(&of.primitive) {
+            return false;
+        }
+        let asking = wanted.count_ones();
+        let budget = TRIANGLES_PER_RAY * u64::from(asking);
+        let stack = &mut self.stack;
+        let [nodes, triangles] = simd.vectorize(
+            #[inline(always)]
+            || walk_parts(simd, of.mesh.boxes(), frustum, rays, stack, budget),
+        );
+        counts.cells_visited += nodes;
+        counts.primitive_tests += triangles;
+        if triangles > budget && asking >= MANY_RAYS {
+            self.by_rays.push(of.primitive);
+        }
+        triangles <= budget
+    }
+
+    /// Intersects a packet's rays with all parts whose boxes its frustum meets.
+    pub fn walk_all<S: Simd>(
+        &mut self,
+        simd: S,
+        boxes: &Bvh8,
+        frustum: &Frustum,
+        rays: &mut impl PartVisitor<S>,
+        counts: &mut Counts,
+    ) {
+        let stack = &mut self.stack;
+        let [nodes, parts] = simd.vectorize(
+            #[inline(always)]
+            || walk_parts(simd, boxes, frustum, rays, stack, u64::MAX),
+        );
+        counts.cells_visited += nodes;
+        counts.primitive_tests += parts;
+    }
+}
 
 /// Walks boxes with a packet's frustum, until more than `budget` parts were looked at. Answers how many nodes
 /// and parts were.
 #[inline(always)]
-pub(super) fn walk_parts<S: Simd>(
+fn walk_parts<S: Simd>(
     simd: S,
     boxes: &Bvh8,
     frustum: &Frustum,
@@ -138,13 +207,13 @@ pub(super) fn walk_parts<S: Simd>(
             let slot = left.trailing_zeros() as usize;
             left &= left - 1;
             let Some(BvhChild::Node(index)) = node.child(slot) else { continue };
-            let near = near[slot];
-            let mut place = stack.len();
-            stack.push(MeshItem { near, node: index });
-            while place > first && stack[place - 1].near < near {
-                stack.swap(place - 1, place);
-                place -= 1;
-            }
+            push_ranked(
+                stack,
+                first,
+                MeshItem { near: near[slot], node: index },
+                #[inline(always)]
+                |item| item.near,
+            );
         }
     }
     [visited, tested]

@@ -22,6 +22,7 @@ mod packet_culler;
 mod packet_hits;
 mod precision;
 mod primary_packets;
+mod ranked;
 mod reordering;
 mod shadow_packet;
 mod sink;

@@ -12,6 +12,7 @@ use crate::math::RayPacket;
 
 use super::memory::{StackItem, TileMemory};
 use super::packet_culler::{PacketCuller, Slabs, wide};
+use super::ranked::push_ranked;
 
 /// What a walk looks for.
 pub(super) trait TileVisitor<S: Simd> {
@@ -147,12 +148,13 @@ fn push_lowest_last<S: Simd>(
             continue;
         }
         let rank = f64::from(ranked.near[slot]);
-        let mut place = stack.len();
-        stack.push(StackItem { rank, node: index, frustums });
-        while place > first && stack[place - 1].rank < rank {
-            stack.swap(place - 1, place);
-            place -= 1;
-        }
+        push_ranked(
+            stack,
+            first,
+            StackItem { rank, node: index, frustums },
+            #[inline(always)]
+            |item| item.rank,
+        );
     }
 }
 

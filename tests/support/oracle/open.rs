@@ -1,5 +1,5 @@
-//! Surfaces that bound no solid: polygons as frusta of triangles counted by parity, the wall of a tube as the
-//! quadric between its caps.
+//! Surfaces that bound no solid: polygons as frusta of triangles counted by parity, triangles, the wall of a
+//! tube as the quadric between its caps.
 
 use ray13::math::{DAffine3, DVec3};
 use ray13::scene::Shape;
@@ -15,6 +15,8 @@ pub enum Open<N> {
     /// The first side is the wall, the others cut it off.
     Tube(Vec<Side<N>>),
     Bezier(Vec<Patch<N>>),
+    /// Triangles, each by itself.
+    Sheet(Vec<Triangle<N>>),
     /// A flat polygon, with the normals of its corners where it is a triangle that has them.
     Polygon {
         frusta: Vec<Triangle<N>>,
@@ -28,6 +30,7 @@ impl<N: Number> Open<N> {
             |corners: &[DVec3], normals| Self::Polygon { frusta: Triangle::frusta(corners, map), normals };
         match shape {
             Shape::Face(corners) => polygon(corners, None),
+            Shape::Sheet(mesh) => Self::Sheet(Triangle::of(mesh, map)),
             Shape::Patch(corners) => {
                 assert_eq!(corners.len(), 3, "more corners than three have no plain rule");
                 let turn = map.matrix3.inverse().transpose();
@@ -59,6 +62,13 @@ impl<N: Number> Open<N> {
                 let first = ahead.reduce(|a, b| if b.t < a.t { b } else { a })?;
                 let normal = against(first.normal, toward);
                 Some((first.t, normal, normal))
+            }
+            Self::Sheet(triangles) => {
+                let crossings = triangles.iter().filter_map(|one| Some((one.crossing(o, d)?, one)));
+                let ahead = crossings.filter(|(t, _)| t.sign() > 0);
+                let (t, nearest) = ahead.reduce(|a, b| if b.0 < a.0 { b } else { a })?;
+                let normal = against(nearest.unit_normal(), toward);
+                Some((t, normal, normal))
             }
             Self::Polygon { frusta, normals } => {
                 let inside = frusta.iter().filter(|triangle| triangle.crossing(o, d).is_some()).count();

@@ -167,6 +167,6 @@ pub fn sides<N: Number>(shape: &Shape, map: &DAffine3) -> Vec<Side<N>> {
                 |h: &HalfSpace| Side::Plane(combine(h.normal.x, h.normal.y, h.normal.z, N::from(-h.offset)));
             facets.faces.iter().map(plane).collect()
         }
-        Shape::Mesh(_) | Shape::Bezier(_) | Shape::Face(_) | Shape::Patch(_) => vec![],
+        Shape::Mesh(_) | Shape::Bezier(_) | Shape::Sheet(_) | Shape::Face(_) | Shape::Patch(_) => vec![],
     }
 }

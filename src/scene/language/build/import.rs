@@ -19,7 +19,7 @@ use crate::scene::memory::ASSEMBLED_OPERATOR;
 use crate::scene::mesh::{self, MeshSolids, NoSolids};
 use crate::scene::named_files::NamedFile;
 use crate::scene::profile::Fragments;
-use crate::scene::{Diagnostic, Format, MaterialId, Mesh, MeshFacts, Primitive, Shape, Solid, gzip};
+use crate::scene::{Diagnostic, Format, MaterialId, Mesh, MeshFacts, Primitive, Shape, Solid, content, gzip};
 
 /// What a file is to `import`.
 enum Kind {
@@ -112,7 +112,11 @@ impl Builder {
             Ok(bytes) => bytes,
             Err(why) => return Ok(Err(why)),
         };
-        let format = mesh::format_of(&bytes).unwrap_or_else(|| Format::of(name));
+        let known = mesh::format_of(&bytes);
+        if let (None, Some(what)) = (known, content::binary(&bytes)) {
+            return Ok(Err(format!("it is {what}, not a mesh")));
+        }
+        let format = known.unwrap_or_else(|| Format::of(name));
         match mesh::solids(&bytes, format, self.memory.left()) {
             Ok(solids) => Ok(Ok(solids)),
             Err(NoSolids::Wrong(why)) => Ok(Err(why)),

@@ -188,7 +188,8 @@ impl AmfReader {
         let parts: HashSet<&String> = components.map(|it| &it.object.1).collect();
         let mut built: Vec<&String> =
             self.order.iter().filter(|(id, whole)| *whole && !parts.contains(id)).map(|(id, _)| id).collect();
-        if !self.order.iter().any(|(_, whole)| *whole) {
+        // Where constellations are all parts of each other, building them tells that.
+        if built.is_empty() {
             built = self.order.iter().map(|(id, _)| id).collect();
         }
         let item = |id: &String| Instance { object: (0, id.clone()), map: DAffine3::IDENTITY };

@@ -294,7 +294,16 @@ fn map(written: &str) -> Result<DAffine3, MeshFault> {
         written.split_ascii_whitespace().map(|word| number(word, "transform")).collect::<Result<_, _>>()?;
     let columns: [f64; 12] =
         numbers.try_into().map_err(|_| MeshFault::Unexpected("twelve numbers in `transform`".to_owned()))?;
-    Ok(DAffine3::from_cols_array(&columns))
+    let map = DAffine3::from_cols_array(&columns);
+    let [x, y, z] = [map.matrix3.x_axis, map.matrix3.y_axis, map.matrix3.z_axis];
+    let largest = x.abs().max(y.abs()).max(z.abs()).max_element();
+    // Scaled, so that no product of numbers that are small or large counts as none.
+    let flattens = (map.matrix3 * largest.recip()).determinant() == 0.0 || largest == 0.0;
+    if flattens {
+        Err(MeshFault::Unsupported("a `transform` that flattens what it moves".to_owned()))
+    } else {
+        Ok(map)
+    }
 }
 
 /// A colour as `#RRGGBB` or `#RRGGBBAA`, as linear light; how much is seen through it is not read.

@@ -55,7 +55,7 @@ fn a_solid_of_two_materials_is_shown_as_a_surface() {
         format!("mtllib part.mtl\n{CORNERS}usemtl red\nf 1 3 2\nf 1 2 4\nusemtl blue\nf 2 3 4\nf 3 1 4\n");
     let options = crate::scene::ReadOptions { folder: Some(folder), ..super::options() };
     let scene = read("a.obj", text.as_bytes(), &options).unwrap();
-    assert_eq!(scene.objects.len(), 4);
+    assert_eq!(scene.objects.len(), 2);
     assert!(scene.meshes[0].is_closed() && !scene.meshes[0].is_solid);
     assert!(scene.notes[0].contains("several materials"), "{:?}", scene.notes);
 }

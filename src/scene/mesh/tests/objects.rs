@@ -188,7 +188,8 @@ fn hostile_three_mf_is_refused() {
         ),
         (with("<item objectid=\"7\"/>", ""), "no triangles"),
         (with("objectid=\"7\"", "objectid=\"7\" transform=\"1 0 0\""), "twelve numbers in `transform`"),
-        (with("objectid=\"7\"", "objectid=\"7\" transform=\"0 0 0 0 0 0 0 0 0 0 0 0\""), "has an area"),
+        (with("objectid=\"7\"", "objectid=\"7\" transform=\"0 0 0 0 0 0 0 0 0 0 0 0\""), "flattens"),
+        (with("objectid=\"7\"", "objectid=\"7\" transform=\"1 0 0 0 1 0 0 0 0 0 0 0\""), "flattens"),
         (
             with("objectid=\"7\"", "objectid=\"7\" transform=\"1e300 0 0 0 1e300 0 0 0 1e300 1e308 0 0\""),
             "farther",
@@ -208,6 +209,7 @@ fn hostile_amf_is_refused() {
     };
     let circle = "<constellation id=\"1\"><instance objectid=\"2\"/></constellation><constellation id=\"2\"><instance \
                   objectid=\"1\"/></constellation><constellation id=\"3\"><instance objectid=\"1\"/></constellation></amf>";
+    let itself = "<constellation id=\"5\"><instance objectid=\"5\"/></constellation></amf>";
     let files: Vec<(String, &str)> = vec![
         (brick[..brick.len() / 2].to_owned(), "not found before end of input"),
         ("<amf>".to_owned(), "the file is cut off"),
@@ -237,6 +239,7 @@ fn hostile_amf_is_refused() {
             "an object `9`",
         ),
         (with("</amf>", circle), "objects are made of each other"),
+        (with("</amf>", itself), "objects are made of each other"),
         (brick.replace("<vertices>", "<other>").replace("</vertices>", "</other>"), "there are no corners"),
     ];
     let files: Vec<(&[u8], &str)> = files.iter().map(|(text, says)| (text.as_bytes(), *says)).collect();

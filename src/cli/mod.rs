@@ -24,6 +24,7 @@ mod picture;
 mod plan;
 mod reload;
 mod render;
+mod settings_file;
 mod snapshot;
 mod stats;
 mod still;

@@ -1,6 +1,7 @@
 //! From the words of the command line to arguments. Help and version are written as everything else is, so
 //! that a full disk is an error there too; clap itself would be silent.
 
+use std::ffi::OsString;
 use std::io::IsTerminal;
 
 use clap::error::{ContextKind, ContextValue, Error, ErrorKind};
@@ -9,6 +10,7 @@ use clap::{CommandFactory, Parser};
 use super::arguments::Arguments;
 use super::error::CliError;
 use super::input;
+use super::settings_file::with_settings;
 use super::write::print;
 
 /// The commands whose word more is no scene.
@@ -16,8 +18,14 @@ const NO_SCENE: [&str; 2] = ["completions", "man"];
 
 /// The arguments; nothing where help or the version was asked for, and is written.
 pub fn parse() -> Result<Option<Arguments>, CliError> {
-    let error = match Arguments::try_parse() {
+    let words: Vec<OsString> = std::env::args_os().collect();
+    let error = match Arguments::try_parse_from(&words) {
         Ok(mut arguments) => {
+            // Of the person's own settings a still is told nothing.
+            if arguments.command.is_none() && std::io::stdout().is_terminal() {
+                let colour = std::io::stderr().is_terminal() && colours_are_wanted();
+                arguments = with_settings(&words, colour)?.unwrap_or(arguments);
+            }
             arguments.settle_up();
             return Ok(Some(arguments));
         }

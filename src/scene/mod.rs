@@ -28,9 +28,9 @@ mod unit_vector;
 mod xml;
 
 pub use bezier::BezierPatches;
-pub use diagnostic::{Diagnostic, Diagnostics, Severity};
+pub use diagnostic::{Diagnostic, Diagnostics, MAX_ERRORS, Severity};
 pub use embedded::{EmbeddedScene, embedded};
-pub use language::reference;
+pub use language::{nearest, reference};
 pub use mesh::MeshFacts;
 pub use model::{
     Anchor, Camera, CameraError, Corner, Facets, FieldSpan, HalfSpace, Light, Material, MaterialId, Object,

@@ -130,6 +130,26 @@ fn what_is_asked_for_by_name_has_the_last_word() {
     assert!(!plain.has_quadrants() && !plain.has_colors() && plain.has("╔═"));
 }
 
+/// The file of settings: what is in it counts, what is typed counts more, and what is wrong in it has a place.
+#[test]
+fn the_viewer_starts_with_the_person_s_settings() {
+    let home = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("settings");
+    std::fs::create_dir_all(home.join("ray13")).unwrap();
+    let variables = [&format!("XDG_CONFIG_HOME={}", home.display()), "TERM=xterm-256color", "LANG=C.UTF-8"];
+    let write = |text: &str| std::fs::write(home.join("ray13/config.toml"), text).unwrap();
+    write("glyphs = \"half\"\nshading = 3\n");
+    for (arguments, shown) in [(&[][..], " glyphs   half "), (&["--glyphs", "shade"], " glyphs   shade ")] {
+        let mut pty = start(&variables, arguments);
+        pty.wait_for("what is set", |pty| pty.text().contains(shown) && pty.text().contains("(3) highlight"));
+    }
+    write("glyphs = \"half\"\nshadin = 3\n");
+    let mut pty = start(&variables, &[]);
+    pty.wait_for("the end", |pty| pty.text().contains("code=2 modes=same"));
+    let text = pty.text();
+    assert!(text.contains("config.toml:2:1") && text.contains("is `shading` meant?"), "{text}");
+    assert!(!String::from_utf8_lossy(pty.log()).contains("\x1b[?1049h"), "{text}");
+}
+
 #[test]
 fn without_a_cursor_there_is_a_still_and_a_word_why() {
     for (term, why) in [

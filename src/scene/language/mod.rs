@@ -20,6 +20,7 @@ mod tests;
 
 use std::path::Path;
 
+pub use nearest::nearest;
 pub use reference::reference;
 
 use super::diagnostic::{Reported, Sink};

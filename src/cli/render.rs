@@ -6,8 +6,9 @@ use std::time::Instant;
 
 use clap::ValueEnum;
 
+use crate::app::Painter;
 use crate::frame::{Frame, Request, Wants};
-use crate::glyph::Palette;
+use crate::glyph::{Ground, Palette};
 use crate::math::Grid;
 use crate::output::{self, Capabilities, Pixels};
 use crate::plan::PrecisionChoice;
@@ -21,7 +22,7 @@ use super::effects::{self, Still};
 use super::error::{CliError, tell, visible};
 use super::input::Onlooker;
 use super::openscad::OpenScadRun;
-use super::picture::{Look, Unsized};
+use super::picture::{Look, PIXELS, Unsized};
 use super::reload::WatchedScene;
 use super::write::{Destination, print};
 use super::{input, stats, terminal};
@@ -138,6 +139,25 @@ pub fn still(file: &str, reading: &ReadingArguments, picture: &PictureArguments)
     print(&encoded(&frame, &request, StillFormat::Txt, Values::Toned)?)?;
     say_nothing(&frame);
     Ok(())
+}
+
+/// The picture that the viewer shows, drawn as a format needs it: characters as they stand there, pixels in
+/// the number that they have where nobody says another.
+pub fn of_view(painter: &dyn Painter, shown: &Request, format: StillFormat) -> Result<Vec<u8>, CliError> {
+    let still = Still { format, channel: None, levels: false };
+    let mut request = Request { wants: wants(still), ..shown.clone() };
+    if format.is_pixels() {
+        (request.dots, request.dot_aspect) = (PIXELS, 1.0);
+    }
+    if format == StillFormat::Txt {
+        request.palette = Palette::Mono(Ground::Dark).for_glyphs(request.glyphs, Ground::Dark);
+    }
+    if format == StillFormat::Pfm && request.options.precision == PrecisionChoice::Auto {
+        request.options.precision = PrecisionChoice::Double;
+    }
+    let raw = Values::Raw(RawChannel::Light);
+    let values = if format == StillFormat::Pfm { raw } else { Values::Toned };
+    encoded(&painter.draw(&request), &request, format, values)
 }
 
 /// Refuses a picture whose space is cut otherwise than was asked for.

@@ -155,6 +155,39 @@ fn the_help_lists_the_keys_and_any_key_closes_it() {
     }
 }
 
+/// F2 and F8, and a click on the key bar's `10Quit`.
+#[test]
+fn another_scene_is_opened_and_its_picture_saved() {
+    let picture = Path::new(env!("CARGO_TARGET_TMPDIR")).join("opened.txt");
+    let _ = fs::remove_file(&picture);
+    let mut pty = viewer(SMALLEST);
+    pty.send("\x1bOQ\x1b[Zno such scene\r");
+    pty.wait_for("why it is not opened", |pty| pty.text().contains("neither a file"));
+    pty.send("\x15bolt\r");
+    pty.wait_for("the other scene", |pty| pty.row(0).contains(" BOLT.SCENE ") && pty.drawn());
+    let save = format!("\x1b[19~\x15{}\r", picture.display());
+    pty.send(&save);
+    pty.wait_for("that it is saved", |pty| pty.text().contains(" saved as "));
+    assert!(fs::read_to_string(&picture).unwrap().lines().count() >= 18);
+    pty.send(&save);
+    pty.wait_for("that it is there", |pty| pty.text().contains("is there already"));
+    pty.send("\x1b");
+    pty.wait_for("no dialog", |pty| !pty.text().contains("is there already"));
+    pty.send("\x1b[<0;76;24M");
+    pty.wait_for_end(0);
+}
+
+#[test]
+fn without_turbo_the_picture_comes_dot_by_dot() {
+    let mut pty = Pty::start(&[VIEWER, SCENE, "--preset", "pcat", "--aa", "off"], SMALLEST);
+    pty.wait_for("how far it is", |pty| pty.text().contains(" 8 MHz "));
+    pty.wait_for("a ray's stage", |pty| pty.text().contains('►'));
+    pty.send("\x1b[15~");
+    pty.wait_for("all of it", |pty| pty.drawn() && !pty.text().contains('►'));
+    pty.send("q");
+    pty.wait_for_end(0);
+}
+
 #[test]
 fn a_key_without_a_meaning_sends_nothing() {
     let mut pty = viewer(SMALLEST);
@@ -164,7 +197,7 @@ fn a_key_without_a_meaning_sends_nothing() {
     pty.wait_for("the end", |pty| pty.text().contains("code=0"));
     // The first bytes after the picture already give the terminal back.
     let after = String::from_utf8_lossy(&pty.log()[before..]).into_owned();
-    assert!(after.starts_with("\x1b[?2026l\x1b[0m\x1b[?25h\x1b[?1049l"), "{after:?}");
+    assert!(after.starts_with("\x1b[?2026l\x1b[0m\x1b[?25h\x1b[?1006l\x1b[?1000l\x1b[?1049l"), "{after:?}");
 }
 
 /// Something else may have written over the screen.

@@ -32,6 +32,10 @@ pub enum Action {
     ZoomIn,
     /// The field gets wider.
     ZoomOut,
+    /// Shows the dialog that opens a scene.
+    Open,
+    /// Shows the dialog of eye, target and field.
+    View,
     /// The next view of the scene.
     NextView,
     /// The view before.
@@ -46,18 +50,34 @@ pub enum Action {
     LastView,
     /// Follows one ray, or leaves it.
     Follow,
+    /// Shows the lattice around the ray that is followed, or its story.
+    Lattice,
+    /// Measures the trade of time for accuracy, or leaves it.
+    Trade,
     /// The step before, of the ray that is followed.
     StepBack,
     /// The next step of the ray that is followed.
     StepOn,
+    /// Shows the dialog of the sets of characters.
+    Glyphs,
     /// The next set of characters.
     NextGlyphs,
     /// The shading model with one term less.
     ShadingDown,
     /// The shading model with one term more.
     ShadingUp,
+    /// Draws as fast as it goes, or as the PC/AT drew.
+    Turbo,
+    /// With Turbo off, a slower processor.
+    Slower,
+    /// With Turbo off, a faster processor.
+    Faster,
     /// Hides the panels, or shows them.
     Panels,
+    /// Shows the dialog that saves the picture.
+    Save,
+    /// Shows the menus.
+    Menu,
     /// Shows or hides the keys.
     Help,
     /// Closes what is open over the picture.
@@ -81,6 +101,11 @@ pub enum StandardView {
     Top,
     /// From a corner, so that all three axes are as long.
     Isometric,
+}
+
+impl StandardView {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Front, Self::Right, Self::Top, Self::Isometric];
 }
 
 /// A pull-down menu.
@@ -228,15 +253,30 @@ pub const ACTIONS: &[Group] = &[
         ],
     },
     Group {
+        menu: Menu::File,
+        does: "open another scene",
+        entries: &[entry(
+            Action::Open,
+            "&Open...",
+            "Opens a file, or a scene that is inside the program",
+            &[key(KeyCode::F(2))],
+        )],
+    },
+    Group {
+        menu: Menu::View,
+        does: "eye, target, field; all views",
+        entries: &[entry(
+            Action::View,
+            "&View...",
+            "Asks for eye, target and field, and lists all views",
+            &[key(KeyCode::F(3))],
+        )],
+    },
+    Group {
         menu: Menu::View,
         does: "next view, the one before",
         entries: &[
-            entry(
-                Action::NextView,
-                "&Next view",
-                "Goes to the next view of the scene",
-                &[key(KeyCode::F(3)), key(KeyCode::Tab)],
-            ),
+            entry(Action::NextView, "&Next view", "Goes to the next view of the scene", &[key(KeyCode::Tab)]),
             entry(
                 Action::PreviousView,
                 "&Previous view",
@@ -306,6 +346,16 @@ pub const ACTIONS: &[Group] = &[
     },
     Group {
         menu: Menu::Ray,
+        does: "the lattice that it goes through",
+        entries: &[entry(
+            Action::Lattice,
+            "&Lattice",
+            "Shows the lattice from top, front and side, with the cells that the ray enters",
+            &[char('v')],
+        )],
+    },
+    Group {
+        menu: Menu::Ray,
         does: "its steps: the one before, the next",
         entries: &[
             entry(
@@ -324,13 +374,26 @@ pub const ACTIONS: &[Group] = &[
     },
     Group {
         menu: Menu::Picture,
-        does: "next set of characters",
+        does: "time against accuracy; arrows choose",
         entries: &[entry(
-            Action::NextGlyphs,
-            "&Next glyphs",
-            "Takes the next set of characters",
-            &[key(KeyCode::F(7)), char('g')],
+            Action::Trade,
+            "T&rade",
+            "Measures what each option costs and is worth; arrows go along what no other beats",
+            &[key(KeyCode::F(6))],
         )],
+    },
+    Group {
+        menu: Menu::Picture,
+        does: "characters; the next set of them",
+        entries: &[
+            entry(
+                Action::Glyphs,
+                "&Glyphs...",
+                "Chooses the characters of the picture, and shows it in them at once",
+                &[key(KeyCode::F(7))],
+            ),
+            entry(Action::NextGlyphs, "&Next glyphs", "Takes the next set of characters", &[char('g')]),
+        ],
     },
     Group {
         menu: Menu::Picture,
@@ -351,6 +414,30 @@ pub const ACTIONS: &[Group] = &[
         ],
     },
     Group {
+        menu: Menu::File,
+        does: "save the picture",
+        entries: &[entry(
+            Action::Save,
+            "&Save...",
+            "Saves the picture as text, levels or pixels",
+            &[key(KeyCode::F(8))],
+        )],
+    },
+    Group {
+        menu: Menu::Picture,
+        does: "turbo; without it: slower, faster",
+        entries: &[
+            entry(
+                Action::Turbo,
+                "&Turbo",
+                "Off, the picture is drawn dot by dot, as the PC/AT drew it",
+                &[key(KeyCode::F(5))],
+            ),
+            entry(Action::Slower, "&Slower", "With Turbo off, takes a slower processor", &[char(',')]),
+            entry(Action::Faster, "&Faster", "With Turbo off, takes a faster processor", &[char('.')]),
+        ],
+    },
+    Group {
         menu: Menu::Picture,
         does: "hide the panels, show them",
         entries: &[entry(
@@ -362,13 +449,11 @@ pub const ACTIONS: &[Group] = &[
     },
     Group {
         menu: Menu::Help,
-        does: "close what is open",
-        entries: &[entry(
-            Action::Close,
-            "&Close",
-            "Closes what is open over the picture",
-            &[key(KeyCode::Esc)],
-        )],
+        does: "menus; close what is open",
+        entries: &[
+            entry(Action::Menu, "&Menu", "Shows the menus", &[key(KeyCode::F(9))]),
+            entry(Action::Close, "&Close", "Closes what is open over the picture", &[key(KeyCode::Esc)]),
+        ],
     },
     Group {
         menu: Menu::Help,

@@ -2,9 +2,9 @@
 //! after.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Block, BorderType, Widget};
+use ratatui::widgets::{Block, BorderType, Clear, Widget};
 
 use super::keys;
 use super::layout::{Around, Panels, Rows};
@@ -23,6 +23,8 @@ pub struct Labels<'a> {
     pub view: Option<String>,
     /// What is shown otherwise than asked for.
     pub note: Option<String>,
+    /// How far a picture is that is drawn dot by dot.
+    pub drawing: Option<String>,
     /// What is at work, where that takes long enough to be said.
     pub working: Option<WorkStep>,
 }
@@ -62,6 +64,8 @@ fn draw_panels(panels: &Panels, labels: &Labels, theme: &Theme, buffer: &mut Buf
     }
     if let Some(step) = labels.working {
         picture = picture.title_bottom(Line::from(format!(" {} ", words(step))).right_aligned());
+    } else if let Some(drawing) = &labels.drawing {
+        picture = picture.title_bottom(Line::from(format!(" {drawing} ")).right_aligned());
     }
     picture.render(panels.picture, buffer);
     draw_bar(panels.bar, theme, buffer);
@@ -87,7 +91,9 @@ fn draw_rows(rows: &Rows, labels: &Labels, theme: &Theme, buffer: &mut Buffer) {
     draw_bar(rows.bar, theme, buffer);
     // What is at work, or shown otherwise than asked for, stands between the two names.
     let free = place.x.saturating_sub(rows.title.x + program.len() as u16 + 3);
-    if let Some(text) = labels.working.map(words).or_else(|| labels.note.clone()) {
+    if let Some(text) =
+        labels.working.map(words).or_else(|| labels.drawing.clone()).or_else(|| labels.note.clone())
+    {
         let text = format!(" {text} ");
         let whole = Line::from(text.as_str()).width() as u16;
         if whole <= free || free >= LEAST_NOTE {
@@ -98,6 +104,9 @@ fn draw_rows(rows: &Rows, labels: &Labels, theme: &Theme, buffer: &mut Buffer) {
     }
 }
 
+/// Help, menus and the end stay where there is no room for all.
+const LAST_TO_GO: [u8; 3] = [1, 9, 10];
+
 /// Columns of the ten slots of a key bar as Norton had it, on 80 columns.
 const SLOTS: u16 = 80;
 
@@ -105,33 +114,86 @@ const SLOTS: u16 = 80;
 /// each whole.
 fn draw_bar(area: Rect, theme: &Theme, buffer: &mut Buffer) {
     buffer.set_style(area, theme.key_number);
-    let slot = area.width / 10;
-    let mut x = area.x;
-    for (number, label) in keys_that_fit(area.width) {
+    for Slot { number, label, place } in slots(area) {
         let number = number.to_string();
-        let columns = number.len() as u16;
-        let room =
-            if area.width >= SLOTS { slot - columns - u16::from(columns == 1) } else { label.len() as u16 };
-        let left = area.right().saturating_sub(x);
-        buffer.set_stringn(x, area.y, &number, left.into(), theme.key_number);
-        let left = left.saturating_sub(columns);
-        let text = format!("{label:<0$}", usize::from(room));
-        buffer.set_stringn((x + columns).min(area.right()), area.y, text, left.into(), theme.key_label);
-        x = (x + columns + room + 1).min(area.right());
+        let columns = (number.len() as u16).min(place.width);
+        buffer.set_stringn(place.x, place.y, number, columns.into(), theme.key_number);
+        let label_place = Rect { x: place.x + columns, width: place.width - columns, ..place };
+        buffer.set_style(label_place, theme.key_label);
+        buffer.set_stringn(label_place.x, place.y, label, label_place.width.into(), theme.key_label);
     }
+}
+
+/// A function key in the bar.
+struct Slot {
+    number: u8,
+    label: &'static str,
+    place: Rect,
+}
+
+/// The function keys in a bar, from the left; a blank parts them.
+fn slots(bar: Rect) -> Vec<Slot> {
+    let is_wide = bar.width >= SLOTS;
+    let mut x = bar.x;
+    let slot = |(number, label): (u8, &'static str)| {
+        let digits = number.to_string().len() as u16;
+        // The last one's second digit takes the blank.
+        let width =
+            if is_wide { bar.width / 10 - u16::from(digits == 1) } else { digits + label.len() as u16 };
+        if is_wide {
+            x = bar.x + bar.width / 10 * u16::from(number - 1);
+        }
+        let place = Rect { x, width, ..bar }.intersection(bar);
+        x = (x + width + 1).min(bar.right());
+        Slot { number, label, place }
+    };
+    keys_that_fit(bar.width).into_iter().map(slot).collect()
+}
+
+/// The function key whose label stands at a place of the screen.
+pub fn function_key_at(around: &Around, at: Position) -> Option<u8> {
+    let bar = match around {
+        Around::Nothing => return None,
+        Around::Rows(rows) => rows.bar,
+        Around::Panels(panels) => panels.bar,
+    };
+    slots(bar).into_iter().find(|slot| slot.place.contains(at)).map(|slot| slot.number)
+}
+
+/// Says something in the line of figures, or in that of the keys where there is no other; gives its place.
+pub fn draw_hint(around: &Around, text: &str, theme: &Theme, buffer: &mut Buffer) -> Rect {
+    let (place, style) = match around {
+        Around::Nothing => return Rect::ZERO,
+        Around::Rows(rows) => (rows.bar, theme.key_number),
+        Around::Panels(panels) => (panels.status, theme.text),
+    };
+    Clear.render(place, buffer);
+    buffer.set_style(place, style);
+    let text: String = text.chars().filter(|c| !c.is_control()).collect();
+    Line::styled(format!(" {text}"), style).render(place, buffer);
+    place
 }
 
 /// All keys where they fit; else the first, which is Help, the last, which is Quit, the menus, and of the
 /// others as many as fit, counted from the last.
 fn keys_that_fit(columns: u16) -> Vec<(u8, &'static str)> {
-    let mut keys = keys::function_keys();
+    let all = keys::function_keys();
     let width = |keys: &[(u8, &str)]| {
         keys.iter().map(|(number, label)| number.to_string().len() + label.len() + 1).sum::<usize>()
     };
     // The blank behind the last needs no room.
-    while keys.len() > 2 && width(&keys) > usize::from(columns) + 1 {
+    let fits = |keys: &[(u8, &str)]| width(keys) <= usize::from(columns) + 1;
+    let (mut keys, others): (Vec<_>, Vec<_>) = all.into_iter().partition(|(n, _)| LAST_TO_GO.contains(n));
+    for other in others.into_iter().rev() {
+        let with = [&keys[..], &[other]].concat();
+        if fits(&with) {
+            keys = with;
+        }
+    }
+    while keys.len() > 2 && !fits(&keys) {
         keys.remove(1);
     }
+    keys.sort_unstable();
     keys
 }
 
@@ -142,10 +204,10 @@ mod tests {
     #[test]
     fn keys_go_from_the_left_but_help_and_quit_stay() {
         let labels = |columns| keys_that_fit(columns).into_iter().map(|(_, label)| label).collect::<Vec<_>>();
-        assert_eq!(labels(80), labels(35));
-        assert_eq!(labels(35), ["Help", "View", "Follow", "Glyphs", "Quit"]);
-        assert_eq!(labels(33), ["Help", "Follow", "Glyphs", "Quit"]);
-        assert_eq!(labels(20), ["Help", "Glyphs", "Quit"]);
+        assert_eq!(labels(80).len(), 10);
+        assert_eq!(labels(66), labels(80));
+        assert_eq!(labels(46), ["Help", "Turbo", "Trade", "Glyphs", "Save", "Menu", "Quit"]);
+        assert_eq!(labels(20), ["Help", "Menu", "Quit"]);
         assert_eq!(labels(1), ["Help", "Quit"]);
     }
 }

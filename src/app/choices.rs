@@ -1,6 +1,7 @@
 //! What the keys choose between: sets of characters and shading models.
 
 use super::model::Model;
+use super::pace::Pace;
 use crate::glyph::GlyphMode;
 use crate::plan::Shading;
 
@@ -18,6 +19,17 @@ impl Model {
     /// The next set of characters that the terminal draws; the present one where it draws no other.
     pub fn next_glyphs(&self) -> GlyphMode {
         after(&self.glyph_modes(), self.settings.glyphs)
+    }
+
+    /// Draws at this pace from now on, and says so.
+    pub fn set_pace(&mut self, pace: Pace) {
+        self.pace = pace;
+        let name = pace.name();
+        self.told = Some(if pace.turbo {
+            format!("Turbo is on: as fast as it goes; off, as a PC/AT of {name}")
+        } else {
+            format!("Turbo is off: dot by dot, as a PC/AT of {name}; , and . take another")
+        });
     }
 
     /// The shading model one step away, or the present one where there is none.

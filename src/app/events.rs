@@ -7,8 +7,9 @@ use std::time::Instant;
 
 use ratatui::crossterm::event::KeyEvent;
 
+use super::errands::Done;
 use super::fence::Fence;
-use super::input::{self, Answer, Input};
+use super::input::{self, Answer, Input, Mouse};
 use super::reloading::Reloaded;
 use crate::frame::Frame;
 use crate::stage::WorkStep;
@@ -18,6 +19,8 @@ use crate::stage::WorkStep;
 pub enum Event {
     /// A key was pressed, or repeats.
     Key(KeyEvent),
+    /// The mouse was used.
+    Mouse(Mouse),
     /// The terminal answered.
     Answer(Answer),
     /// The terminal has come as far as the status request of this number.
@@ -28,6 +31,8 @@ pub enum Event {
     Working(WorkStep),
     /// The scene is there, or why there is none.
     Loaded,
+    /// An errand is done.
+    Done(Done),
     /// A file of the scene has changed.
     Changed(Reloaded),
     /// A picture is finished.
@@ -59,6 +64,7 @@ impl From<Input> for Event {
     fn from(input: Input) -> Self {
         match input {
             Input::Key(key) => Self::Key(key),
+            Input::Mouse(used) => Self::Mouse(used),
             Input::Answer(answer) => Self::Answer(answer),
             #[cfg(not(unix))]
             Input::Resized => Self::Resized,

@@ -122,6 +122,8 @@ impl<P: Send + 'static, E: Send + 'static> Loading<P, E> {
                 Some(
                     Event::Resized
                     | Event::Answer(_)
+                    | Event::Mouse(_)
+                    | Event::Done(_)
                     | Event::Reached(_)
                     | Event::Changed(_)
                     | Event::Drawn(_)

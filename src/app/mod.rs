@@ -17,23 +17,34 @@ mod charset;
 mod choices;
 mod chord;
 mod colors;
+mod desk;
+mod errands;
 mod error;
 mod events;
 mod fence;
+mod files;
+mod follow_order;
 mod following;
 mod help;
 mod identity;
 mod input;
 mod keys;
+mod lattice_views;
 mod layout;
 mod loading;
 mod mistake;
 mod model;
 mod motion;
+mod office;
+mod openings;
+mod pace;
 mod pacing;
 mod painter;
 mod refinement;
+mod reload_thread;
 mod reloading;
+mod scan;
+mod scanning;
 mod screen;
 mod settings;
 mod shown;
@@ -44,6 +55,7 @@ mod suspend;
 mod terminal;
 mod theme;
 mod tracer;
+mod trade_panel;
 mod travel;
 mod viewer;
 mod watch;
@@ -51,27 +63,27 @@ mod window;
 
 use std::env;
 use std::io;
-use std::panic::{self, AssertUnwindSafe};
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, Sender};
-use std::thread;
 
 use ratatui::crossterm::style::force_color_output;
 
 use crate::output::Capabilities;
 use crate::stage::Progress;
 
+pub use desk::{SaveFailure, SaveFormat, SaveOrder};
 pub use error::AppError;
 use events::{Event, Inbox};
+pub use files::{Files, NoFiles, OpenedScene};
 pub(crate) use help::key_list;
 use identity::Identity;
 pub use loading::Opening;
 use loading::{Loading, Waited};
 use model::Model;
+use office::Office;
 use pacing::Pacing;
 pub use painter::Painter;
 use refinement::Refinement;
-use reloading::Reloaded;
 pub use reloading::Reloading;
 pub use settings::{Questions, Settings};
 use terminal::Terminal;
@@ -103,7 +115,7 @@ pub fn run_shared<P: Painter + 'static>(painter: &Arc<P>, settings: Settings) ->
     let (sender, events) = mpsc::channel();
     let session = Session::start(settings.terminal, sender, events)?;
     let painter: Arc<dyn Painter> = painter.clone();
-    session.show(painter, settings, Reloading::<P>::never()).map(drop)
+    session.show(painter, settings, Reloading::never(), Arc::new(NoFiles)).map(drop)
 }
 
 /// The same with a scene that is still to be read, on another thread, while the screen shows how far that is;
@@ -115,7 +127,8 @@ pub fn run_shared<P: Painter + 'static>(painter: &Arc<P>, settings: Settings) ->
 pub fn open<P: Painter + 'static, E: From<AppError> + Send + 'static>(
     opening: &Opening,
     load: impl FnOnce(&Progress) -> Result<(P, Settings), E> + Send + 'static,
-    reloading: Reloading<P>,
+    reloading: Reloading,
+    files: Arc<dyn Files>,
 ) -> Result<Option<Arc<dyn Painter>>, E> {
     let (sender, events) = mpsc::channel();
     let mut loading = Loading::start(load, sender.clone()).map_err(AppError::from)?;
@@ -140,7 +153,7 @@ pub fn open<P: Painter + 'static, E: From<AppError> + Send + 'static>(
     };
     match loaded {
         Ok((painter, settings)) => {
-            let shown = session.show(Arc::new(painter), settings, reloading)?;
+            let shown = session.show(Arc::new(painter), settings, reloading, files)?;
             Ok(Some(shown))
         }
         Err(error) => {
@@ -174,24 +187,23 @@ impl Session {
     }
 
     /// Shows the painter's pictures, and those of the ones that follow it, until the end; gives the last.
-    fn show<P: Painter + 'static>(
+    fn show(
         mut self,
         painter: Arc<dyn Painter>,
         mut settings: Settings,
-        reloading: Reloading<P>,
+        reloading: Reloading,
+        files: Arc<dyn Files>,
     ) -> Result<Arc<dyn Painter>, AppError> {
         let tracer = Tracer::start(painter.clone(), self.sender.clone())?;
-        let end_reloading = reloading.end;
-        reload(reloading.next, self.sender.clone())?;
         let (terminal, inbox) = (&mut self.terminal, &mut self.inbox);
         let pacing = look_ahead(terminal, inbox, &mut settings)?;
         let refinement = Refinement::new(settings.frame_time, settings.adaptive_at_rest);
         let model = Model::new(&*painter, settings, terminal::window());
-        let mut viewer = Viewer::new(painter, model, Drawing { tracer, refinement }, terminal, inbox, pacing);
+        let office = Office::new(files, self.sender.clone(), painter, reloading)?;
+        let mut viewer = Viewer::new(office, model, Drawing { tracer, refinement }, terminal, inbox, pacing);
         let end = viewer.run();
         let painter = viewer.painter();
         drop(viewer);
-        end_reloading();
         self.end(end)?;
         Ok(painter)
     }
@@ -209,30 +221,6 @@ impl Session {
             }
         }
     }
-}
-
-/// Starts the thread that waits for the scenes that follow the first; it ends with them, or with the viewer.
-fn reload<P: Painter + 'static>(
-    mut next: Box<dyn FnMut() -> Option<Result<P, String>> + Send>,
-    events: Sender<Event>,
-) -> io::Result<()> {
-    let wait = move || {
-        loop {
-            // What a panic leaves half done is not looked at: the program ends.
-            let event = match panic::catch_unwind(AssertUnwindSafe(&mut next)) {
-                Ok(None) => return,
-                Ok(Some(scene)) => {
-                    Event::Changed(Reloaded(scene.map(|painter| Arc::new(painter) as Arc<dyn Painter>)))
-                }
-                Err(_) => Event::Panicked,
-            };
-            let is_last = matches!(event, Event::Panicked);
-            if events.send(event).is_err() || is_last {
-                return;
-            }
-        }
-    };
-    thread::Builder::new().name("reloader".to_owned()).spawn(wait).map(drop)
 }
 
 /// Asks who draws the screen, how far away that is, and which colours it has.

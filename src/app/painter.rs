@@ -1,9 +1,12 @@
 //! Who makes the pictures: a [`Studio`], or something in its place.
 
+use std::sync::atomic::AtomicBool;
+
 use crate::frame::{FollowedRay, Frame, Request, Studio};
 use crate::math::DVec3;
 use crate::scene::{Camera, Scene};
 use crate::stage::{GiveUp, Progress};
+use crate::trade::{Sweep, SweepLimits, SweepStep};
 
 /// What the viewer asks for scene, views and pictures. Pictures are drawn on a thread of their own.
 pub trait Painter: Send + Sync {
@@ -30,6 +33,18 @@ pub trait Painter: Send + Sync {
 
     /// Follows the ray through the middle of a dot; `None` where that can not be had.
     fn follow(&self, _request: &Request, _dot: [u32; 2]) -> Option<FollowedRay> {
+        None
+    }
+
+    /// Measures how time trades against accuracy in a picture; `None` where that can not be had, or nothing
+    /// was measured. `watch` learns of each step.
+    fn trade(
+        &self,
+        _request: &Request,
+        _limits: &SweepLimits,
+        _interrupt: &AtomicBool,
+        _watch: &mut dyn FnMut(SweepStep),
+    ) -> Option<Sweep> {
         None
     }
 
@@ -62,6 +77,16 @@ impl Painter for Studio {
 
     fn follow(&self, request: &Request, dot: [u32; 2]) -> Option<FollowedRay> {
         self.follow(request, dot)
+    }
+
+    fn trade(
+        &self,
+        request: &Request,
+        limits: &SweepLimits,
+        interrupt: &AtomicBool,
+        watch: &mut dyn FnMut(SweepStep),
+    ) -> Option<Sweep> {
+        Sweep::new(self, request, limits, interrupt, watch).ok()
     }
 
     fn progress(&self) -> Progress {

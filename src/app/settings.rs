@@ -1,7 +1,9 @@
 //! With what the viewer starts.
 
+use std::path::PathBuf;
 use std::time::Duration;
 
+use super::desk::SaveFormat;
 use crate::glyph::{GlyphMode, Ground, Palette};
 use crate::output::Capabilities;
 use crate::plan::Options;
@@ -39,6 +41,12 @@ pub struct Settings {
     pub tone: Tone,
     /// What the terminal can be told and what it can draw.
     pub terminal: Capabilities,
+    /// Whether pictures are drawn dot by dot at first, as the PC/AT drew them.
+    pub slow: bool,
+    /// The folder whose scenes are offered first; where it is empty, that in which the program runs.
+    pub folder: PathBuf,
+    /// The forms in which the picture can be saved.
+    pub formats: Vec<SaveFormat>,
 }
 
 /// What a terminal's answers may decide.

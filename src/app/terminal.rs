@@ -208,11 +208,11 @@ impl Hold {
         enable_raw_mode()?;
         (ours.screen, ours.modes) = (true, true);
         if ours.only_screen {
-            return send(&commands(&[&ResetColor, &Hide]));
+            return send(&[&commands(&[&ResetColor, &Hide]), MOUSE_ON].concat());
         }
         // The alternate screen keeps colours with the cursor, and gives them back: they may be those of our
         // last picture, after a stop that nobody could prepare.
-        send(&commands(&[&ResetColor, &EnterAlternateScreen, &Hide]))
+        send(&[&commands(&[&ResetColor, &EnterAlternateScreen, &Hide]), MOUSE_ON].concat())
     }
 
     /// The status requests that have not been answered.
@@ -281,6 +281,7 @@ impl Ours {
         }
         // A panic may have come in the middle of an update.
         let mut bytes = commands(&[&EndSynchronizedUpdate, &ResetColor, &Show]);
+        bytes.extend(MOUSE_OFF);
         bytes.extend(if self.only_screen {
             commands(&[&Clear(ClearType::All), &MoveTo(0, 0)])
         } else {
@@ -298,6 +299,13 @@ fn commands(commands: &[&dyn AnsiCommand]) -> Vec<u8> {
     }
     text.into_bytes()
 }
+
+/// Presses and the wheel are told (1000), by places of any size (1006). Not more: each motion would be a
+/// packet. What a terminal does not know of this it ignores.
+const MOUSE_ON: &[u8] = b"\x1b[?1000h\x1b[?1006h";
+
+/// The mouse is the terminal's own again.
+const MOUSE_OFF: &[u8] = b"\x1b[?1006l\x1b[?1000l";
 
 /// Commands of different types in one list.
 trait AnsiCommand {

@@ -4,6 +4,7 @@ mod arguments;
 mod bench;
 mod changes;
 mod describe;
+mod desk;
 mod diagnostics;
 mod diff;
 mod effects;
@@ -40,20 +41,18 @@ mod write;
 
 use std::io::{self, IsTerminal};
 use std::process::ExitCode;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 use std::time::Duration;
 
-use crate::app::{self, Opening, Painter, Reloading, Settings};
+use crate::app::{self, Opening, Painter, Settings};
 use crate::frame::Studio;
 use crate::scene::{MeshFacts, Scene, embedded};
 use crate::solid::SelfCrossings;
 use crate::stage::Progress;
 
 use arguments::{Arguments, Command, ReadingArguments, SceneArguments, ViewerArguments};
+use desk::{DeskFiles, FilesSeen, ViewedScene};
 use error::{CliError, tell, visible};
-use input::Onlooker;
-use openscad::OpenScadRun;
-use reload::WatchedScene;
 use write::print;
 
 /// The scene that the program shows when it is given none.
@@ -146,46 +145,17 @@ fn open(
     file: &str,
     opening: &Opening,
 ) -> Result<Option<Arc<dyn Painter>>, CliError> {
-    let reading = of_viewer(arguments);
-    let openscad = OpenScadRun::default();
-    let onlooker = Onlooker { openscad: openscad.clone(), has_screen: true, ..Onlooker::default() };
-    let watched = WatchedScene::new(file, &reading, onlooker.clone());
-    let reloading = watched.is_some();
-    let end = watched.as_ref().map(WatchedScene::end);
-    let watched = Arc::new(Mutex::new(watched));
-    let (arguments, known, file) = (arguments.clone(), opening.clone(), file.to_owned());
-    let first = Arc::clone(&watched);
+    let seen = FilesSeen::default();
+    let viewed = ViewedScene::new(file, &of_viewer(arguments), seen.clone());
+    let reloading = viewed.reloading();
+    let (own, known) = (arguments.clone(), opening.clone());
     let read = move |progress: &Progress| {
         // What is wrong with the first scene is told when the screen is given back.
-        let onlooker = Onlooker { progress: Some(progress.clone()), has_screen: false, ..onlooker };
-        let scene = match &mut *lock(&first) {
-            Some(watched) => watched.read_for(&onlooker)?,
-            None => input::read_watched(&file, &reading, &onlooker)?,
-        };
-        load(&arguments, scene, &known, progress)
+        let scene = viewed.read(Some(progress), false)?;
+        load(&own, scene, &known, progress)
     };
-    let next = move || {
-        let mut watched = lock(&watched);
-        let watched = watched.as_mut().filter(|_| reloading)?;
-        if !watched.wait() {
-            return None;
-        }
-        let studio = watched.read().and_then(input::studio);
-        Some(studio.map_err(|error| error.to_string()))
-    };
-    let end = move || {
-        openscad.end();
-        if let Some(end) = &end {
-            end.end();
-        }
-    };
-    app::open(opening, read, Reloading { next: Box::new(next), end: Box::new(end) })
-}
-
-/// What one thread does after the other.
-fn lock<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
-    // A thread that panics ends the program.
-    shared.lock().unwrap_or_else(PoisonError::into_inner)
+    let files = DeskFiles { reading: of_viewer(arguments), seen };
+    app::open(opening, read, reloading, Arc::new(files))
 }
 
 /// What the viewer shows of a scene, and with what it starts.
@@ -212,6 +182,9 @@ fn load(
         questions: picture.questions(),
         tone: picture.tone(),
         terminal: opening.terminal,
+        slow: picture.preset.is_some(),
+        folder: arguments.file.as_deref().map(desk::folder).unwrap_or_default(),
+        formats: desk::formats(),
     };
     Ok((studio, settings))
 }

@@ -20,7 +20,7 @@ const SCREEN: Size = Size::new(80, 25);
 
 /// The dots of pixels and raw values where no size is given: those of a PC's largest graphics screen of the
 /// time, and in the shape of [`SCREEN`], whose cells are twice as high as wide.
-const PIXELS: Size = Size::new(640, 400);
+pub const PIXELS: Size = Size::new(640, 400);
 
 /// How large a picture is for which no size is given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,16 +3,37 @@
 use std::io;
 use std::sync::Arc;
 
-use crate::frame::{Frame, Wants};
-use crate::glyph::Palette;
+use crate::app::Painter;
+use crate::frame::{Frame, Request, Wants};
+use crate::glyph::{Ground, Palette};
 use crate::math::Grid;
 use crate::output::{self, Capabilities, Pixels};
+use crate::plan::PrecisionChoice;
 use crate::tone::Tone;
 
 use super::arguments::{PictureArguments, RawChannel, RenderArguments, StillFormat};
 use super::effects::Still;
 use super::error::CliError;
-use super::picture::Look;
+use super::picture::{Look, PIXELS};
+
+/// The picture that the viewer shows, drawn as a format needs it: characters as they stand there, pixels in
+/// the number that they have where nobody says another.
+pub fn of_view(painter: &dyn Painter, shown: &Request, format: StillFormat) -> Result<Vec<u8>, CliError> {
+    let still = Still { format, channel: None, levels: false };
+    let mut request = Request { wants: wants(still), ..shown.clone() };
+    if format.is_pixels() {
+        (request.dots, request.dot_aspect) = (PIXELS, 1.0);
+    }
+    if format == StillFormat::Txt {
+        request.palette = Palette::Mono(Ground::Dark).for_glyphs(request.glyphs, Ground::Dark);
+    }
+    if format == StillFormat::Pfm && request.options.precision == PrecisionChoice::Auto {
+        request.options.precision = PrecisionChoice::Double;
+    }
+    let raw = Values::Raw(RawChannel::Light);
+    let values = if format == StillFormat::Pfm { raw } else { Values::Toned };
+    encoded(&painter.draw(&request), request.tone, format, values)
+}
 
 /// What is shown of light in pixels and raw values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

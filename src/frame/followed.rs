@@ -1,7 +1,8 @@
 //! One dot's ray, followed through all stages.
 
 use crate::integrate::{RayIntegrator, View};
-use crate::math::{DVec3, Ray, Size};
+use crate::lattice::Structure;
+use crate::math::{Bounds, DVec3, Ray, Size};
 use crate::plan::{Channels, EngineChoice, Options, Plan, PrecisionChoice};
 use crate::shade::Channel;
 use crate::solid::SceneFrame;
@@ -30,6 +31,8 @@ pub struct FollowedRay {
     pub scene_frame: SceneFrame,
     /// How space is cut.
     pub space: Space,
+    /// How space is cut, to be drawn.
+    pub drawn_space: DrawnSpace,
     /// How many more events there were, which are not told.
     pub left_out: u64,
     /// What the picture requires.
@@ -38,7 +41,37 @@ pub struct FollowedRay {
     pub light: DVec3,
 }
 
+/// So many boxes are drawn at most: more can not be told apart on a screen.
+const MOST_BOXES: usize = 1_000;
+
+/// The space of a picture as it is drawn, in the scene's coordinates.
+#[derive(Clone, Debug)]
+pub struct DrawnSpace {
+    /// A box around all objects.
+    pub world: Bounds,
+    /// The planes across each axis, ascending; none where there is no lattice.
+    pub planes: [Vec<f64>; 3],
+    /// The boxes around the first 1 000 objects.
+    pub boxes: Vec<Bounds>,
+}
+
 impl Studio {
+    fn drawn_space(&self, structure: &Structure) -> DrawnSpace {
+        let frame = self.assembly.scene_frame;
+        let outward = |b: &Bounds| Bounds::new(frame.outward(b.lo), frame.outward(b.hi));
+        let planes = [0, 1, 2].map(|axis| match structure {
+            Structure::Lattice(lattice, _) => {
+                let list = lattice.planes().list(axis).iter();
+                list.map(|x| x * frame.unit + frame.origin[axis]).collect()
+            }
+            _ => Vec::new(),
+        });
+        let objects = &self.assembly.objects;
+        let world = objects.iter().fold(Bounds::EMPTY, |all, object| all.join(&object.bounds));
+        let boxes = objects.iter().take(MOST_BOXES).map(|object| outward(&object.bounds)).collect();
+        DrawnSpace { world: outward(&world), planes, boxes }
+    }
+
     /// Follows the ray through the middle of a dot, by the exact engine whatever the request has; `None`
     /// where the picture has no such dot.
     pub fn follow(&self, request: &Request, dot: [u32; 2]) -> Option<FollowedRay> {
@@ -67,6 +100,7 @@ impl Studio {
             objects: self.assembly.objects.iter().map(|object| object.number).collect(),
             scene_frame: self.assembly.scene_frame,
             space: Space::of(&prepared.structure),
+            drawn_space: self.drawn_space(&prepared.structure),
             left_out: meter.probe.left_out,
             light,
             plan: prepared.plan,

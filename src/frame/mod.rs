@@ -19,13 +19,14 @@ mod render;
 mod request;
 mod reuse;
 mod sample;
+mod scan;
 mod scratch_pool;
 mod small;
 mod studio;
 mod workers;
 
 pub use compare::{Comparison, OtherDots};
-pub use followed::FollowedRay;
+pub use followed::{DrawnSpace, FollowedRay};
 pub use inventory::{Inventory, SeenObject, UnseenObject};
 pub use nothing::NothingInView;
 pub use request::{Frame, MOST_DOTS, Request, Space, Wants};

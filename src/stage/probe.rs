@@ -61,7 +61,13 @@ impl<P: Probe> Meter<P> {
     /// Counts and records a cell that the ray comes into at `from`.
     #[inline(always)]
     pub fn enter_cell(&mut self, from: f64) {
+        self.enter_numbered_cell(from, None);
+    }
+
+    /// The same of a cell of the lattice of all objects, where it has a number there.
+    #[inline(always)]
+    pub fn enter_numbered_cell(&mut self, from: f64, number: Option<u32>) {
         self.counts.cells_visited += 1;
-        self.record(|| RayEvent::Cell { from });
+        self.record(|| RayEvent::Cell { from, number });
     }
 }

@@ -50,6 +50,8 @@ pub enum RayEvent {
     Cell {
         /// Where it does, or before.
         from: f64,
+        /// The cell's number in scan order, x fastest, where it is one of the lattice of all objects.
+        number: Option<u32>,
     },
     /// The ray is tested against a primitive.
     Tested {

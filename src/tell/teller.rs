@@ -205,23 +205,46 @@ impl Teller<'_> {
     fn cells(&mut self, number: usize) -> usize {
         let events = &self.followed.events[number..];
         let count = events.iter().take_while(|event| matches!(event, RayEvent::Cell { .. })).count();
-        let RayEvent::Cell { from } = events[count - 1] else { return 1 };
+        let RayEvent::Cell { from, .. } = events[count - 1] else { return 1 };
         let last = figure(self.along(from).max(0.0));
         let is_tested = matches!(events.get(count), Some(RayEvent::Tested { .. }));
-        let what = match self.followed.space {
-            Space::Boxes(_) => "box",
-            _ => "cell",
-        };
+        let subject = self.cell_names(&events[..count]);
         let text = match (count, is_tested) {
-            (1, true) => format!("a {what} from t = {last}"),
-            (1, false) => format!("a {what} from t = {last}, with nothing new in it"),
-            (_, true) => format!("{}, nothing new in all but the last, from t = {last}", many(count, what)),
-            (_, false) => {
-                format!("{}, the last from t = {last}, with nothing new in them", many(count, what))
-            }
+            (1, true) => format!("{subject} from t = {last}"),
+            (1, false) => format!("{subject} from t = {last}, with nothing new in it"),
+            (_, true) => format!("{subject}, nothing new in all but the last, from t = {last}"),
+            (_, false) => format!("{subject}, the last from t = {last}, with nothing new in them"),
         };
         self.say(Stage::Cell, text);
         count
+    }
+
+    /// Some cells, by their places in the lattice where they have one.
+    fn cell_names(&self, cells: &[RayEvent]) -> String {
+        let number = |event: &RayEvent| match event {
+            RayEvent::Cell { number, .. } => *number,
+            _ => None,
+        };
+        let (what, places) = match self.followed.space {
+            Space::Boxes(_) => ("box", Vec::new()),
+            Space::Lattice(sides) => {
+                ("cell", cells.iter().filter_map(number).map(|number| place(number, sides)).collect())
+            }
+            Space::Whole | Space::Tree(_) => ("cell", Vec::new()),
+        };
+        let all = match &places[..] {
+            [] if cells.len() == 1 => return format!("a {what}"),
+            [] => return many(cells.len(), what),
+            [one] => format!("cell {one}"),
+            [first, .., last] if places.len() > MOST_PLACES => {
+                format!("{} from {first} to {last}", many(places.len(), "cell"))
+            }
+            some => format!("cells {}", some.join(", ")),
+        };
+        match cells.len() - places.len() {
+            0 => all,
+            others => format!("{all}, and {others} of a sub-lattice"),
+        }
     }
 
     fn end(&mut self, request: &Request, frame: Option<&Frame>) {
@@ -267,6 +290,15 @@ impl Teller<'_> {
         );
         self.say(Stage::Display, text);
     }
+}
+
+/// So many places of cells are told one by one.
+const MOST_PLACES: usize = 4;
+
+/// The place i, j, k of a cell of this number, in a lattice of so many cells along x, y and z.
+fn place(number: u32, [x, y, _]: [usize; 3]) -> String {
+    let number = number as usize;
+    format!("({}, {}, {})", number % x, number / x % y, number / (x * y))
 }
 
 /// Beyond which faces of a box an outcode says that a point lies.

@@ -295,8 +295,9 @@ impl<P: Probe, G: Goal> ObjectVisitor<'_, '_, P, G> {
             return found.is_some();
         }
         self.memory.start_marking(objects);
+        let is_lattice = matches!(exact.structure, Structure::Lattice(..));
         let found = exact.structure.walk(ray, from, to, |objects, step| {
-            self.meter.enter_cell(step.from);
+            self.meter.enter_numbered_cell(step.from, is_lattice.then_some(step.cell as u32));
             for &object in objects {
                 if self.memory.first_time(object) {
                     self.test(object)?;

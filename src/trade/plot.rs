@@ -10,6 +10,8 @@ pub struct TradePlot {
     pub points: Vec<PlotPoint>,
     /// The points on the front, from the fastest.
     pub front: Vec<usize>,
+    /// The point of the setting that is in use.
+    pub present: usize,
     /// Milliseconds of a picture.
     pub time: LogAxis,
     /// Dots with a wrong level, in percent.
@@ -62,7 +64,7 @@ impl TradePlot {
         let points: Vec<PlotPoint> = all.iter().map(point).collect();
         let time = LogAxis::around(points.iter().map(|point| point.time));
         let wrong = LogAxis::around(points.iter().map(|point| point.wrong));
-        Self { points, front, time, wrong }
+        Self { points, front, present: 0, time, wrong }
     }
 
     /// Whether a point is on the front.

@@ -106,6 +106,7 @@ mod tests {
                 PlotPoint { is_another_picture: true, ..point(0.2, 0.9) },
             ],
             front: vec![0, 1],
+            present: 0,
             time: LogAxis { low: 0.0, high: 1.0 },
             wrong: LogAxis { low: 0.0, high: 1.0 },
         };

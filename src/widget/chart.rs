@@ -35,6 +35,8 @@ pub struct FlowChart {
     counted: bool,
     lit: Style,
     dim: Style,
+    /// The stage of a ray that is in hand, and how its line is drawn.
+    in_hand: Option<(Stage, Style)>,
 }
 
 /// What one line says.
@@ -59,6 +61,7 @@ impl FlowChart {
             counted: true,
             lit: Style::new().fg(Color::Gray),
             dim: Style::new().fg(Color::DarkGray),
+            in_hand: None,
         }
     }
 
@@ -73,6 +76,14 @@ impl FlowChart {
     #[must_use]
     pub const fn working(mut self, step: Option<WorkStep>) -> Self {
         self.working = step;
+        self
+    }
+
+    /// The stage that a ray is in, where one is followed while the picture is drawn, and how its line is
+    /// drawn.
+    #[must_use]
+    pub fn in_hand(mut self, stage: Option<Stage>, style: Style) -> Self {
+        self.in_hand = stage.map(|stage| (stage, style));
         self
     }
 
@@ -195,11 +206,16 @@ impl Widget for &FlowChart {
                 None if self.counted => self.line(stage),
                 None => Line::idle(),
             };
-            let style = if line.busy { self.lit } else { self.dim };
+            let in_hand = self.in_hand.filter(|(in_hand, _)| *in_hand == stage);
+            let style = match in_hand {
+                Some((_, style)) => style,
+                None if line.busy => self.lit,
+                None => self.dim,
+            };
             let text = format!(
                 "{:>2}{}{:<8}{:>width$} ",
                 stage.number(),
-                if step.is_some() { '►' } else { ' ' },
+                if step.is_some() || in_hand.is_some() { '►' } else { ' ' },
                 stage.name(),
                 line.count,
                 width = COUNT_COLUMNS.into()

@@ -15,7 +15,7 @@ const FRONT: char = 'o';
 const BEATEN: char = '·';
 /// What shows another picture on purpose.
 const OTHER: char = 'x';
-/// The setting that was asked for, wherever it is.
+/// The setting that is in use, wherever it is.
 const OWN: char = '♦';
 
 /// Log time across, log wrong levels up, a mark for each setting, the front as a line through its own. Wants
@@ -44,7 +44,7 @@ impl Widget for TradePlotWidget<'_> {
         let others = places(&|place| plot.points[place].is_another_picture);
         let front = places(&|place| plot.is_on_front(place));
         let beaten = places(&|place| !plot.points[place].is_another_picture && !plot.is_on_front(place));
-        let own = places(&|place| place == 0);
+        let own = places(&|place| place == plot.present);
         let marks = |data, mark, color| {
             Dataset::default()
                 .data(data)
@@ -101,6 +101,7 @@ mod tests {
                 PlotPoint { is_another_picture: true, ..point(0.3, -0.5) },
             ],
             front: vec![1, 0, 2],
+            present: 0,
             time: LogAxis { low: 0.0, high: 1.5 },
             wrong: LogAxis { low: -1.0, high: 1.0 },
         };

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use ratatui::crossterm::event::{KeyEvent, KeyModifiers};
 
-use super::{Input, answers, key_codes};
+use super::{Input, answers, key_codes, mouse};
 
 /// A lone `ESC` is the key after this time. Terminals send a sequence in one write, and what parts it is one
 /// hop of the network; 50 ms is what vim and tmux came to wait too, and no person notices.
@@ -231,6 +231,10 @@ impl Decoder {
             b'@'..=b'~' if self.held.len() < LONGEST => {
                 if let Some(answer) = answers::in_sequence(parameters, byte) {
                     inputs.push(Input::Answer(answer));
+                    return self.begin(State::Ground);
+                }
+                if let Some(used) = mouse::in_sequence(parameters, byte) {
+                    inputs.push(Input::Mouse(used));
                     return self.begin(State::Ground);
                 }
                 key_codes::in_sequence(parameters, byte)

@@ -43,6 +43,7 @@ fn name(input: &Input) -> String {
         }
         Input::Answer(Answer::Status) => "status".to_owned(),
         Input::Answer(answer) => format!("{answer:?}"),
+        Input::Mouse(_) => "mouse".to_owned(),
         input => panic!("no decoder says {input:?}"),
     }
 }
@@ -67,6 +68,7 @@ fn whole_sequences_are_keys() {
         ("\x1b\x03", "C-A-c"),
         ("\x1b\x1b[A", "Esc Up"),
         ("\x1b[0n", "status"),
+        ("\x1b[<0;10;10M", "mouse"),
         ("\x1b[C\x1b[Cl", "Right Right l"),
     ] {
         let expected: Vec<_> = if bytes == "\x1b[Z" { vec![keys] } else { keys.split(' ').collect() };
@@ -121,7 +123,7 @@ fn what_is_foreign_is_swallowed_whole() {
         "\x1b[?2026;2$y",
         "\x1b[4;1$y",
         "\x1b[12;40R",
-        "\x1b[<0;10;10M",
+        "\x1b[<0;10;10m",
         "\x1b[Mqqq",
         "\x1b[?1u",
         "\x1b\\",

@@ -43,11 +43,13 @@ mod reader {
         thread::Builder::new().name("keys".to_owned()).spawn(read).map(drop)
     }
 }
+mod mouse;
 mod received;
 
 #[cfg(test)]
 pub use answers::in_command;
 pub use answers::{Answer, Colored};
+pub use mouse::Mouse;
 #[cfg(unix)]
 pub use reader::discard;
 pub use reader::start;

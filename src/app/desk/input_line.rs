@@ -10,7 +10,7 @@ const LONGEST: usize = 4096;
 
 /// A line of text, and where the next letter goes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct TextLine {
+pub struct InputLine {
     letters: Vec<char>,
     /// The place of the cursor: before the letter of this number.
     at: usize,
@@ -18,7 +18,7 @@ pub struct TextLine {
     fresh: bool,
 }
 
-impl TextLine {
+impl InputLine {
     /// A line with a text that the first letter typed replaces.
     pub fn new(text: &str) -> Self {
         // What can not be typed is not drawn either.
@@ -79,7 +79,7 @@ impl TextLine {
         if room == 0 || area.height == 0 {
             return;
         }
-        let first = (self.at + 1).saturating_sub(room);
+        let first = if has_keys { (self.at + 1).saturating_sub(room) } else { 0 };
         let shown: String = self.letters.iter().skip(first).collect();
         buffer.set_stringn(area.x, area.y, shown, room, style);
         if has_keys {
@@ -98,7 +98,7 @@ impl TextLine {
 mod tests {
     use super::*;
 
-    fn typed(line: &mut TextLine, codes: &[KeyCode]) {
+    fn typed(line: &mut InputLine, codes: &[KeyCode]) {
         for &code in codes {
             line.take(code.into());
         }
@@ -106,7 +106,7 @@ mod tests {
 
     #[test]
     fn letters_go_where_the_cursor_is() {
-        let mut line = TextLine::new("");
+        let mut line = InputLine::new("");
         typed(&mut line, &['a', 'c'].map(KeyCode::Char));
         typed(&mut line, &[KeyCode::Left, KeyCode::Char('b'), KeyCode::End, KeyCode::Char('d')]);
         assert_eq!(line.text(), "abcd");
@@ -118,17 +118,17 @@ mod tests {
 
     #[test]
     fn the_first_letter_replaces_what_was_offered_unless_it_is_edited() {
-        let mut offered = TextLine::new("0, -9, 3");
+        let mut offered = InputLine::new("0, -9, 3");
         typed(&mut offered, &[KeyCode::Char('7')]);
         assert_eq!(offered.text(), "7");
-        let mut offered = TextLine::new("0, -9, 3");
+        let mut offered = InputLine::new("0, -9, 3");
         typed(&mut offered, &[KeyCode::Backspace, KeyCode::Char('4')]);
         assert_eq!(offered.text(), "0, -9, 4");
     }
 
     #[test]
     fn the_cursor_stays_in_sight() {
-        let line = TextLine::new("a long path to a scene");
+        let line = InputLine::new("a long path to a scene");
         for width in 0..30 {
             let area = Rect::new(0, 0, width, 1);
             let mut buffer = Buffer::empty(area);

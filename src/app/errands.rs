@@ -1,0 +1,91 @@
+//! What takes its time, each on a thread of its own, so that no key waits for it.
+
+use std::fs::OpenOptions;
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::panic::{self, AssertUnwindSafe};
+use std::path::Path;
+use std::sync::mpsc::Sender;
+use std::thread;
+
+use super::desk::SaveFailure;
+use super::events::Event;
+use super::files::OpenedScene;
+use super::follow_order::FollowedDot;
+use super::trade_panel::TradeFigures;
+use crate::trade::SweepStep;
+
+/// What came of an errand.
+#[derive(Debug)]
+pub enum Done {
+    /// A scene was read, or could not be; of several that were asked for, the one of this number.
+    Opened(u64, Result<OpenedScene, String>),
+    /// The picture was saved, in these words.
+    Saved(Result<String, SaveFailure>),
+    /// A line was added to a file, in these words.
+    Appended(Result<String, String>),
+    /// The trade is being measured, and is so far.
+    Measuring(SweepStep),
+    /// The trade was measured, or nothing was.
+    Measured(Option<Box<TradeFigures>>),
+    /// The ray was followed that is looked at.
+    Followed(Box<FollowedDot>),
+    /// The ray was followed of a dot that is being drawn.
+    Scanned(Box<FollowedDot>),
+}
+
+/// Begins it. What comes of it, or that it has panicked, is sent to `events`.
+pub fn begin(events: Sender<Event>, errand: impl FnOnce() -> Done + Send + 'static) -> io::Result<()> {
+    let run = move || {
+        // What a panic leaves half done is not looked at: the program ends.
+        let event = match panic::catch_unwind(AssertUnwindSafe(errand)) {
+            Ok(done) => Event::Done(done),
+            Err(_) => Event::Panicked,
+        };
+        // Who no longer waits for it has ended.
+        let _ = events.send(event);
+    };
+    thread::Builder::new().name("errand".to_owned()).spawn(run).map(drop)
+}
+
+/// Adds a line at the end of a text file, which need not be there; gives what was done, in words.
+///
+/// # Errors
+/// Why the file could not be written, in words.
+pub fn append(path: &Path, line: &str) -> Result<String, String> {
+    let failed = |error: io::Error| format!("{} could not be written: {error}", path.display());
+    let mut file = OpenOptions::new().read(true).append(true).create(true).open(path).map_err(failed)?;
+    let mut last = [b'\n'];
+    if file.metadata().map_err(failed)?.len() > 0 {
+        file.seek(SeekFrom::End(-1)).and_then(|_| file.read_exact(&mut last)).map_err(failed)?;
+    }
+    let begin = if last == [b'\n'] { "" } else { "\n" };
+    file.write_all(format!("{begin}{line}\n").as_bytes()).map_err(failed)?;
+    Ok(format!("added to {}", path.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::sync::mpsc;
+
+    use super::*;
+
+    #[test]
+    fn a_line_is_added_on_a_line_of_its_own() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.scene");
+        append(&path, "camera(1);").unwrap();
+        fs::write(&path, "cube(1);").unwrap();
+        append(&path, "camera(2);").unwrap();
+        append(&path, "camera(3);").unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "cube(1);\ncamera(2);\ncamera(3);\n");
+        assert!(append(folder.path(), "").unwrap_err().contains("could not be written"));
+    }
+
+    #[test]
+    fn a_panic_is_an_event() {
+        let (sender, events) = mpsc::channel();
+        begin(sender, || panic!("the errand fell")).unwrap();
+        assert!(matches!(events.recv().unwrap(), Event::Panicked));
+    }
+}

@@ -130,7 +130,7 @@ fn what_is_asked_for_by_name_has_the_last_word() {
     assert!(!plain.has_quadrants() && !plain.has_colors() && plain.has("╔═"));
 }
 
-/// The file of settings: what is in it counts, what is typed counts more, and what is wrong in it has a place.
+/// What is in the file of settings counts, what is typed counts more, and what is wrong in it has a place.
 #[test]
 fn the_viewer_starts_with_the_person_s_settings() {
     let home = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("settings");

@@ -451,6 +451,10 @@ pub enum StillFormat {
     Txt,
     /// Characters with ANSI colours
     Ans,
+    /// Characters as a picture of rectangles and text, the colours a PC's
+    Svg,
+    /// Characters as a page
+    Html,
     /// One character per dot, 0 to 9 and A to C: the form to keep in a test
     Levels,
     /// One pixel per dot, of the light's own gray, or in colour with --palette color

@@ -259,12 +259,12 @@ impl Given<'_> {
     }
 
     fn has_characters(&self) -> bool {
-        self.format().is_none_or(|format| matches!(format, StillFormat::Txt | StillFormat::Ans))
+        self.format().is_none_or(|format| !format.is_pixels() && format != StillFormat::Levels)
     }
 
-    /// Whether colours are sent to a terminal.
+    /// Whether characters have colours.
     fn shows_colours(&self) -> bool {
-        self.format().is_none_or(|format| format == StillFormat::Ans)
+        self.has_characters() && self.format() != Some(StillFormat::Txt)
     }
 
     /// Whether a picture without characters has as many dots as they would have.
@@ -277,7 +277,9 @@ impl Given<'_> {
     fn is_in_own_ink(&self) -> bool {
         match self.format() {
             Some(StillFormat::Txt) => true,
-            Some(StillFormat::Ans) => matches!(self.picture.look(None).palette, Palette::Mono(_)),
+            Some(StillFormat::Ans | StillFormat::Svg | StillFormat::Html) => {
+                matches!(self.picture.look(None).palette, Palette::Mono(_))
+            }
             _ => false,
         }
     }

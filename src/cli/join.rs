@@ -79,7 +79,7 @@ fn encoded(render: &RenderArguments, to: &Destination, mut frame: Frame) -> Resu
         let cells = glyph::compose_dots(&frame.light, color, look.glyphs, look.palette, tone);
         frame.cells = Some(Arc::new(cells));
     }
-    still::encoded(&frame, tone, shown.format, Values::new(shown, picture))
+    still::encoded(&frame, look.palette, tone, shown.format, Values::new(shown, picture))
 }
 
 /// How the picture is to be shown, as options: all that its dots do not depend on.

@@ -96,7 +96,9 @@ fn draw(
     refuse_over_budget(&frame)?;
     let writing = Instant::now();
     let bytes = match arguments.part {
-        None => encoded(&frame, request.tone, format, Values::new(still, &arguments.picture))?,
+        None => {
+            encoded(&frame, request.palette, request.tone, format, Values::new(still, &arguments.picture))?
+        }
         Some(share) => join::part(arguments, studio.scene(), &request, &frame, share)?,
     };
     frame.times[crate::stage::Stage::Display] = writing.elapsed();
@@ -138,7 +140,7 @@ pub fn still(file: &str, reading: &ReadingArguments, picture: &PictureArguments)
     let look = look(picture, StillFormat::Txt, terminal::of_output());
     let request = picture.request(&studio, look, Wants::CELLS, Unsized::Screen)?;
     let frame = studio.draw(&request);
-    print(&encoded(&frame, request.tone, StillFormat::Txt, Values::Toned)?)?;
+    print(&encoded(&frame, request.palette, request.tone, StillFormat::Txt, Values::Toned)?)?;
     say_nothing(&frame);
     Ok(())
 }

@@ -32,7 +32,7 @@ pub fn of_view(painter: &dyn Painter, shown: &Request, format: StillFormat) -> R
     }
     let raw = Values::Raw(RawChannel::Light);
     let values = if format == StillFormat::Pfm { raw } else { Values::Toned };
-    encoded(&painter.draw(&request), request.tone, format, values)
+    encoded(&painter.draw(&request), request.palette, request.tone, format, values)
 }
 
 /// What is shown of light in pixels and raw values.
@@ -67,7 +67,7 @@ pub fn still_of(arguments: &RenderArguments, format: StillFormat) -> Still {
 /// What the format shows of a picture.
 pub fn wants(still: Still) -> Wants {
     match (still.format, still.channel) {
-        (StillFormat::Txt | StillFormat::Ans, _) => Wants::CELLS,
+        (StillFormat::Txt | StillFormat::Ans | StillFormat::Svg | StillFormat::Html, _) => Wants::CELLS,
         (_, Some(RawChannel::Depth)) => Wants { depth: true, ..Wants::LIGHT },
         (_, Some(RawChannel::Normal)) => Wants { normal: true, ..Wants::LIGHT },
         (_, Some(RawChannel::Object)) => Wants { object: true, ..Wants::LIGHT },
@@ -75,18 +75,40 @@ pub fn wants(still: Still) -> Wants {
     }
 }
 
-/// Text has no colours to lose: its shades are ink.
+/// Text has no colours to lose: its shades are ink. A page is for no terminal, and has a PC's four grays.
 pub fn look(picture: &PictureArguments, format: StillFormat, terminal: Option<Capabilities>) -> Look {
-    let look = picture.look(terminal);
-    if format == StillFormat::Txt { Look { palette: Palette::Mono(picture.ground()), ..look } } else { look }
+    match format {
+        StillFormat::Txt => Look { palette: Palette::Mono(picture.ground()), ..picture.look(terminal) },
+        StillFormat::Svg | StillFormat::Html => {
+            let look = picture.look(Some(Capabilities::default()));
+            if matches!(look.palette, Palette::Dos(_)) {
+                Look { palette: Palette::DOS, ..look }
+            } else {
+                look
+            }
+        }
+        _ => picture.look(terminal),
+    }
 }
 
 /// The whole still in memory, so that an error leaves nothing half-written.
-pub fn encoded(frame: &Frame, tone: Tone, format: StillFormat, values: Values) -> Result<Vec<u8>, CliError> {
+pub fn encoded(
+    frame: &Frame,
+    palette: Palette,
+    tone: Tone,
+    format: StillFormat,
+    values: Values,
+) -> Result<Vec<u8>, CliError> {
     let mut out = Vec::new();
     let done = match format {
         StillFormat::Txt => wanted(frame.cells.as_ref()).and_then(|cells| output::text(cells, &mut out)),
         StillFormat::Ans => wanted(frame.cells.as_ref()).and_then(|cells| output::ansi(cells, &mut out)),
+        StillFormat::Svg => {
+            wanted(frame.cells.as_ref()).and_then(|cells| output::svg(cells, palette.ground(), &mut out))
+        }
+        StillFormat::Html => {
+            wanted(frame.cells.as_ref()).and_then(|cells| output::html(cells, palette.ground(), &mut out))
+        }
         StillFormat::Levels => output::levels(&frame.levels(tone), &mut out),
         StillFormat::Png => {
             let drawn = output::png(&pixels(frame, tone, values), &mut out);

@@ -74,6 +74,19 @@ impl Paint {
         }
     }
 
+    /// Its sRGB bytes, of an attribute as a PC shows it; `None` for the terminal's own colours.
+    pub const fn srgb(self) -> Option<[u8; 3]> {
+        match self {
+            Self::Terminal => None,
+            Self::Black => Some([0x00; 3]),
+            Self::DarkGray => Some([0x55; 3]),
+            Self::LightGray => Some([0xAA; 3]),
+            Self::White => Some([0xFF; 3]),
+            Self::Indexed(index) => Some(bytes_of(index)),
+            Self::Rgb(bytes) => Some(bytes),
+        }
+    }
+
     /// Whether it is one of the attributes that a Linux console has no paper of.
     pub const fn is_bright(self) -> bool {
         matches!(self, Self::DarkGray | Self::White)
@@ -96,12 +109,12 @@ fn light_of_bytes([r, g, b]: [u8; 3]) -> f64 {
 }
 
 /// The bytes of a colour of the 256; an attribute's number counts as black.
-fn bytes_of(index: u8) -> [u8; 3] {
+const fn bytes_of(index: u8) -> [u8; 3] {
     match index {
         ..CUBE_START => [0; 3],
         CUBE_START..RAMP_START => {
-            let place = index - CUBE_START;
-            [place / 36, place / 6 % 6, place % 6].map(|step| CUBE[usize::from(step)])
+            let place = (index - CUBE_START) as usize;
+            [CUBE[place / 36], CUBE[place / 6 % 6], CUBE[place % 6]]
         }
         RAMP_START.. => [8 + 10 * (index - RAMP_START); 3],
     }

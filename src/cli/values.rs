@@ -5,7 +5,7 @@ use std::str::FromStr;
 use std::time::Duration;
 
 use crate::math::{DVec3, Size};
-use crate::scene::UpAxis;
+use crate::scene::{FacetMode, UpAxis};
 
 use super::up::Up;
 
@@ -41,6 +41,12 @@ pub fn point(text: &str) -> Result<DVec3, String> {
 pub fn folder(text: &str) -> Result<PathBuf, String> {
     let folder = PathBuf::from(text);
     if folder.is_dir() { Ok(folder) } else { Err("there is no such folder".into()) }
+}
+
+/// How curved things are made.
+pub fn facets(text: &str) -> Result<FacetMode, String> {
+    let modes = [FacetMode::Smooth, FacetMode::OpenScad];
+    modes.into_iter().find(|mode| mode.name() == text).ok_or_else(|| "expected smooth or openscad".into())
 }
 
 /// An axis of a mesh file.

@@ -25,6 +25,7 @@ mod formats {
     mod meshes;
     mod nff;
     mod openscad_examples;
+    mod openscad_facets;
     mod openscad_letters;
     mod spd;
     mod surfaces;

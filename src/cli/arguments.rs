@@ -7,7 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
 use crate::math::{DVec3, Size};
-use crate::scene::UpAxis;
+use crate::scene::{FacetMode, UpAxis};
 use crate::view::TileShare;
 
 use super::names::{
@@ -105,6 +105,9 @@ pub struct ReadingArguments {
     /// A folder of which a scene may import files, besides its own
     #[arg(long, value_name = "DIR", value_parser = values::folder)]
     pub root: Option<PathBuf>,
+    /// Curved things of OpenSCAD: smooth, or openscad for the very facets that it exports
+    #[arg(long, value_name = "HOW", value_parser = values::facets, default_value = "smooth", hide_default_value = true)]
+    pub facets: FacetMode,
     /// The axis of a mesh file that is up: it is given as `--up`, which commands with a camera have for that
     /// too.
     #[arg(skip)]

@@ -164,8 +164,14 @@ mod tests {
 
     fn files() -> DeskFiles {
         let openscad = OpenScadArguments::default();
-        let reading =
-            ReadingArguments { skip_unsupported: true, memory: None, root: None, up: None, openscad };
+        let reading = ReadingArguments {
+            skip_unsupported: true,
+            memory: None,
+            root: None,
+            up: None,
+            facets: crate::scene::FacetMode::default(),
+            openscad,
+        };
         DeskFiles { reading, seen: FilesSeen::default() }
     }
 

@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 
 use crate::frame::Studio;
 use crate::scene::{
-    self, Diagnostics, EmbeddedScene, FilesRead, Format, MAX_FILE_BYTES, ReadError, ReadOptions, Scene,
-    embedded,
+    self, Diagnostic, Diagnostics, EmbeddedScene, FilesRead, Format, KnownFonts, MAX_FILE_BYTES, ReadError,
+    ReadOptions, Scene, embedded,
 };
 use crate::stage::Progress;
 
@@ -30,6 +30,8 @@ pub struct Onlooker {
     pub openscad: OpenScadRun,
     /// Is told of the files that it is read from.
     pub files: Option<FilesRead>,
+    /// The fonts of the machine, once a reading has looked for them.
+    pub fonts: KnownFonts,
     /// Shows what is wrong on a screen of its own, and not on standard error.
     pub has_screen: bool,
 }
@@ -115,7 +117,18 @@ fn read_program(
     let options = ReadOptions { folder: Some(folder), format: Some(Format::Language), ..options.clone() };
     // Places are those of a text that is not kept; what is wrong in it stands in no program.
     let source = format!("{name}, as OpenSCAD's .csg");
-    let mut scene = scene::read(&source, &made.csg, &options).map_err(|e| rendered(&e, onlooker))?;
+    let place = match program {
+        Program::File(_) => name,
+        Program::Text(_) => "PROGRAM.scad",
+    };
+    let kept = format!("`openscad -o FILE.csg {place}` keeps the text that these lines are of");
+    let mut scene = scene::read(&source, &made.csg, &options).map_err(|mut why| {
+        why.list.push(Diagnostic::note(0..0, kept.clone()));
+        rendered(&why, onlooker)
+    })?;
+    if name_csg(&mut scene.notes) {
+        scene.notes.push(kept);
+    }
     scene.notes.splice(0..0, made.said.into_iter().map(|line| format!("OpenSCAD: {line}")));
     Ok(scene)
 }
@@ -126,11 +139,32 @@ fn working_folder() -> PathBuf {
 }
 
 fn options(reading: &ReadingArguments, onlooker: &Onlooker) -> ReadOptions {
-    let ReadingArguments { skip_unsupported, memory, up, ref root, openscad: _ } = *reading;
+    let ReadingArguments { skip_unsupported, memory, up, facets, ref root, openscad: _ } = *reading;
     let memory = memory.or_else(memory::half_of_all);
-    let Onlooker { progress, files, .. } = onlooker.clone();
+    let Onlooker { progress, files, fonts, .. } = onlooker.clone();
     let root = root.clone();
-    ReadOptions { skip_unsupported, progress, memory, up, root, files, ..ReadOptions::default() }
+    ReadOptions {
+        skip_unsupported,
+        progress,
+        memory,
+        up,
+        facets,
+        root,
+        fonts,
+        files,
+        ..ReadOptions::default()
+    }
+}
+
+/// Says in notes that a line is one of OpenSCAD's `.csg`, which is not the file that a person has; whether
+/// any note names a line.
+fn name_csg(notes: &mut [String]) -> bool {
+    let mut any_line = false;
+    for note in notes.iter_mut().filter(|note| note.starts_with("line ")) {
+        note.insert_str(0, "in what OpenSCAD wrote, ");
+        any_line = true;
+    }
+    any_line
 }
 
 /// Why a file is no scene, given what the reader says.

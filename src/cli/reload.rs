@@ -108,6 +108,7 @@ mod tests {
             skip_unsupported: false,
             memory: None,
             root: None,
+            facets: crate::scene::FacetMode::default(),
             up: None,
             openscad: super::super::arguments::OpenScadArguments::default(),
         };

@@ -4,7 +4,7 @@ use clap::{Parser, ValueEnum};
 
 use crate::frame::Request;
 use crate::math::DVec3;
-use crate::scene::UpAxis;
+use crate::scene::{FacetMode, UpAxis};
 use crate::trade::Setting;
 
 use super::arguments::{Arguments, OpenScadArguments, PictureArguments, TradeArguments};
@@ -41,6 +41,10 @@ impl CommandLine {
         let skip = if arguments.scene.reading.skip_unsupported { " --skip-unsupported" } else { "" };
         let root = arguments.scene.reading.root.as_ref();
         let root = root.map(|folder| format!(" --root {}", quoted(&folder.to_string_lossy())));
+        let facets = match arguments.scene.reading.facets {
+            FacetMode::Smooth => String::new(),
+            facets @ FacetMode::OpenScad => format!(" --facets {}", facets.name()),
+        };
         let turned = match arguments.scene.reading.up {
             None => "",
             Some(UpAxis::Y) => " --up y",
@@ -50,7 +54,7 @@ impl CommandLine {
             picture: picture.clone(),
             file: quoted(&arguments.scene.file),
             rest: format!(
-                "{skip}{}{turned}{}{}",
+                "{skip}{}{facets}{turned}{}{}",
                 root.unwrap_or_default(),
                 told(&arguments.scene.reading.openscad),
                 rest(picture, request)

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use crate::frame::MOST_DOTS;
 use crate::math::{DVec3, Size};
-use crate::scene::UpAxis;
+use crate::scene::{FacetMode, UpAxis};
 use crate::view::TileShare;
 
 use super::up::Up;
@@ -47,6 +47,12 @@ pub fn share(text: &str) -> Result<TileShare, String> {
 pub fn folder(text: &str) -> Result<PathBuf, String> {
     let folder = PathBuf::from(text);
     if folder.is_dir() { Ok(folder) } else { Err("there is no such folder".into()) }
+}
+
+/// How curved things are made.
+pub fn facets(text: &str) -> Result<FacetMode, String> {
+    let modes = [FacetMode::Smooth, FacetMode::OpenScad];
+    modes.into_iter().find(|mode| mode.name() == text).ok_or_else(|| "expected smooth or openscad".into())
 }
 
 /// An axis of a mesh file.

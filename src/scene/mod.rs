@@ -31,11 +31,12 @@ pub use bezier::BezierPatches;
 pub use diagnostic::{Diagnostic, Diagnostics, MAX_ERRORS, Severity};
 pub use embedded::{EmbeddedScene, embedded};
 pub use language::{nearest, reference};
+pub use lettering::KnownFonts;
 pub use mesh::MeshFacts;
 pub use model::{
     Anchor, Camera, CameraError, Corner, Facets, FieldSpan, HalfSpace, Light, Material, MaterialId, Object,
     Primitive, REACH, Scene, Shape, Solid, World,
 };
-pub use options::{FilesRead, Format, MAX_FILE_BYTES, ReadOptions, UpAxis};
+pub use options::{FacetMode, FilesRead, Format, MAX_FILE_BYTES, ReadOptions, UpAxis};
 pub use read::{ReadError, read, read_file};
 pub use triangles::Mesh;

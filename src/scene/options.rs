@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use super::lettering::KnownFonts;
 use crate::math::DVec3;
 use crate::stage::Progress;
 
@@ -94,6 +95,26 @@ impl UpAxis {
     }
 }
 
+/// How the curved things of OpenSCAD's words are made.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FacetMode {
+    /// Round, but for `$fn` from 3 to 12.
+    #[default]
+    Smooth,
+    /// Of the very facets that OpenSCAD cuts them into, by `$fn`, `$fa` and `$fs`.
+    OpenScad,
+}
+
+impl FacetMode {
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Smooth => "smooth",
+            Self::OpenScad => "openscad",
+        }
+    }
+}
+
 /// The files that a scene is read from, as far as they are known: for who waits for changes of them. Those
 /// that could not be read are among them.
 #[derive(Clone, Debug, Default)]
@@ -134,11 +155,15 @@ pub struct ReadOptions {
     pub memory: Option<u64>,
     /// The axis of a mesh that is up, where it is not the one usual in its format.
     pub up: Option<UpAxis>,
+    /// How curved things of the scene language are made.
+    pub facets: FacetMode,
     /// Where the files are that a scene or a mesh names; [`read_file`](super::read_file) takes the folder of
     /// its own.
     pub folder: Option<PathBuf>,
     /// A folder, besides that one, of which a scene may name files, at any depth.
     pub root: Option<PathBuf>,
+    /// The fonts of the machine, where scenes are read one after the other.
+    pub fonts: KnownFonts,
     /// Where to note the files that the scene is read from.
     pub files: Option<FilesRead>,
 }

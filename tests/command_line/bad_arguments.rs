@@ -39,6 +39,7 @@ fn have_exit_code_2() {
         &["plan", &file, "--engine", "fast", "--structure", "lattice"],
         &[&file, "--engine", "fast", "--structure", "lattice"],
         &["render", &file, "--preset", "pcxt"],
+        &["render", &file, "--facets", "round"],
     ];
     for arguments in cases {
         fails(&run(arguments), 2);

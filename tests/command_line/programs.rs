@@ -128,6 +128,24 @@ fn are_wrong_in_lines_of_their_own() {
 }
 
 #[test]
+fn are_noted_and_wrong_in_what_openscad_wrote() {
+    if openscad_is_missing() {
+        return;
+    }
+    let kept = "`openscad -o FILE.csg ";
+    let (_, file) = program("programs_noted", "cube(1);\nscale([1, 1, 0]) cube(2);\n");
+    let noted = run(&["check", &file]);
+    let message = text(&noted.stderr);
+    assert!(noted.status.success() && message.contains("in what OpenSCAD wrote, line 2: "), "{message}");
+    assert!(message.contains(kept) && message.contains("a part.scad` keeps"), "{message}");
+    let (_, file) = program("programs_empty", "sphere(0);\n");
+    let message = fails(&run(&["check", &file]), 2);
+    assert!(message.contains("as OpenSCAD's .csg") && message.contains(kept), "{message}");
+    let (_, file) = program("programs_right", "cube(1);\n");
+    assert_eq!(text(&run(&["check", &file]).stderr), "");
+}
+
+#[test]
 fn need_openscad() {
     let (folder, file) = program("programs_missing", "cube(1);");
     let message = fails(&run_on_path(&folder, &["check", &file]), 2);

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use ray13::scene::{ReadOptions, read_file};
+use ray13::scene::{FacetMode, ReadOptions, read_file};
 
 use crate::support::drawings::{
     area_of_outlines, block, dxf, entity, exported_outlines, farthest_from, folder, own_area, own_corners,
@@ -13,17 +13,17 @@ use crate::support::openscad::{exported, in_parallel, is_missing};
 
 /// Holds what is imported by calls against what OpenSCAD makes of them. `off` is how far it moves corners.
 #[track_caller]
-fn hold(folder: &Path, calls: &[&str], off: f64) {
+fn hold(folder: &Path, calls: &[&str], facets: FacetMode, off: f64) {
     if is_missing() {
         return;
     }
+    let options = ReadOptions { facets, ..ReadOptions::default() };
     let numbered: Vec<(usize, &str)> = calls.iter().copied().enumerate().collect();
     in_parallel(&numbered, |(number, call)| {
         let program = folder.join(format!("{number}.scad"));
         fs::write(&program, call).unwrap();
         let svg = exported(&program, "svg").unwrap_or_else(|| panic!("OpenSCAD makes nothing of {call}"));
-        let scene =
-            read_file(&program, &ReadOptions::default()).unwrap_or_else(|why| panic!("{call}: {why}"));
+        let scene = read_file(&program, &options).unwrap_or_else(|why| panic!("{call}: {why}"));
         let (theirs, own) = (exported_outlines(&svg), own_corners(&scene));
         let size = own.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
         // Six digits are written.
@@ -88,24 +88,23 @@ fn dxf_is_what_openscad_makes_of_it() {
         + &entity("INSERT", "8 two, 2 twice, 10 40, 20 10")
         + &entity("INSERT", "8 loop, 2 itself, 10 40, 20 30");
     fs::write(at.join("blocks.dxf"), dxf(&blocks, &inserts)).unwrap();
-    hold(
-        &at,
-        &[
-            "import(\"round.dxf\");",
-            "import(\"round.dxf\", $fn = 7);",
-            "import(\"round.dxf\", $fa = 3, $fs = 0.1);",
-            "import(\"round.dxf\", layer = \"part\", $fn = 8, scale = 2);",
-            "import(\"round.dxf\", layer = \"whole\", $fn = 8, origin = [5, 1], scale = 0.5);",
-            "import(\"lines.dxf\");",
-            "import(\"lines.dxf\", layer = \"tri\", origin = [-3, 1.5], scale = 3);",
-            "import(\"lines.dxf\", layer = \"tee\", scale = -1);",
-            "import(\"lines.dxf\", layer = \"two\");",
-            "import(\"blocks.dxf\", $fn = 5);",
-            "import(\"blocks.dxf\", layer = \"one\", scale = 2, origin = [10, 0]);",
-            "import(\"blocks.dxf\", layer = \"two\", scale = 2);",
-        ],
-        2.5 * CELL,
-    );
+    let calls = &[
+        "import(\"round.dxf\");",
+        "import(\"round.dxf\", $fn = 7);",
+        "import(\"round.dxf\", $fa = 3, $fs = 0.1);",
+        "import(\"round.dxf\", layer = \"part\", $fn = 8, scale = 2);",
+        "import(\"round.dxf\", layer = \"whole\", $fn = 8, origin = [5, 1], scale = 0.5);",
+        "import(\"lines.dxf\");",
+        "import(\"lines.dxf\", layer = \"tri\", origin = [-3, 1.5], scale = 3);",
+        "import(\"lines.dxf\", layer = \"tee\", scale = -1);",
+        "import(\"lines.dxf\", layer = \"two\");",
+        "import(\"blocks.dxf\", $fn = 5);",
+        "import(\"blocks.dxf\", layer = \"one\", scale = 2, origin = [10, 0]);",
+        "import(\"blocks.dxf\", layer = \"two\", scale = 2);",
+    ];
+    hold(&at, calls, FacetMode::Smooth, 2.5 * CELL);
+    // Then they are moved to 65,536ths.
+    hold(&at, calls, FacetMode::OpenScad, 3e-5);
 }
 
 #[test]
@@ -157,7 +156,7 @@ fn svg_is_what_openscad_makes_of_it() {
     calls.push("import(\"9.svg\", dpi = 0, scale = 3, origin = [1, 1]);".to_owned());
     let calls: Vec<&str> = calls.iter().map(String::as_str).collect();
     // Strokes are moved to ten-thousandths, figures to 65,536ths.
-    hold(&at, &calls, 3e-4);
+    hold(&at, &calls, FacetMode::Smooth, 3e-4);
 }
 
 #[test]

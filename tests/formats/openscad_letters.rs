@@ -51,3 +51,15 @@ fn letters_have_the_corners_of_openscad() {
         assert!((low - own_low).length().max((high - own_high).length()) <= 2.0 * near, "{text}");
     });
 }
+
+#[test]
+fn fonts_are_looked_for_by_the_first_text_of_all_that_share_them() {
+    let options = ReadOptions::default();
+    let known = || format!("{:?}", options.fonts);
+    let _ = read("text", b"cube(1);", &options);
+    assert_eq!(known(), "KnownFonts(None)");
+    let _ = read("text", b"text(\"a\");", &options);
+    assert!(known().starts_with("KnownFonts(Some("), "{}", known());
+    assert_eq!(format!("{:?}", options.clone().fonts), known());
+    assert_eq!(format!("{:?}", ReadOptions::default().fonts), "KnownFonts(None)");
+}

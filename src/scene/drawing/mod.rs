@@ -33,6 +33,8 @@ pub struct DrawingRequest {
     pub scale: f64,
     /// How fine the curves of a DXF file are cut.
     pub fragments: Fragments,
+    /// Whether the corners of a DXF file are moved onto OpenSCAD's grid, as it exports them.
+    pub is_on_grid: bool,
     /// How many dots of an SVG file are an inch long; above 0.
     pub dpi: f64,
     /// Whether the middle of an SVG file comes to the origin.

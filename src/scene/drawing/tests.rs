@@ -11,6 +11,7 @@ fn request() -> DrawingRequest {
         origin: DVec2::ZERO,
         scale: 1.0,
         fragments: Fragments::default(),
+        is_on_grid: false,
         dpi: 72.0,
         is_centred: false,
     }
@@ -46,6 +47,10 @@ fn lines_join_from_loose_ends_on() {
     assert_eq!(all, [vec![[9.0, 0.0], [9.0, 5.0], [7.0, 5.0]], triangle]);
     let one = DrawingRequest { layer: "a".into(), origin: DVec2::new(1.0, 2.0), scale: 2.0, ..request() };
     assert_eq!(outlines(&text, DrawingFormat::Dxf, &one), [vec![[-2.0, -4.0], [6.0, -4.0], [-2.0, 2.0]]]);
+    let on_grid = DrawingRequest { scale: 0.1, is_on_grid: true, ..one };
+    let cells = |corner: [f64; 2]| corner.map(|x| x / 1024.0);
+    let expected = [[-102.0, -205.0], [307.0, -205.0], [-102.0, 102.0]].map(cells).to_vec();
+    assert_eq!(outlines(&text, DrawingFormat::Dxf, &on_grid), [expected]);
 }
 
 #[test]
@@ -93,7 +98,10 @@ fn paths_are_filled_or_as_wide_as_their_stroke() {
     // A quarter of a circle, and a line where there is no radius.
     let [arc] = &path("M2 0A2 2 0 0 1 0 2L0 0z")[..] else { panic!("one outline") };
     assert!(
-        arc.iter().skip(1).take(arc.len() - 2).all(|[x, y]| (x.hypot(*y) - 2.0).abs() < 1e-12),
+        arc.iter()
+            .skip(1)
+            .take(arc.len() - 2)
+            .all(|[x, y]| (DVec2::new(*x, *y).length() - 2.0).abs() < 1e-12),
         "{arc:?}"
     );
     assert_eq!(path("M2 0A0 2 0 0 1 0 2L0 0z"), [vec![[2.0, 0.0], [0.0, -2.0], [0.0, 0.0]]]);

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use fontdb::{Database, FaceInfo, Source, Stretch, Style};
 use skrifa::string::StringId;
@@ -16,10 +16,29 @@ use super::request::{FontRequest, key};
 /// A font file larger than this is not read: 64 MiB; the largest that are known have 40.
 const MAX_BYTES: u64 = 64 << 20;
 
-/// The fonts of the machine.
+/// The fonts that there are on the machine, looked for once, by the first text of all that share this.
+#[derive(Clone, Default)]
+pub struct KnownFonts(Arc<OnceLock<Vec<FaceInfo>>>);
+
+impl std::fmt::Debug for KnownFonts {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_tuple("KnownFonts").field(&self.0.get().map(Vec::len)).finish()
+    }
+}
+
+/// What is known already makes no difference to what is read.
+impl PartialEq for KnownFonts {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+impl Eq for KnownFonts {}
+
+/// The fonts that texts of a scene are written in.
 #[derive(Default)]
 pub struct FontLibrary {
-    faces: Option<Vec<FaceInfo>>,
+    known: KnownFonts,
     /// By the name that was asked for.
     chosen: HashMap<String, Option<ChosenFont>>,
     /// The files that were read.
@@ -45,6 +64,11 @@ pub struct ChosenFont {
 }
 
 impl FontLibrary {
+    /// Of fonts that may have been looked for before.
+    pub fn new(known: KnownFonts) -> Self {
+        Self { known, ..Self::default() }
+    }
+
     /// The font nearest to a name; none where there is no font at all.
     pub fn choose(&mut self, name: &str) -> Option<ChosenFont> {
         if let Some(chosen) = self.chosen.get(name) {
@@ -60,8 +84,8 @@ impl FontLibrary {
         self.files.entry(font.file.clone()).or_insert_with(|| read(&font.file).map(Arc::new)).clone()
     }
 
-    fn nearest(&mut self, request: &FontRequest) -> Option<ChosenFont> {
-        let faces = self.faces.get_or_insert_with(installed);
+    fn nearest(&self, request: &FontRequest) -> Option<ChosenFont> {
+        let faces = self.known.0.get_or_init(installed);
         let wanted = request.families.first().map_or("", String::as_str);
         let asked = request.families.iter().map(String::as_str);
         let names = asked.chain(request.families.iter().flat_map(|family| stand_ins(family)));

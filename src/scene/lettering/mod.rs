@@ -9,4 +9,4 @@ mod scale;
 mod vertical;
 
 pub use letters::{AlignedAcross, AlignedUp, NotWritten, TextLine, WrittenText, written};
-pub use library::FontLibrary;
+pub use library::{FontLibrary, KnownFonts};

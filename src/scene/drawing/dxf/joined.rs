@@ -2,17 +2,15 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use super::sides::Side;
+use super::sides::{CELL, Side};
 use crate::math::DVec2;
 
-/// Ends are the same where they lie in the same cell of OpenSCAD's grid, or in cells beside each other: this
-/// is the width of a cell, in the units that a drawing is scaled to.
-const CELL: f64 = 1.0 / 1024.0;
-
-/// The outlines that sides make: from a loose end on, then around what is closed. At a place where more than
+/// The outlines that sides make, whose ends are the same where they lie in one cell of OpenSCAD's grid, or in
+/// cells beside each other: from a loose end on, then around what is closed. At a place where more than
 /// two meet, the side that was read first comes first. As in OpenSCAD, an open line is closed by its ends.
-pub fn outlines(sides: &[Side]) -> Vec<Vec<DVec2>> {
-    let mut net = Net::of(sides);
+/// Corners are where the first of their ends is, or in the middle of its cell of the grid.
+pub fn outlines(sides: &[Side], is_on_grid: bool) -> Vec<Vec<DVec2>> {
+    let mut net = Net::of(sides, is_on_grid);
     let (mut rest, mut outlines) = (0..net.ends.len(), Vec::new());
     while let Some((side, end)) =
         net.loose_end().or_else(|| rest.find(|&side| net.is_open[side]).map(|side| (side, 0)))
@@ -39,7 +37,7 @@ struct Net {
 }
 
 impl Net {
-    fn of(sides: &[Side]) -> Self {
+    fn of(sides: &[Side], is_on_grid: bool) -> Self {
         let (mut cells, mut places) = (HashMap::new(), Vec::new());
         let mut number = |place: DVec2| {
             let cell = (place / CELL).round();
@@ -52,7 +50,7 @@ impl Net {
                 return number;
             }
             let number = places.len() as u32;
-            places.push(place);
+            places.push(if is_on_grid { cell * CELL } else { place });
             cells.insert(key(cell), number);
             number
         };

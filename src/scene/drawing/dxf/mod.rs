@@ -36,7 +36,7 @@ pub fn read(bytes: &[u8], request: &DrawingRequest) -> Result<DrawingContent, Dr
         return Err(DrawingFault::at(open.line, "the file is cut off: it does not end in EOF"));
     }
     let mut notes = sides.notes();
-    let outlines = joined::outlines(&sides.drawn);
+    let outlines = joined::outlines(&sides.drawn, request.is_on_grid);
     if outlines.is_empty() {
         let layer = &request.layer;
         let place = if layer.is_empty() { String::new() } else { format!(" in its layer `{layer}`") };

@@ -11,6 +11,9 @@ use crate::scene::profile::MOST_CORNERS;
 /// A straight line.
 pub type Side = [DVec2; 2];
 
+/// The width of a cell of OpenSCAD's grid, in the units that a drawing is scaled to.
+pub const CELL: f64 = 1.0 / 1024.0;
+
 /// How often something was met, by its name.
 type Counts = BTreeMap<String, usize>;
 
@@ -177,7 +180,11 @@ impl<'r> Sides<'r> {
         }
         match (self.section, &self.block) {
             (Section::Entities, _) => self.drawn.push(side),
-            (Section::Blocks, Some(block)) => self.blocks.entry(block.clone()).or_default().push(side),
+            (Section::Blocks, Some(block)) => {
+                // As it is read, and again where it is inserted.
+                let place = |p: DVec2| if self.request.is_on_grid { (p / CELL).round() * CELL } else { p };
+                self.blocks.entry(block.clone()).or_default().push(side.map(place));
+            }
             _ => {}
         }
         Ok(())

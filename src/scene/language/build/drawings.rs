@@ -7,11 +7,11 @@ use super::arguments::BoundArguments;
 use super::lost::Lost;
 use super::pieces::Piece;
 use crate::math::DVec3;
-use crate::scene::Diagnostic;
 use crate::scene::drawing::{DrawingContent, DrawingFormat, DrawingRequest};
 use crate::scene::language::nearest::quoted;
 use crate::scene::named_files::NamedFile;
 use crate::scene::profile::{Figure, FigureOperator, Fragments, combined, filled};
+use crate::scene::{Diagnostic, FacetMode};
 
 /// So many bytes of a drawing are read in the time of a step of the work that a scene may take.
 const BYTES_OF_STEP: u64 = 64;
@@ -63,7 +63,8 @@ impl Builder {
         let is_centred = arguments.flag("center", sink)?;
         let scale = self.number_or("scale", 1.0, |scale| scale > 0.0, arguments)?;
         let dpi = self.number_or("dpi", USUAL_DPI, |dpi| dpi >= LEAST_DPI, arguments)?;
-        Ok(DrawingRequest { layer, id, origin, scale, fragments, dpi, is_centred })
+        let is_on_grid = self.facet_mode == FacetMode::OpenScad;
+        Ok(DrawingRequest { layer, id, origin, scale, fragments, is_on_grid, dpi, is_centred })
     }
 
     /// A number, or the usual one where it is not given, or is not fit.

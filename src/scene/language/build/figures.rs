@@ -14,7 +14,7 @@ use crate::scene::diagnostic::Sink;
 use crate::scene::language::syntax::{Call, Spanned, Value};
 use crate::scene::language::vocabulary::{FigureWord, Meaning, SolidWord, Word};
 use crate::scene::profile::{Figure, Fragments, MOST_CORNERS, corners, faceted, filled, prism};
-use crate::scene::{Diagnostic, MaterialId, Primitive, Shape, Solid};
+use crate::scene::{Diagnostic, FacetMode, MaterialId, Mesh, Primitive, Shape, Solid};
 
 /// Bytes that a corner of a figure takes while it is worked on: in its outline, in the sweep that sorts
 /// outlines out, and in triangles.
@@ -81,6 +81,10 @@ impl Builder {
         if context.space == FormSpace::Faceted {
             let figure = self.outlined(flat, fragments, origin)?;
             return self.placed_piece(Piece::Figure(figure), context, origin).map(Made::Piece);
+        }
+        if self.facet_mode == FacetMode::OpenScad && matches!(flat, Flat::Disc(_)) {
+            let figure = self.outlined(flat, fragments, origin)?;
+            return self.shown(Piece::Figure(figure), context, origin).map(Made::Solid);
         }
         let (bottom, top) = context.space.thickness();
         let (middle, half) = (0.5 * (bottom + top), 0.5 * (top - bottom));
@@ -171,11 +175,23 @@ impl Builder {
         if let Shape::Bezier(_) = shape {
             return Err(self.not_yet("what holds it is made of facets, which patches have none of", origin));
         }
-        let largest = local.matrix3.x_axis.abs().max(local.matrix3.y_axis.abs()).max_element();
-        let Some(mesh) = faceted(&shape, largest, &fragments) else { return Err(self.too_many(origin)) };
-        self.check_corners(mesh.points.len() as f64, origin)?;
+        let mesh = self.facets_of(&shape, &local, fragments, origin)?;
         let primitive = Primitive::new(Shape::Mesh(mesh), local, MaterialId(0)).with_map_error(DVec3::ZERO);
         self.placed_piece(Piece::Solid(Solid::Primitive(primitive)), context, origin)
+    }
+
+    /// The facets of a unit shape that this map gives its size.
+    pub(super) fn facets_of(
+        &mut self,
+        shape: &Shape,
+        local: &DAffine3,
+        fragments: Fragments,
+        origin: Origin,
+    ) -> Result<Arc<Mesh>, Lost> {
+        let largest = local.matrix3.x_axis.abs().max(local.matrix3.y_axis.abs()).max_element();
+        let Some(mesh) = faceted(shape, largest, &fragments) else { return Err(self.too_many(origin)) };
+        self.check_corners(mesh.points.len() as f64, origin)?;
+        Ok(mesh)
     }
 
     /// A piece, in its place among those of what it is a part of.

@@ -42,7 +42,7 @@ use crate::scene::lettering::FontLibrary;
 use crate::scene::memory::Memory;
 use crate::scene::profile::WorkLeft;
 use crate::scene::triangulation::EarClipper;
-use crate::scene::{Diagnostic, ReadOptions, Scene, Solid};
+use crate::scene::{Diagnostic, FacetMode, ReadOptions, Scene, Solid};
 use context::Context;
 use facets::Polygons;
 use frame::OpenCall;
@@ -66,6 +66,7 @@ pub struct Builder {
     pub sink: Sink,
     pub memory: Memory,
     skip_unsupported: bool,
+    facet_mode: FacetMode,
     scene: Scene,
     surfaces: Surfaces,
     view_names: HashSet<String>,
@@ -94,6 +95,7 @@ impl Builder {
             sink,
             memory,
             skip_unsupported: options.skip_unsupported,
+            facet_mode: options.facets,
             scene: Scene::default(),
             surfaces: Surfaces::default(),
             view_names: HashSet::new(),
@@ -101,7 +103,7 @@ impl Builder {
             polygons: Polygons::default(),
             clipper: EarClipper::default(),
             imports: Imports::new(options),
-            fonts: FontLibrary::default(),
+            fonts: FontLibrary::new(options.fonts.clone()),
             work: WorkLeft::default(),
             survey: Survey::default(),
             frames: vec![OpenCall::scene(Rc::new(Context::default()))],

@@ -15,7 +15,7 @@ use crate::scene::language::syntax::Call;
 use crate::scene::language::vocabulary::{OperatorWord, SolidWord, Word};
 use crate::scene::memory::{ASSEMBLED, ASSEMBLED_FACES, ASSEMBLED_PIECE, ASSEMBLED_TRIANGLE};
 use crate::scene::model::is_within_reach;
-use crate::scene::{Diagnostic, Object, Primitive, REACH, Shape, Solid};
+use crate::scene::{Diagnostic, FacetMode, Object, Primitive, REACH, Shape, Solid};
 
 impl Builder {
     /// The primitive of a call.
@@ -27,8 +27,17 @@ impl Builder {
         context: &Context,
     ) -> Result<Solid, Lost> {
         let arguments = BoundArguments::bind(call, word, &mut self.sink)?;
-        let sides = facets::sides(arguments.fragments(context.fragments));
-        let (shape, local) = self.shape(kind, &arguments, sides, call)?;
+        let origin = Origin::of(word, call);
+        let fragments = arguments.fragments(context.fragments);
+        let (shape, local) = match self.facet_mode {
+            FacetMode::Smooth => self.shape(kind, &arguments, facets::sides(fragments), call)?,
+            FacetMode::OpenScad => match self.shape(kind, &arguments, None, call)? {
+                (shape @ (Shape::Sphere | Shape::Cone { .. }), local) => {
+                    (Shape::Mesh(self.facets_of(&shape, &local, fragments, origin)?), local)
+                }
+                other => other,
+            },
+        };
         if let Shape::Bezier(surface) = &shape
             && let Some(open) = surface.open_side()
         {
@@ -40,7 +49,7 @@ impl Builder {
                 return Err(arguments.refuse(error, Lost::Missing, &mut self.sink));
             }
         }
-        self.put(shape, local, DVec3::ZERO, context, Origin::of(word, call)).map(Solid::Primitive)
+        self.put(shape, local, DVec3::ZERO, context, origin).map(Solid::Primitive)
     }
 
     /// The unit shape of a call, and its map. Round ones are exact where no number of `sides` is given.

@@ -2,8 +2,8 @@
 //! that it crosses.
 //!
 //! Each triangle is certainly crossed, certainly missed, or in doubt ([`super::mesh_triangle`]). A ray's
-//! answer counts where one crossing is certain, and no other one, nor any doubt, lies so near before or behind
-//! it that both could be one place. All other rays are asked one by one.
+//! answer counts where one crossing is certain, and no other one, nor any doubt, lies so near before or
+//! behind it that both could be one place. All other rays are asked one by one.
 
 use fearless_simd::{Select, Simd, SimdBase, SimdMask, f32x16, mask32x16, u32x16};
 

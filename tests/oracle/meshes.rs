@@ -103,8 +103,8 @@ fn no_dot_of_a_nasty_mesh_is_wrong() {
 fn no_dot_of_an_open_mesh_is_wrong() {
     let mut count = Count::default();
     for nasty in nasty().iter().filter(|nasty| nasty.mesh.triangles.len() < 700) {
-        // An even number: where a ray meets a corner of a surface several triangles are in one place, front ones
-        // and back ones, and any of them shows.
+        // An even number: where a ray meets a corner of a surface several triangles are in one place, front
+        // ones and back ones, and any of them shows.
         look(nasty, nasty.open_scene(), 12, &mut count);
     }
     assert!(count.wrong.is_empty(), "{} of them:\n{}", count.wrong.len(), count.wrong.join("\n"));

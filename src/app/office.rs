@@ -158,8 +158,8 @@ impl Office {
         errands::begin(self.events.clone(), move || told(Box::new(order.follow(&*painter))))
     }
 
-    /// Begins to measure the trade of a picture that takes so long; where another's is being measured, as soon
-    /// as that has been given up.
+    /// Begins to measure the trade of a picture that takes so long; where another's is being measured, as
+    /// soon as that has been given up.
     pub fn measure(&mut self, request: Request, takes: Duration) -> io::Result<()> {
         if let Some((_, interrupt)) = &self.measuring {
             interrupt.store(true, Ordering::Relaxed);

@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use ratatui::crossterm::event::KeyEvent;
 
-use super::errands::Done;
+use super::done::Done;
 use super::fence::Fence;
 use super::input::{self, Answer, Input, Mouse};
 use super::reloading::Reloaded;

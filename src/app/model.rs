@@ -181,8 +181,10 @@ impl Model {
         {
             return Effect::None;
         }
-        if let Some(goes) = self.trade.as_mut().and_then(|trade| trade.takes(action)) {
-            if let Some(setting) = goes {
+        if let Some(trade) = &mut self.trade
+            && trade.takes(action)
+        {
+            if let Some(setting) = trade.present() {
                 (self.settings.options, self.settings.glyphs) = (setting.options, setting.glyphs);
                 // At rest the picture is what was chosen, and not finer.
                 self.settings.adaptive_at_rest = false;
@@ -227,10 +229,14 @@ impl Model {
                 self.trade = None;
                 self.following.get_or_insert_with(Following::middle).show_lattice();
             }
-            // There is no ray whose steps these are.
-            Action::StepBack | Action::StepOn => {}
-            // What opens has been opened above.
-            Action::Menu | Action::Open | Action::View | Action::Glyphs | Action::Save => {}
+            // There is no ray whose steps these are; and what opens has been opened above.
+            Action::StepBack
+            | Action::StepOn
+            | Action::Menu
+            | Action::Open
+            | Action::View
+            | Action::Glyphs
+            | Action::Save => {}
             Action::Help => self.help = true,
             // The keys have been closed above.
             Action::Close => (self.following, self.trade) = (None, None),

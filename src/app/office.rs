@@ -9,7 +9,8 @@ use std::time::Duration;
 
 use super::Painter;
 use super::desk::{SaveFailure, SaveOrder};
-use super::errands::{self, Done};
+use super::done::Done;
+use super::errands;
 use super::events::Event;
 use super::files::{Files, OpenedScene};
 use super::follow_order::{FollowOrder, FollowedDot};
@@ -49,10 +50,12 @@ pub struct Office {
     scene: u64,
     /// The number of the one that was asked for last.
     asked: u64,
-    /// Whether a ray is being followed.
-    follows: bool,
+    /// Of whose picture a ray is being followed, where one is.
+    follows: Option<Arc<dyn Painter>>,
     /// The picture of which the trade is being measured, and what ends that.
     measuring: Option<(Request, Arc<AtomicBool>)>,
+    /// The picture that is measured next, and how long it takes.
+    next_measured: Option<(Request, Duration)>,
 }
 
 impl Office {
@@ -72,8 +75,9 @@ impl Office {
             end_reloading,
             scene: 0,
             asked: 0,
-            follows: false,
+            follows: None,
             measuring: None,
+            next_measured: None,
         })
     }
 
@@ -146,16 +150,20 @@ impl Office {
         order: FollowOrder,
         told: impl FnOnce(Box<FollowedDot>) -> Done + Send + 'static,
     ) -> io::Result<()> {
-        if std::mem::replace(&mut self.follows, true) {
+        if self.follows.is_some() {
             return Ok(());
         }
         let painter = Arc::clone(&self.painter);
+        self.follows = Some(Arc::clone(&painter));
         errands::begin(self.events.clone(), move || told(Box::new(order.follow(&*painter))))
     }
 
-    /// Begins to measure the trade of a picture that takes so long, unless another's is being measured.
+    /// Begins to measure the trade of a picture that takes so long; where another's is being measured, as
+    /// soon as that has been given up.
     pub fn measure(&mut self, request: Request, takes: Duration) -> io::Result<()> {
-        if self.measuring.is_some() {
+        if let Some((_, interrupt)) = &self.measuring {
+            interrupt.store(true, Ordering::Relaxed);
+            self.next_measured = Some((request, takes));
             return Ok(());
         }
         let interrupt = Arc::new(AtomicBool::new(false));
@@ -180,14 +188,18 @@ impl Office {
         }
     }
 
-    /// The trade was measured.
-    pub fn measured(&mut self) {
+    /// The trade was measured; gives whether it is the one that was asked for last. If not, that is begun.
+    pub fn measured(&mut self) -> io::Result<bool> {
         self.measuring = None;
+        match self.next_measured.take() {
+            Some((request, takes)) => self.measure(request, takes).map(|()| false),
+            None => Ok(true),
+        }
     }
 
-    /// A ray was followed.
-    pub fn followed(&mut self) {
-        self.follows = false;
+    /// A ray was followed; gives whether it is one of the scene that is shown.
+    pub fn followed(&mut self) -> bool {
+        self.follows.take().is_some_and(|painter| Arc::ptr_eq(&painter, &self.painter))
     }
 }
 

@@ -73,9 +73,8 @@ const fn operations(stage: Stage) -> f64 {
     match stage {
         Stage::Ray => 30.0,
         Stage::Clip => 12.0,
-        Stage::Cell => 10.0,
+        Stage::Cell | Stage::Csg => 10.0,
         Stage::Solid => 60.0,
-        Stage::Csg => 10.0,
         Stage::Shade => 80.0,
         Stage::Objects | Stage::Lattice | Stage::View | Stage::Dither | Stage::Display => 0.0,
     }

@@ -1,16 +1,11 @@
 //! The thread that waits for the scenes that follow one that was opened.
 
 use std::panic::{self, AssertUnwindSafe};
-use std::sync::Arc;
 use std::sync::mpsc::Sender;
 use std::{io, thread};
 
-use super::Painter;
 use super::events::Event;
-use super::reloading::Reloaded;
-
-/// What gives the next scene, or what is wrong with it; nothing at the end.
-type NextScene = Box<dyn FnMut() -> Option<Result<Arc<dyn Painter>, String>> + Send>;
+use super::reloading::{NextScene, Reloaded};
 
 /// Starts it for the scene of that number; it ends with these, or with the viewer.
 pub fn start(of: u64, mut next: NextScene, events: Sender<Event>) -> io::Result<()> {

@@ -5,11 +5,14 @@ use std::sync::Arc;
 
 use super::Painter;
 
+/// Gives the next scene, or what is wrong with it; nothing at the end.
+pub type NextScene = Box<dyn FnMut() -> Option<Result<Arc<dyn Painter>, String>> + Send>;
+
 /// What comes after the first scene.
 pub struct Reloading {
     /// Waits until the scene has changed and gives it, or what is wrong with it; nothing at the end. It is
     /// asked on a thread of its own.
-    pub next: Box<dyn FnMut() -> Option<Result<Arc<dyn Painter>, String>> + Send>,
+    pub next: NextScene,
     /// Ends the waiting, and what the loading of a scene has begun; called before the program ends.
     pub end: Box<dyn Fn() + Send>,
 }

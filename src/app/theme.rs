@@ -128,12 +128,28 @@ impl Theme {
     /// Puts gray and black in the place of the terminal's own ink and paper, which ASCII and Braille are
     /// drawn in: on a light terminal the picture would be a negative of what is meant.
     pub fn fill(&self, area: Rect, buffer: &mut Buffer) {
+        fill_with(self.picture, area, buffer);
+    }
+
+    /// Puts the colours of a panel in the place of those that a widget brings along: where the panel has
+    /// none, none are left.
+    pub fn take_over(&self, area: Rect, buffer: &mut Buffer) {
+        if self.text.fg.is_some() {
+            return fill_with(self.text, area, buffer);
+        }
         for place in area.intersection(buffer.area).positions() {
-            let cell = &mut buffer[place];
-            for (color, own) in [(&mut cell.fg, self.picture.fg), (&mut cell.bg, self.picture.bg)] {
-                if *color == Color::Reset {
-                    *color = own.unwrap_or(Color::Reset);
-                }
+            buffer[place].set_fg(Color::Reset).set_bg(Color::Reset);
+        }
+    }
+}
+
+/// Puts the colours of a style in the place of the terminal's own.
+fn fill_with(style: Style, area: Rect, buffer: &mut Buffer) {
+    for place in area.intersection(buffer.area).positions() {
+        let cell = &mut buffer[place];
+        for (color, own) in [(&mut cell.fg, style.fg), (&mut cell.bg, style.bg)] {
+            if *color == Color::Reset {
+                *color = own.unwrap_or(Color::Reset);
             }
         }
     }

@@ -2,7 +2,6 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::style::Color;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Clear, Widget};
 
@@ -45,8 +44,8 @@ impl TradeFigures {
         }
     }
 
-    /// Goes so many steps along the front, towards slower settings; gives the setting there.
-    fn go(&mut self, slower: bool) -> Option<Setting> {
+    /// Goes to the next setting of the front that is slower, or faster; stays where there is none.
+    fn go(&mut self, slower: bool) {
         let front = &self.plot.front;
         let present = self.plot.present;
         let next = match front.iter().position(|&place| place == present) {
@@ -59,8 +58,7 @@ impl TradeFigures {
                 if slower { front.iter().find(is_beyond) } else { front.iter().rfind(is_beyond) }
             }
         };
-        self.plot.present = *next?;
-        Some(self.settings[self.plot.present].0)
+        self.plot.present = next.copied().unwrap_or(present);
     }
 
     /// What the present setting costs, in words.
@@ -74,14 +72,22 @@ impl TradeFigures {
 }
 
 impl TradePanel {
-    /// Does what an arrow asks for here: gives the setting that it goes to. Other actions are not this
-    /// one's.
-    pub fn takes(&mut self, action: Action) -> Option<Option<Setting>> {
-        let Self::Measured(figures) = self else { return None };
+    /// Does what an arrow asks for here; gives whether that is so. Other actions are not this one's.
+    pub fn takes(&mut self, action: Action) -> bool {
+        let Self::Measured(figures) = self else { return false };
         match action {
-            Action::OrbitLeft => Some(figures.go(false)),
-            Action::OrbitRight => Some(figures.go(true)),
-            _ => None,
+            Action::OrbitLeft => figures.go(false),
+            Action::OrbitRight => figures.go(true),
+            _ => return false,
+        }
+        true
+    }
+
+    /// The setting that the arrows have gone to.
+    pub fn present(&self) -> Option<Setting> {
+        match self {
+            Self::Measured(figures) => Some(figures.settings[figures.plot.present].0),
+            Self::Measuring(_) | Self::Nothing => None,
         }
     }
 
@@ -112,12 +118,7 @@ impl TradePanel {
         Line::styled(format!(" ♦ {}", figures.line()), theme.bright).render(row, buffer);
         let plot = Rect { y: inside.y + row.height, height: inside.height - row.height, ..inside };
         TradePlotWidget(&figures.plot).render(plot, buffer);
-        if theme.text.fg.is_none() {
-            // The plot has colours of its own.
-            for place in plot.intersection(buffer.area).positions() {
-                buffer[place].set_fg(Color::Reset);
-            }
-        }
+        theme.take_over(plot, buffer);
         place
     }
 }
@@ -168,16 +169,17 @@ mod tests {
         let mut panel = TradePanel::Measured(figures());
         let mut samples = Vec::new();
         for action in [Action::OrbitRight, Action::OrbitRight, Action::OrbitRight, Action::OrbitLeft] {
-            samples.push(panel.takes(action).unwrap().map(|setting| setting.options.samples));
+            assert!(panel.takes(action));
+            samples.push(panel.present().unwrap().options.samples);
         }
-        assert_eq!(samples, [Some(2), Some(4), None, Some(2)]);
-        assert_eq!(panel.takes(Action::FlyForward), None);
-        assert_eq!(TradePanel::Nothing.takes(Action::OrbitLeft), None);
+        assert_eq!(samples, [2, 4, 4, 2]);
+        assert!(!panel.takes(Action::FlyForward) && !TradePanel::Nothing.takes(Action::OrbitLeft));
         // From one that others beat, to the next on either side.
         for (slower, samples) in [(true, 4), (false, 2)] {
             let mut figures = figures();
             figures.plot.present = 2;
-            assert_eq!(figures.go(slower).unwrap().options.samples, samples);
+            figures.go(slower);
+            assert_eq!(figures.settings[figures.plot.present].0.options.samples, samples);
         }
     }
 

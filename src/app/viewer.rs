@@ -7,7 +7,7 @@ use ratatui::buffer::Buffer;
 
 use super::actions::Action;
 use super::desk::{Desk, SaveFailure};
-use super::errands::Done;
+use super::done::Done;
 use super::events::{Event, Gone, Inbox};
 use super::identity::Identity;
 use super::input::Mouse;
@@ -231,7 +231,6 @@ impl<'a> Viewer<'a> {
                     desk.fail(error);
                 }
             }
-            (Done::Opened(_, Err(_)), _) => {}
             (Done::Saved(Err(failure)), Some(Desk::Save(dialog))) => dialog.failed(failure),
             (Done::Appended(Err(error)), Some(desk @ Desk::Line(_))) => desk.fail(error),
             (Done::Saved(Ok(told)) | Done::Appended(Ok(told)), desk) => {
@@ -243,27 +242,29 @@ impl<'a> Viewer<'a> {
             (Done::Saved(Err(SaveFailure::Because(error))) | Done::Appended(Err(error)), _) => {
                 self.model.told = Some(error);
             }
-            (Done::Saved(Err(SaveFailure::Exists)), _) => {}
+            // Nobody waits for it any more.
+            (Done::Opened(_, Err(_)) | Done::Saved(Err(SaveFailure::Exists)), _) => {}
             (Done::Measuring(step), _) => {
                 if let Some(trade @ TradePanel::Measuring(_)) = &mut self.model.trade {
                     *trade = TradePanel::Measuring(Some(step));
                 }
             }
             (Done::Measured(figures), _) => {
-                self.office.measured();
-                if let Some(trade @ TradePanel::Measuring(_)) = &mut self.model.trade {
+                let is_wanted = self.office.measured()?;
+                if let (Some(trade @ TradePanel::Measuring(_)), true) = (&mut self.model.trade, is_wanted) {
                     *trade = figures.map_or(TradePanel::Nothing, |figures| TradePanel::Measured(*figures));
                 }
             }
             (Done::Scanned(followed), _) => {
-                self.office.followed();
-                if let Some(scan) = &mut self.scan {
+                let is_shown = self.office.followed();
+                if let Some(scan) = self.scan.as_mut().filter(|_| is_shown) {
                     scan.tell(&followed);
                 }
             }
             (Done::Followed(followed), _) => {
-                self.office.followed();
-                self.model.tell(*followed);
+                if self.office.followed() {
+                    self.model.tell(*followed);
+                }
             }
         }
         Ok(())

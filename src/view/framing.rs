@@ -22,8 +22,8 @@ pub fn framed(support: impl Fn(DVec3) -> f64, aspect: f64) -> Camera {
 }
 
 /// A camera that sees all of a scene, in the middle of a picture `aspect` times as wide as high on the
-/// screen. `back` is the direction from the target to the eye, of length 1, and `pole` upwards in the picture,
-/// not along `back`; `support(v)` is the greatest `p · v` of the scene's points.
+/// screen. `back` is the direction from the target to the eye, of length 1, and `pole` upwards in the
+/// picture, not along `back`; `support(v)` is the greatest `p · v` of the scene's points.
 ///
 /// A point q is left of the picture's right rim where `q·right − a ≤ t · (d − q·back)`, the eye being at
 /// `a·right + b·up + d·back` and t the tangent of half the field: where `q · (right + t·back) ≤ a + t·d`. The

@@ -74,7 +74,7 @@ fn every_command_runs() {
     }
 }
 
-/// The list itself is held to the table of actions beside that; here, that the manual page is made of it, too.
+/// The list itself is held to the table of actions beside that; here, that the manual page has it, too.
 #[test]
 fn the_manual_page_has_the_keys() {
     let output = run("ray13 man", &folder("man"));

@@ -56,6 +56,15 @@ pub struct ChoiceList {
     pub chosen: usize,
 }
 
+/// Where the keys go next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Way {
+    /// To the next.
+    On,
+    /// To the one before.
+    Back,
+}
+
 /// What a key did to a form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FormEvent {
@@ -141,8 +150,8 @@ impl DialogForm {
         let focus = self.focus;
         match key.code {
             KeyCode::Esc | KeyCode::F(10) => return FormEvent::Cancelled,
-            KeyCode::Tab => self.go(1),
-            KeyCode::BackTab => self.go(-1),
+            KeyCode::Tab => self.go(Way::On),
+            KeyCode::BackTab => self.go(Way::Back),
             KeyCode::Enter if focus < self.fields.len() => return FormEvent::Entered(focus),
             KeyCode::Enter => return FormEvent::Pressed(focus - self.fields.len()),
             code => return self.take_inside(code, key),
@@ -177,14 +186,14 @@ impl DialogForm {
                     return FormEvent::Pressed(focus - self.fields.len());
                 }
                 KeyCode::Char(c) => return self.hot_letter(c),
-                KeyCode::Left => self.go(-1),
-                KeyCode::Right => self.go(1),
+                KeyCode::Left => self.go(Way::Back),
+                KeyCode::Right => self.go(Way::On),
                 _ => {}
             },
         }
         match code {
-            KeyCode::Up => self.go(-1),
-            KeyCode::Down => self.go(1),
+            KeyCode::Up => self.go(Way::Back),
+            KeyCode::Down => self.go(Way::On),
             _ => {}
         }
         FormEvent::Nothing
@@ -217,10 +226,13 @@ impl DialogForm {
     }
 
     /// Takes the keys to the next, or the one before, past those that only tell.
-    fn go(&mut self, step: isize) {
+    fn go(&mut self, way: Way) {
         let all = self.fields.len() + self.buttons.len();
         for _ in 0..all {
-            self.focus = self.focus.saturating_add_signed(step + all as isize) % all;
+            self.focus = match way {
+                Way::On => (self.focus + 1) % all,
+                Way::Back => (self.focus + all - 1) % all,
+            };
             let told = self.fields.get(self.focus).map(|field| &field.input);
             if !matches!(told, Some(FieldInput::Told(_))) {
                 return;

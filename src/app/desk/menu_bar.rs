@@ -130,7 +130,10 @@ impl MenuBar {
         for (number, (menu, place)) in Menu::ALL.iter().zip(name_places(screen)).enumerate() {
             let [text, letter] = if number == self.menu { [chosen, chosen_hot] } else { [text, letter] };
             buffer.set_style(place, text);
-            hot::line(menu.name(), text, letter).centered().render(place, buffer);
+            // A name that is cut begins with its hot letter.
+            let pad = place.width.saturating_sub(hot::width(menu.name())) / 2;
+            let name = Rect { x: place.x + pad, width: place.width - pad, ..place };
+            hot::line(menu.name(), text, letter).render(name, buffer);
         }
         let (place, first) = self.place(screen);
         let all = draw_shadow(theme, place, buffer);
@@ -170,7 +173,7 @@ fn name_places(screen: Rect) -> Vec<Rect> {
     let place = |menu: &Menu| {
         let width = hot::width(menu.name()) + 2 * pad;
         let place = Rect { x, y: screen.y, width, height: 1 }.intersection(screen);
-        x = (x + width + gap).min(screen.right().saturating_sub(1));
+        x = (x + width + gap).min(screen.right());
         place
     };
     Menu::ALL.iter().map(place).collect()

@@ -6,7 +6,7 @@ use fearless_simd::Simd;
 use crate::bvh::{Bvh8, BvhChild, WIDE};
 use crate::lattice::Frustum;
 use crate::math::DVec3;
-use crate::solid::{MeshLists, MeshPacket, TriangleMesh};
+use crate::solid::{BezierSurface, MeshLists, MeshPacket, TriangleMesh};
 
 /// A node of a mesh, or of patches, that is to be walked.
 #[derive(Clone, Copy, Debug)]
@@ -22,6 +22,14 @@ pub(super) struct MeshObject<'a> {
     pub object: u32,
     pub primitive: u32,
     pub mesh: &'a TriangleMesh,
+}
+
+/// Bézier patches that are an object, by their indices in the assembly.
+#[derive(Clone, Copy)]
+pub(super) struct BezierObject<'a> {
+    pub object: u32,
+    pub primitive: u32,
+    pub patches: &'a BezierSurface,
 }
 
 /// Rays of a packet that ask for what they cross of meshes.

@@ -9,11 +9,10 @@ use crate::solid::{
 };
 
 use super::Fast;
-use super::bezier::BezierObject;
 use super::cells::CellsTest;
 use super::composite::CompositeTest;
 use super::memory::TileMemory;
-use super::mesh_walk::MeshObject;
+use super::mesh_walk::{BezierObject, MeshObject};
 use super::packet_culler::{PacketCuller, Slabs};
 use super::packet_hits::{Faces, HitCandidate};
 use super::precision::Precision;

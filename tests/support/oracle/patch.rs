@@ -1,4 +1,4 @@
-//! Bézier patches in the world: where a line crosses them, by Newton's method from every place near a crossing.
+//! Bézier patches in the world: where a line crosses them, by Newton's method from every place near that.
 
 use ray13::math::{DAffine3, DVec3};
 use ray13::scene::BezierPatches;
@@ -28,7 +28,7 @@ const HALVINGS: u32 = 6;
 /// Crossings of one patch whose parameters are nearer than this are one, or too near a silhouette to tell.
 const SAME: f64 = 1e-8;
 
-/// A polynomial of third degree in both parameters: its control values, four rows of four, in the numbers that
+/// A polynomial of third degree in both parameters: its control values, four rows of four, in numbers that
 /// are good enough to look for a root.
 type Net = [f64; 16];
 

@@ -61,7 +61,7 @@ impl BezierSurface {
         let cuts = unit.cuts();
         let mut pieces = Vec::with_capacity(unit.patches().len() << (2 * cuts));
         for patch in unit.patches() {
-            Piece::of(patch.map(|index| points[index as usize])).cut(cuts, &mut pieces);
+            Piece { points: patch.map(|index| points[index as usize]) }.cut(cuts, &mut pieces);
         }
         let reach = points.iter().map(|p| p.length()).fold(0.0, f64::max);
         let size = pieces.iter().map(Piece::size).fold(0.0, f64::max);

@@ -230,7 +230,7 @@ impl Cell {
             for v in by_v.iter().filter(is_some) {
                 let (left, right) = (u[0] * v[1], u[1] * v[0]);
                 let (across, bound) = (left - right, SIGN * (left.abs() + right.abs()));
-                turns = [turns[0] | (across > bound), turns[1] | (across < -bound)];
+                turns = [turns[0] || across > bound, turns[1] || across < -bound];
                 // What is not a number is not known to turn.
                 let is_certain = across.abs() > bound;
                 if !is_certain || turns == [true; 2] {

@@ -208,7 +208,7 @@ impl BezierPacket {
                 found.uncertain |= u64::from(!is_certain) << lane;
             }
         }
-        (found.t, found.error, found.surface) = (self.t.clone(), self.error.clone(), self.surface.clone());
+        (found.t, found.error, found.surface) = (self.t, self.error, self.surface);
         found.primitive = Lanes::filled(query.primitive);
     }
 }

@@ -85,7 +85,7 @@ impl Fast<'_> {
             let [nodes, triangles] = simd.vectorize(
                 #[inline(always)]
                 || {
-                    let nearest = &mut NearestTriangles { mesh: of.mesh, rays: &mut **rays };
+                    let nearest = &mut NearestTriangles { mesh: of.mesh, rays };
                     walk_parts(simd, of.mesh.boxes(), frustum, nearest, mesh_stack, budget)
                 },
             );

@@ -25,9 +25,10 @@ use super::ray_shear::RayShear;
 use super::span::{End, WORLD, rounding_at};
 
 /// How far halving may move a point, as a share of how far the points of a piece lie from each other at most.
-/// Each time, three means in a row are rounded by half an ulp of at most twice that distance, as the ray passes
-/// among the points, sheared, which makes it √2 times as long; and it halves every second time: 3 · ½ · 2 · √2
-/// · (1 + 1 + ½ + ½ + …) < 17 ulps. Seven more are for the value at a root: four products and three sums, twice.
+/// Each time, three means in a row are rounded by half an ulp of at most twice that distance, as the ray
+/// passes among the points, sheared, which makes it √2 times as long; and it halves every second time:
+/// 3 · ½ · 2 · √2 · (1 + 1 + ½ + ½ + …) < 17 ulps. Seven more are for the value at a root: four products and
+/// three sums, twice.
 const HALVING: f64 = 24.0 * f64::EPSILON;
 
 /// So many parts of one piece are looked at for one ray; a ray that has not been told apart from the surface
@@ -45,8 +46,8 @@ pub struct BezierSurface {
     boxes: Bvh8,
     bounds: Bounds,
     is_closed: bool,
-    /// How far a point may seem off its place; and how much of that is halving's, to within which a crossing is
-    /// found.
+    /// How far a point may seem off its place; and how much of that is halving's, to within which a crossing
+    /// is found.
     place_error: f64,
     fine: f64,
     /// The digits of each parameter of a crossing that its surface number has.
@@ -60,7 +61,7 @@ impl BezierSurface {
         let cuts = unit.cuts();
         let mut pieces = Vec::with_capacity(unit.patches().len() << (2 * cuts));
         for patch in unit.patches() {
-            Piece::of(patch.map(|index| points[index as usize])).cut(cuts, &mut pieces);
+            Piece { points: patch.map(|index| points[index as usize]) }.cut(cuts, &mut pieces);
         }
         let reach = points.iter().map(|p| p.length()).fold(0.0, f64::max);
         let size = pieces.iter().map(Piece::size).fold(0.0, f64::max);
@@ -108,7 +109,7 @@ impl BezierSurface {
             [x[i], y[i], along[i]] = shear.sheared(p);
         }
         let nets = [x, y, along];
-        let met = flatness.meet(&nets, ray.d.into(), self.fine);
+        let met = flatness.meet(&nets, ray.d.into(), shear.main(), self.fine);
         if met.hits {
             let error = self.error_of(met.slope, shear.step());
             found(End { t: met.along / shear.step(), error, surface: self.surface(number, met.uv) });

@@ -219,27 +219,29 @@ impl Cell {
     /// way that a crossing moves with the surface, is no steeper than the steepest pair. Along a side that is
     /// one point differences are 0, and of no weight elsewhere.
     pub fn slopes(&self, shear: [f64; 2]) -> Option<Slopes> {
-        let (mut least, mut most, mut turn) = (f64::INFINITY, 0.0_f64, 0.0);
-        for i in 0..12 {
-            let u = [along_u(&self.x, i), along_u(&self.y, i), along_u(&self.along, i)];
-            if u == [0.0; 3] {
-                continue;
-            }
-            for j in 0..12 {
-                let v = [along_v(&self.x, j), along_v(&self.y, j), along_v(&self.along, j)];
-                if v == [0.0; 3] {
-                    continue;
-                }
+        let differences = |step: fn(&Net, usize) -> f64| -> [[f64; 3]; 12] {
+            std::array::from_fn(|i| [step(&self.x, i), step(&self.y, i), step(&self.along, i)])
+        };
+        let (by_u, by_v) = (differences(along_u), differences(along_v));
+        let is_some = |step: &&[f64; 3]| **step != [0.0; 3];
+        // Most cells that are no part of the answer are told by this.
+        let mut turns = [false; 2];
+        for u in by_u.iter().filter(is_some) {
+            for v in by_v.iter().filter(is_some) {
                 let (left, right) = (u[0] * v[1], u[1] * v[0]);
-                let across = left - right;
-                if turn == 0.0 {
-                    turn = across.signum();
-                }
+                let (across, bound) = (left - right, SIGN * (left.abs() + right.abs()));
+                turns = [turns[0] || across > bound, turns[1] || across < -bound];
                 // What is not a number is not known to turn.
-                let is_certain = across * turn > SIGN * (left.abs() + right.abs());
-                if !is_certain {
+                let is_certain = across.abs() > bound;
+                if !is_certain || turns == [true; 2] {
                     return None;
                 }
+            }
+        }
+        let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
+        for u in by_u.iter().filter(is_some) {
+            for v in by_v.iter().filter(is_some) {
+                let across = u[0] * v[1] - u[1] * v[0];
                 let [x, y] = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2]];
                 // In the world: what the shear did to points its transpose undoes to normals.
                 let main = across - shear[0] * x - shear[1] * y;

@@ -45,18 +45,14 @@ impl PlaneCubic {
         let mut open = Vec::new();
         let (mut piece, mut depth, mut odd) = (*self, halved, false);
         loop {
-            match piece.decided(depth) {
-                Some(is_odd) => odd ^= is_odd,
-                None => {
-                    let ([x, x_end], [y, y_end]) = (halves(piece.x), halves(piece.y));
-                    open.push((Self { x: x_end, y: y_end }, depth + 1));
-                    (piece, depth) = (Self { x, y }, depth + 1);
-                    continue;
-                }
-            }
-            match open.pop() {
-                Some(next) => (piece, depth) = next,
-                None => return odd,
+            if let Some(is_odd) = piece.decided(depth) {
+                odd ^= is_odd;
+                let Some(next) = open.pop() else { return odd };
+                (piece, depth) = next;
+            } else {
+                let ([x, x_end], [y, y_end]) = (halves(piece.x), halves(piece.y));
+                open.push((Self { x: x_end, y: y_end }, depth + 1));
+                (piece, depth) = (Self { x, y }, depth + 1);
             }
         }
     }

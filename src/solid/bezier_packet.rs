@@ -116,7 +116,7 @@ impl BezierPacket {
                 (nets[0][i], nets[1][i], nets[2][i]) = (x, y, along);
             }
             let d = packet.load(simd, register).d;
-            let met = flatness.meet(&nets, d, fine);
+            let met = flatness.meet(&nets, d, MAIN, fine);
             let hits = met.hits & own;
             if hits.any() {
                 let step = d.along(MAIN);
@@ -195,8 +195,8 @@ impl BezierPacket {
     }
 
     /// Sets what was found: the nearest crossings that are one place with no other. What a ray crosses of a
-    /// surface that bounds nothing is its nearest in any case. `found.entering` are those that come against the
-    /// normals.
+    /// surface that bounds nothing is its nearest in any case. `found.entering` are those that come against
+    /// the normals.
     pub fn answer(&self, query: &BezierQuery, found: &mut PacketCrossings) {
         (found.any, found.uncertain, found.entering) = (0, 0, self.against);
         for lane in lanes(query.wanted) {
@@ -208,7 +208,7 @@ impl BezierPacket {
                 found.uncertain |= u64::from(!is_certain) << lane;
             }
         }
-        (found.t, found.error, found.surface) = (self.t.clone(), self.error.clone(), self.surface.clone());
+        (found.t, found.error, found.surface) = (self.t, self.error, self.surface);
         found.primitive = Lanes::filled(query.primitive);
     }
 }

@@ -31,10 +31,6 @@ const STEPS: usize = 2;
 const ASIDE: f64 = 1.0 / (1 << 20) as f64;
 
 impl Piece {
-    pub fn of(points: [DVec3; 16]) -> Self {
-        Self { points }
-    }
-
     /// Its control points by axis.
     pub fn nets(&self) -> Nets<f64> {
         [0, 1, 2].map(|axis| self.points.map(|p| p[axis]))
@@ -141,7 +137,7 @@ mod tests {
             let ([radius, height], [x, y]) = (arc[i / 4], arc[i % 4]);
             DVec3::new(radius * x, radius * y, height)
         };
-        Piece::of(std::array::from_fn(point))
+        Piece { points: std::array::from_fn(point) }
     }
 
     fn normal(piece: &Piece, uv: [f64; 2]) -> DVec3 {

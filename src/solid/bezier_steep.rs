@@ -24,6 +24,8 @@ pub(super) struct Flatness {
     slip: f64,
     /// The same of parameters that the rim may be off by.
     margin: f64,
+    /// A line this far from all control points certainly passes beside the piece.
+    apart: f64,
 }
 
 /// Where rays meet a piece.
@@ -63,7 +65,7 @@ const STEPS: usize = 6;
 
 impl Flatness {
     const UNKNOWN: Self =
-        Self { axis: DVec3::ZERO, spread: 0.0, steep: f64::INFINITY, slip: 0.0, margin: 0.0 };
+        Self { axis: DVec3::ZERO, spread: 0.0, steep: f64::INFINITY, slip: 0.0, margin: 0.0, apart: 0.0 };
 
     /// Of a piece with these control points, which may be off by `place_error`.
     pub fn of(points: &[DVec3; 16], place_error: f64) -> Self {
@@ -84,8 +86,10 @@ impl Flatness {
         let squares = longest(&by_u) + longest(&by_v);
         // What is not a number is not known.
         let is_plain = least > THIN * squares && spread < 0.5;
+        // Four times what either point may be off, and what rounding takes from two products and a sum.
+        let apart = 4.0 * place_error;
         if !is_plain {
-            return Self::UNKNOWN;
+            return Self { axis, apart, ..Self::UNKNOWN };
         }
         // The inverse of a Jacobian is no larger than its entries over its determinant.
         let stretch = 1.0 + 2.0 * BEYOND;
@@ -93,17 +97,31 @@ impl Flatness {
         let slip = inverse * bend(points);
         let margin = 4.0 * inverse * place_error;
         let steep = LEAST_SINE.max(spread * SHARE / (SHARE - 1.0));
-        Self { axis, spread, steep, slip, margin }
+        Self { axis, spread, steep, slip, margin, apart }
     }
 
-    /// Where rays of directions `d` meet the piece whose control points these are: across the rays `x` and
-    /// `y`, and `along` the axis that each goes farthest on. A crossing is found to within `fine`.
+    /// Where rays of directions `d`, which go farthest on axis `main`, meet the piece whose control points
+    /// these are: across the rays `x` and `y`, and `along` that axis. A crossing is found to within `fine`.
     #[inline(always)]
-    pub fn meet<N: Number>(&self, [x, y, along]: &[[N; 16]; 3], d: Vector<N>, fine: f64) -> Steep<N> {
+    pub fn meet<N: Number>(
+        &self,
+        [x, y, along]: &[[N; 16]; 3],
+        d: Vector<N>,
+        main: usize,
+        fine: f64,
+    ) -> Steep<N> {
         let zero = d.x.same(0.0);
-        let beside = is_one_side(x) | is_one_side(y);
-        let sine = d.dot_one(self.axis).magnitude();
-        let mut live = sine.is_at_least(zero.same(self.steep)) & !beside;
+        let mut beside = is_one_side(x) | is_one_side(y);
+        let towards = d.dot_one(self.axis);
+        let sine = towards.magnitude();
+        let is_steep = sine.is_at_least(zero.same(self.steep));
+        if (!is_steep & !beside).any() {
+            // Seen edge on the piece is thin across its normals.
+            let across = d.same(self.axis) - d * towards;
+            let (a, b) = (across.along((main + 1) % 3), across.along((main + 2) % 3));
+            beside = beside | is_apart(x, y, [a, b], self.apart);
+        }
+        let mut live = is_steep & !beside;
         let slope = zero.same(1.0) / (sine - self.spread);
         let mut met =
             Steep { hits: zero.is_above(zero), beside, along: zero, slope, uv: [zero.same(0.5); 2] };
@@ -161,11 +179,26 @@ fn is_one_side<N: Number>(net: &[N; 16]) -> N::Mask {
     least.is_above(zero) | most.is_at_most(zero)
 }
 
+/// Whether all points lie on one side of the line through the origin of the plane whose normal is `across`,
+/// farther from it than `apart`.
+#[inline(always)]
+fn is_apart<N: Number>(x: &[N; 16], y: &[N; 16], across: [N; 2], apart: f64) -> N::Mask {
+    let height = |i: usize| x[i] * across[0] + y[i] * across[1];
+    let (mut least, mut most) = (height(0), height(0));
+    for i in 1..16 {
+        let height = x[i] * across[0] + y[i] * across[1];
+        (least, most) = (height.smaller(least), height.larger(most));
+    }
+    let apart = least.same(apart);
+    least.is_above(apart) | most.is_below(-apart)
+}
+
 /// The control points of the same surface from a quarter before each parameter's least to a quarter beyond
 /// its greatest.
 fn extended(points: &[DVec3; 16]) -> [DVec3; 16] {
     let mut wide = *points;
-    // The blossom of a cubic: the control points of the part from a to b are its values at aaa, aab, abb, bbb.
+    // The blossom of a cubic: the control points of the part from a to b are its values at aaa, aab, abb and
+    // bbb.
     let blossom = |p: [DVec3; 4], at: [f64; 3]| {
         let mut p = p;
         for (round, t) in at.into_iter().enumerate() {
@@ -226,7 +259,7 @@ mod tests {
         for (x, y) in
             [(0.5, 0.5), (0.01, 0.99), (0.3, 0.8), (1.01, 0.5), (-0.4, 0.2), (3.0, 3.0), (0.5, -0.001)]
         {
-            let met = flatness.meet(&nets(&points, DVec3::new(x, y, 5.0)), DVec3::NEG_Z.into(), 1e-15);
+            let met = flatness.meet(&nets(&points, DVec3::new(x, y, 5.0)), DVec3::NEG_Z.into(), 2, 1e-15);
             let inside = (0.0..=1.0).contains(&x) && (0.0..=1.0).contains(&y);
             assert_eq!((met.hits, met.beside), (inside, !inside), "{x} {y}");
             if inside {
@@ -239,12 +272,16 @@ mod tests {
     fn nothing_is_said_through_the_rim_or_along_the_piece() {
         let points = bent(0.3);
         let flatness = Flatness::of(&points, 1e-15);
-        let onto_rim = flatness.meet(&nets(&points, DVec3::new(0.0, 0.5, 5.0)), DVec3::NEG_Z.into(), 1e-15);
+        let from = DVec3::new(0.0, 0.5, 5.0);
+        let onto_rim = flatness.meet(&nets(&points, from), DVec3::NEG_Z.into(), 2, 1e-15);
         assert!(!onto_rim.hits && !onto_rim.beside);
         // Along x, its nets being those across x.
         let [x, y, z] = nets(&points, DVec3::new(-5.0, 0.5, 0.01));
-        let along = flatness.meet(&[y, z, x], DVec3::X.into(), 1e-15);
+        let along = flatness.meet(&[y, z, x], DVec3::X.into(), 0, 1e-15);
         assert!(!along.hits && !along.beside);
+        // A ray along it, but above.
+        let [x, y, z] = nets(&points, DVec3::new(-5.0, 0.5, 1.0));
+        assert!(flatness.meet(&[y, z, x], DVec3::X.into(), 0, 1e-15).beside);
     }
 
     #[test]

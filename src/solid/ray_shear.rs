@@ -55,6 +55,12 @@ impl<'a> RayShear<'a> {
         [q[self.axes[1]] - self.shear[0] * along, q[self.axes[2]] - self.shear[1] * along, along]
     }
 
+    /// The axis that the ray goes farthest on.
+    #[inline]
+    pub fn main(&self) -> usize {
+        self.axes[0]
+    }
+
     /// How far the ray goes along that axis on a way of length 1: at least 1/√3 either way.
     #[inline]
     pub fn step(&self) -> f64 {

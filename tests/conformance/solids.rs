@@ -46,7 +46,7 @@ pub fn pillow() -> Shape {
             // Sides share their rims, which are bent as well: a point of the cube is moved by where it is.
             let bent = |i: usize| {
                 let (a, b) = (at(i % 4), at(i / 4));
-                let is_inner = (i % 4) % 3 != 0 && (i / 4) % 3 != 0;
+                let is_inner = [i % 4, i / 4].iter().all(|place| [1, 2].contains(place));
                 let along = side * if is_inner { 1.0 + height } else { 1.0 };
                 let mut p = [a, b, along];
                 p.rotate_right(axis);
@@ -66,7 +66,7 @@ pub fn pillow() -> Shape {
 /// A patch of any shape, and now and then with a side that is one point.
 pub fn any_patch(chance: &mut Chance) -> Shape {
     let mut points: Vec<DVec3> = (0..16)
-        .map(|i| DVec3::new((i % 4) as f64, (i / 4) as f64, 0.0) / 1.5 - DVec3::new(1.0, 1.0, 0.0))
+        .map(|i| DVec3::new(f64::from(i % 4), f64::from(i / 4), 0.0) / 1.5 - DVec3::new(1.0, 1.0, 0.0))
         .map(|p| p + chance.point() * 0.4)
         .collect();
     if chance.below(3) == 0 {

@@ -138,7 +138,7 @@ fn a_closed_surface_is_crossed_an_even_number_of_times() {
             };
             let ray = Ray::new(target - 3.0 * d, d);
             let found = crossings(&closed, &ray);
-            assert!(found.len() % 2 == 0, "case {case}, {ray:?}: {found:?}");
+            assert!(found.len().is_multiple_of(2), "case {case}, {ray:?}: {found:?}");
             (rays, crossed) = (rays + 1, crossed + usize::from(!found.is_empty()));
         }
     }
@@ -167,7 +167,7 @@ fn a_ray_along_a_patch_takes_bounded_work() {
     let closed = surface(&points, &patches, &DAffine3::IDENTITY);
     for (y, z) in [(0.0, 1.0), (1.0, 1.0), (0.3, -1.0), (-1.0, 1.0), (0.3, 1.0 - 1e-16)] {
         let found = crossings(&closed, &Ray::new(DVec3::new(-4.0, y, z), DVec3::X));
-        assert!(found.len() % 2 == 0 && found.len() <= 4, "{y} {z}: {found:?}");
+        assert!(found.len().is_multiple_of(2) && found.len() <= 4, "{y} {z}: {found:?}");
     }
     // Bent across the ray, and straight along it.
     let wall = surface(&one_patch(|x, y| DVec3::new(x, 0.4 * x * x, y)), &[ALL], &DAffine3::IDENTITY);

@@ -7,18 +7,10 @@ use crate::solid::{BezierPacket, BezierQuery, BezierSurface, PacketShear};
 
 use super::Fast;
 use super::memory::TileMemory;
-use super::mesh_walk::PartVisitor;
+use super::mesh_walk::{BezierObject, PartVisitor};
 use super::object::PacketTest;
 use super::precision::Precision;
 use super::sink::{HitSink, offer_crossings};
-
-/// Patches that are an object, by their indices in the assembly.
-#[derive(Clone, Copy)]
-pub(super) struct BezierObject<'a> {
-    pub object: u32,
-    pub primitive: u32,
-    pub patches: &'a BezierSurface,
-}
 
 /// The nearest crossings of patches.
 struct NearestPieces<'a> {

@@ -6,7 +6,7 @@ use fearless_simd::Simd;
 use crate::bvh::{Bvh8, BvhChild, WIDE};
 use crate::lattice::Frustum;
 use crate::math::DVec3;
-use crate::solid::{MeshLists, MeshPacket, TriangleMesh};
+use crate::solid::{BezierSurface, MeshLists, MeshPacket, TriangleMesh};
 use crate::stage::Counts;
 
 use super::ranked::push_ranked;
@@ -25,6 +25,14 @@ pub(super) struct MeshObject<'a> {
     pub object: u32,
     pub primitive: u32,
     pub mesh: &'a TriangleMesh,
+}
+
+/// Bézier patches that are an object, by their indices in the assembly.
+#[derive(Clone, Copy)]
+pub(super) struct BezierObject<'a> {
+    pub object: u32,
+    pub primitive: u32,
+    pub patches: &'a BezierSurface,
 }
 
 /// Rays of a packet that ask for what they cross of meshes.

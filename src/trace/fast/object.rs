@@ -9,11 +9,10 @@ use crate::solid::{
 };
 
 use super::Fast;
-use super::bezier::BezierObject;
 use super::cells::CellsTest;
 use super::composite::CompositeTest;
 use super::memory::TileMemory;
-use super::mesh_walk::MeshObject;
+use super::mesh_walk::{BezierObject, MeshObject};
 use super::packet_culler::{PacketCuller, Slabs};
 use super::packet_hits::{Faces, HitCandidate};
 use super::precision::Precision;
@@ -59,13 +58,8 @@ impl Fast<'_> {
             return self.mesh_of_packet(simd, &MeshObject { object, primitive, mesh }, test, sink, memory);
         }
         if let Some((primitive, patches)) = self.assembly.patches(object) {
-            return self.patches_of_packet(
-                simd,
-                &BezierObject { object, primitive, patches },
-                test,
-                sink,
-                memory,
-            );
+            let of = BezierObject { object, primitive, patches };
+            return self.patches_of_packet(simd, &of, test, sink, memory);
         }
         let own = &self.assembly.objects[object as usize];
         match &own.body {
@@ -98,18 +92,17 @@ impl Fast<'_> {
                 }
                 memory.counts.primitive_tests += 1;
                 let TileMemory { cullers, sheared, doubles, .. } = memory;
-                let (sheared, found) = (&mut sheared[k], &mut *doubles.found);
-                let (rays, departures) = (source.full_rays, source.full_departures);
-                let slack = self.slack_of::<T>();
-                let wanted = near_surface(simd, &mut cullers[k], rays, &primitive.form, slack, passing)
+                let (packet, departures) = (source.full_rays, source.full_departures);
+                let (culler, slack) = (&mut cullers[k], self.slack_of::<T>());
+                let wanted = near_surface(simd, culler, packet, &primitive.form, slack, passing)
                     & !source.leaving(simd, *index);
                 if wanted == 0 {
                     return false;
                 }
-                let asked = SurfaceQuery { packet: rays, wanted, departures };
-                firsts_of_surface(simd, &asked, primitive, *index, sheared, found);
-                offer_crossings(simd, found, object, sink);
-                found.any != 0
+                let asked = SurfaceQuery { packet, wanted, departures };
+                firsts_of_surface(simd, &asked, primitive, *index, &mut sheared[k], &mut doubles.found);
+                offer_crossings(simd, &doubles.found, object, sink);
+                doubles.found.any != 0
             }
             Body::Composite { whole, .. } => {
                 let cells = self.subs.cells(object);

@@ -1,4 +1,4 @@
-//! Bézier patches in the world: where a line crosses them, by Newton's method from every place near a crossing.
+//! Bézier patches in the world: where a line crosses them, by Newton's method from every place near that.
 
 use ray13::math::{DAffine3, DVec3};
 use ray13::scene::BezierPatches;
@@ -28,7 +28,7 @@ const HALVINGS: u32 = 6;
 /// Crossings of one patch whose parameters are nearer than this are one, or too near a silhouette to tell.
 const SAME: f64 = 1e-8;
 
-/// A polynomial of third degree in both parameters: its control values, four rows of four, in the numbers that
+/// A polynomial of third degree in both parameters: its control values, four rows of four, in numbers that
 /// are good enough to look for a root.
 type Net = [f64; 16];
 
@@ -36,10 +36,10 @@ impl<N: Number> Patch<N> {
     /// All patches, moved by a map.
     pub fn of(patches: &BezierPatches, map: &DAffine3) -> Vec<Self> {
         let points: Vec<[N; 3]> = patches.points().iter().map(|&p| place(&mapped(map, p))).collect();
-        patches.patches().iter().map(|patch| Self::new(patch.map(|i| points[i as usize].clone()))).collect()
+        patches.patches().iter().map(|patch| Self::new(&patch.map(|i| points[i as usize].clone()))).collect()
     }
 
-    fn new(points: [[N; 3]; 16]) -> Self {
+    fn new(points: &[[N; 3]; 16]) -> Self {
         let rounded = points.clone().map(|p| DVec3::from_array(p.map(|x| x.value())));
         Self { points: points.to_vec(), ball: Ball::around(&rounded) }
     }
@@ -102,7 +102,7 @@ fn starts(nets: &[Net; 2]) -> Vec<[f64; 2]> {
         if nets.iter().any(is_beside) {
             continue;
         }
-        let size = |axis: u32| libm::ldexp(1.0, -((halved + 1 - axis) as i32 / 2));
+        let size = |axis: u32| 1.0 / f64::from(1_u32 << ((halved + 1 - axis) / 2));
         if halved == 2 * HALVINGS {
             found.push([from[0] + 0.5 * size(0), from[1] + 0.5 * size(1)]);
             continue;

@@ -47,8 +47,11 @@ fn a_printed_command_line_has_the_printed_accuracy() {
 
 #[test]
 fn what_is_left_out_on_purpose_is_marked() {
-    // What is measured besides depends on how fast the machine is.
-    let figures = figures(&["--samples", "2", "--with", "--samples 2 --depth 1"]);
+    // All that are looked at are asked for: what is measured by itself depends on how fast the machine is.
+    let asked = ["--no-shadows", "--shading 1", "--depth 0", "--depth 1", "--engine exact"];
+    let asked = asked.map(|option| format!("--samples 2 {option}"));
+    let with: Vec<&str> = asked.iter().flat_map(|options| ["--with", options]).collect();
+    let figures = figures(&[&["--samples", "2"], &with[..]].concat());
     let settings = figures["settings"].as_array().unwrap();
     let find = |option: &str| {
         let found = settings.iter().find(|one| {

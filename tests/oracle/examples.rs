@@ -126,6 +126,7 @@ embedded! {
     glass,
     hanyang,
     mirrors,
+    teapot,
     temple,
 }
 

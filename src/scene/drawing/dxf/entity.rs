@@ -1,6 +1,6 @@
 //! An entity of a DXF file: what its groups say.
 
-use super::groups::Group;
+use super::groups::DxfGroup;
 use crate::math::DVec2;
 use crate::scene::drawing::{DrawingFault, DrawingRequest};
 
@@ -45,7 +45,11 @@ impl DxfEntity {
     }
 
     /// Takes a group. Outside of blocks coordinates are moved and scaled as `request` says.
-    pub fn take(&mut self, group: &Group<'_>, request: Option<&DrawingRequest>) -> Result<(), DrawingFault> {
+    pub fn take(
+        &mut self,
+        group: &DxfGroup<'_>,
+        request: Option<&DrawingRequest>,
+    ) -> Result<(), DrawingFault> {
         match group.code {
             2 => self.of = group.value.to_string(),
             8 => self.layer = group.value.to_string(),

@@ -6,7 +6,7 @@ use crate::scene::drawing::DrawingFault;
 
 /// A code and its value.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Group<'a> {
+pub struct DxfGroup<'a> {
     /// What the value is.
     pub code: i64,
     /// The value, without blanks around it.
@@ -16,12 +16,12 @@ pub struct Group<'a> {
 }
 
 /// The pairs of a file.
-pub struct Groups<'a> {
+pub struct DxfGroups<'a> {
     lines: std::slice::Split<'a, u8, fn(&u8) -> bool>,
     line: usize,
 }
 
-impl<'a> Groups<'a> {
+impl<'a> DxfGroups<'a> {
     /// Those of a file.
     pub fn of(bytes: &'a [u8]) -> Self {
         let is_end: fn(&u8) -> bool = |&byte| byte == b'\n';
@@ -34,8 +34,8 @@ impl<'a> Groups<'a> {
     }
 }
 
-impl<'a> Iterator for Groups<'a> {
-    type Item = Result<Group<'a>, DrawingFault>;
+impl<'a> Iterator for DxfGroups<'a> {
+    type Item = Result<DxfGroup<'a>, DrawingFault>;
 
     fn next(&mut self) -> Option<Self::Item> {
         loop {
@@ -52,14 +52,14 @@ impl<'a> Iterator for Groups<'a> {
                 return Some(Err(DrawingFault::at(at, message)));
             };
             return Some(match value {
-                Some(value) => Ok(Group { code, value, line: self.line }),
+                Some(value) => Ok(DxfGroup { code, value, line: self.line }),
                 None => Err(DrawingFault::at(at, "the file is cut off: a value is missing after this code")),
             });
         }
     }
 }
 
-impl Group<'_> {
+impl DxfGroup<'_> {
     /// The value as a finite number.
     pub fn number(&self) -> Result<f64, DrawingFault> {
         match self.value.parse::<f64>() {

@@ -7,7 +7,7 @@ mod joined;
 mod sides;
 
 use self::entity::DxfEntity;
-use self::groups::Groups;
+use self::groups::DxfGroups;
 use self::sides::{Section, Sides};
 use super::{DrawingContent, DrawingFault, DrawingRequest};
 
@@ -19,7 +19,7 @@ pub fn read(bytes: &[u8], request: &DrawingRequest) -> Result<DrawingContent, Dr
     let mut sides = Sides::new(request);
     // An entity is whole when the next one begins.
     let mut open = DxfEntity::default();
-    for group in Groups::of(bytes) {
+    for group in DxfGroups::of(bytes) {
         let group = group?;
         if group.code == 0 {
             sides.take(&open)?;

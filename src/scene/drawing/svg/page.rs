@@ -1,6 +1,6 @@
 //! The page of an SVG file: where its units come to lie, in millimetres.
 
-use super::scan::Scan;
+use super::scan::TextScan;
 use crate::math::DVec2;
 
 const MM_OF_INCH: f64 = 25.4;
@@ -63,7 +63,7 @@ impl Page {
 
 /// A length in millimetres; `view` is as long as the view box. What is no length is as if it were not given.
 fn millimetres(text: &str, view: Option<f64>, dpi: f64) -> f64 {
-    let mut scan = Scan::of(text);
+    let mut scan = TextScan::of(text);
     let number = scan.number();
     let unit = if scan.shown() == "%" { "%" } else { scan.word() };
     let is_whole = scan.is_empty() || unit == "%";
@@ -86,7 +86,7 @@ fn millimetres(text: &str, view: Option<f64>, dpi: f64) -> f64 {
 
 /// The first corner and the size of a view box; none where it has no size.
 fn view_box(text: &str) -> Option<[DVec2; 2]> {
-    let mut scan = Scan::of(text);
+    let mut scan = TextScan::of(text);
     let mut number = || scan.number().filter(|number| number.is_finite());
     let (corner, size) = (DVec2::new(number()?, number()?), DVec2::new(number()?, number()?));
     (scan.is_empty() && size.min_element() > 0.0).then_some([corner, size])

@@ -1,7 +1,7 @@
 //! The data of a `path`: commands and numbers, as lines from place to place.
 
 use super::curves::{Arc, bezier};
-use super::scan::Scan;
+use super::scan::TextScan;
 use crate::math::DVec2;
 
 /// A line that a pen draws without being lifted.
@@ -34,7 +34,7 @@ pub enum NoPath {
 /// The strokes of path data, of `room` corners at most.
 pub fn strokes(data: &str, room: usize) -> Result<Vec<Stroke>, NoPath> {
     let mut pen = Pen { strokes: Vec::new(), at: DVec2::ZERO, pulled: None, room };
-    let mut scan = Scan::of(data);
+    let mut scan = TextScan::of(data);
     let mut command = None;
     while !scan.is_empty() {
         let next = scan.letter(|letter| letter.is_ascii_alphabetic());
@@ -55,7 +55,7 @@ pub fn strokes(data: &str, room: usize) -> Result<Vec<Stroke>, NoPath> {
 }
 
 impl Pen {
-    fn draw(&mut self, command: char, scan: &mut Scan<'_>) -> Result<(), NoPath> {
+    fn draw(&mut self, command: char, scan: &mut TextScan<'_>) -> Result<(), NoPath> {
         let from = self.at;
         let base = if command.is_ascii_lowercase() { from } else { DVec2::ZERO };
         let mut pulled = None;
@@ -138,7 +138,7 @@ impl Pen {
     }
 }
 
-fn number(scan: &mut Scan<'_>) -> Result<f64, NoPath> {
+fn number(scan: &mut TextScan<'_>) -> Result<f64, NoPath> {
     match scan.number() {
         Some(number) if number.is_finite() => Ok(number),
         Some(_) => Err(NoPath::Wrong("a number in a path is not finite".to_owned())),
@@ -146,15 +146,15 @@ fn number(scan: &mut Scan<'_>) -> Result<f64, NoPath> {
     }
 }
 
-fn pair(scan: &mut Scan<'_>) -> Result<DVec2, NoPath> {
+fn pair(scan: &mut TextScan<'_>) -> Result<DVec2, NoPath> {
     Ok(DVec2::new(number(scan)?, number(scan)?))
 }
 
-fn flag(scan: &mut Scan<'_>) -> Result<bool, NoPath> {
+fn flag(scan: &mut TextScan<'_>) -> Result<bool, NoPath> {
     scan.flag().ok_or_else(|| expected("0 or 1", scan))
 }
 
-fn expected(what: &str, scan: &Scan<'_>) -> NoPath {
+fn expected(what: &str, scan: &TextScan<'_>) -> NoPath {
     NoPath::Wrong(if scan.is_empty() {
         format!("a path ends where {what} should be")
     } else {

@@ -2,11 +2,11 @@
 
 /// What is left of a value.
 #[derive(Clone, Copy, Debug)]
-pub struct Scan<'a> {
+pub struct TextScan<'a> {
     rest: &'a str,
 }
 
-impl<'a> Scan<'a> {
+impl<'a> TextScan<'a> {
     /// All of a value.
     pub fn of(value: &'a str) -> Self {
         Self { rest: value.trim_ascii_start() }
@@ -77,7 +77,7 @@ mod tests {
     #[test]
     fn numbers_end_where_the_next_begins() {
         let numbers = |value: &str| {
-            let mut scan = Scan::of(value);
+            let mut scan = TextScan::of(value);
             let found: Vec<f64> = std::iter::from_fn(|| scan.number()).collect();
             (found, scan.shown())
         };
@@ -89,7 +89,7 @@ mod tests {
         for none in ["", ".", "-", "e5", "nan", "inf", "−1"] {
             assert!(numbers(none).0.is_empty(), "{none}");
         }
-        let mut arc = Scan::of("113 4");
+        let mut arc = TextScan::of("113 4");
         assert_eq!(
             (arc.flag(), arc.flag(), arc.number(), arc.flag()),
             (Some(true), Some(true), Some(3.0), None)

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::curves::{Arc, ellipse};
 use super::path_data::{NoPath, strokes};
-use super::scan::Scan;
+use super::scan::TextScan;
 use crate::math::DVec2;
 use crate::scene::profile::{LineEnd, stroked};
 use crate::scene::xml::{XmlElement, XmlError};
@@ -83,7 +83,7 @@ impl<'e, 'a> SvgShape<'e, 'a> {
     /// A length in the file's own units; 0 where it is not given, or is none.
     fn length(&mut self, name: &str) -> Result<f64, XmlError> {
         let text = self.text(name)?;
-        let mut scan = Scan::of(&text);
+        let mut scan = TextScan::of(&text);
         let number = scan.number().filter(|number| number.is_finite());
         if !scan.is_empty() || (number.is_none() && !text.is_empty()) {
             self.with_units.push(text.chars().take(20).collect());
@@ -98,9 +98,9 @@ impl<'e, 'a> SvgShape<'e, 'a> {
 
     fn points(&self) -> Result<Vec<DVec2>, NoShape> {
         let text = self.text("points")?;
-        let mut scan = Scan::of(&text);
+        let mut scan = TextScan::of(&text);
         let mut points = Vec::new();
-        let wrong = |scan: &Scan<'_>| {
+        let wrong = |scan: &TextScan<'_>| {
             NoPath::Wrong(format!("`points` has `{}` where a number should be", scan.shown()))
         };
         while !scan.is_empty() {
@@ -164,7 +164,7 @@ impl<'e, 'a> SvgShape<'e, 'a> {
     /// The outlines of a line as wide as it is drawn.
     fn stroked(&self, line: &[DVec2]) -> Result<Vec<Vec<DVec2>>, NoShape> {
         let width = self.style("stroke-width")?;
-        let mut scan = Scan::of(&width);
+        let mut scan = TextScan::of(&width);
         let width = scan.number().filter(|&width| width >= THINNEST && width.is_finite() && scan.is_empty());
         let end = match &*self.style("stroke-linecap")? {
             "butt" => LineEnd::Flat,

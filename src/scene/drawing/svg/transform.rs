@@ -1,6 +1,6 @@
 //! The `transform` attribute.
 
-use super::scan::Scan;
+use super::scan::TextScan;
 use crate::math::{DAffine2, DMat2, DVec2};
 use crate::scene::degrees;
 
@@ -8,9 +8,9 @@ use crate::scene::degrees;
 /// another number of arguments than it takes is none, as in OpenSCAD.
 pub fn transform(text: &str) -> Result<DAffine2, String> {
     let mut map = DAffine2::IDENTITY;
-    let mut scan = Scan::of(text);
+    let mut scan = TextScan::of(text);
     while !scan.is_empty() {
-        let wrong = |scan: &Scan<'_>| format!("`transform` can not be read from `{}` on", scan.shown());
+        let wrong = |scan: &TextScan<'_>| format!("`transform` can not be read from `{}` on", scan.shown());
         let name = scan.word();
         let (mut numbers, at) = (Vec::new(), scan);
         if scan.letter(|letter| letter == '(').is_none() {

@@ -183,7 +183,7 @@ fn without_turbo_the_picture_comes_dot_by_dot() {
     pty.wait_for("how far it is", |pty| pty.text().contains(" 8 MHz "));
     pty.wait_for("a ray's stage", |pty| pty.text().contains('►'));
     pty.send("\x1b[15~");
-    pty.wait_for("all of it", |pty| pty.drawn() && !pty.text().contains('►'));
+    pty.wait_for("all of it", |pty| pty.text().contains("Turbo is on") && !pty.text().contains('►'));
     pty.send("q");
     pty.wait_for_end(0);
 }

@@ -28,7 +28,7 @@ impl Model {
         self.told = Some(if pace.turbo {
             format!("Turbo is on: as fast as it goes; off, as a PC/AT of {name}")
         } else {
-            format!("Turbo is off: dot by dot, as a PC/AT of {name}; , and . take another")
+            format!("Turbo is off: dot by dot, as a PC/AT of {name}; , and . take another, F5 all at once")
         });
     }
 

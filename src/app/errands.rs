@@ -1,6 +1,6 @@
 //! What takes its time, each on a thread of its own, so that no key waits for it.
 
-use std::fs::OpenOptions;
+use std::fs::{self, OpenOptions};
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::panic::{self, AssertUnwindSafe};
 use std::path::Path;
@@ -27,13 +27,23 @@ pub fn begin(events: Sender<Event>, errand: impl FnOnce() -> Done + Send + 'stat
 /// Adds a line at the end of a text file, which need not be there; gives what was done, in words.
 ///
 /// # Errors
-/// Why the file could not be written, in words.
+/// Why the file could not be written, in words: nor is one that is not of the scene language, or has a view
+/// of this name.
 pub fn append(path: &Path, line: &str) -> Result<String, String> {
+    if path.extension().is_none_or(|ending| ending != "scene") {
+        return Err("a view is a line of the scene language: name a file that ends in .scene".to_owned());
+    }
     let failed = |error: io::Error| format!("{} could not be written: {error}", path.display());
     let mut file = OpenOptions::new().read(true).append(true).create(true).open(path).map_err(failed)?;
     let mut last = [b'\n'];
     if file.metadata().map_err(failed)?.len() > 0 {
         file.seek(SeekFrom::End(-1)).and_then(|_| file.read_exact(&mut last)).map_err(failed)?;
+    }
+    let (head, _) = line.split_once(", eye").unwrap_or((line, ""));
+    let name = head.trim_start_matches("camera(");
+    let text = fs::read_to_string(path).map_err(failed)?;
+    if name.starts_with('"') && text.lines().any(|one| one.contains("camera(") && one.contains(name)) {
+        return Err(format!("{} has a view {name} already", path.display()));
     }
     let begin = if last == [b'\n'] { "" } else { "\n" };
     file.write_all(format!("{begin}{line}\n").as_bytes()).map_err(failed)?;
@@ -42,7 +52,6 @@ pub fn append(path: &Path, line: &str) -> Result<String, String> {
 
 #[cfg(test)]
 mod tests {
-    use std::fs;
     use std::sync::mpsc;
 
     use super::*;
@@ -56,7 +65,13 @@ mod tests {
         append(&path, "camera(2);").unwrap();
         append(&path, "camera(3);").unwrap();
         assert_eq!(fs::read_to_string(&path).unwrap(), "cube(1);\ncamera(2);\ncamera(3);\n");
-        assert!(append(folder.path(), "").unwrap_err().contains("could not be written"));
+        append(&path, "camera(\"a\", eye = 1);").unwrap();
+        let again = append(&path, "camera(\"a\", eye = 2);").unwrap_err();
+        assert!(again.contains("has a view \"a\" already"), "{again}");
+        assert!(append(&folder.path().join("a.nff"), "").unwrap_err().contains(".scene"));
+        let no_file = folder.path().join("b.scene");
+        fs::create_dir(&no_file).unwrap();
+        assert!(append(&no_file, "").unwrap_err().contains("could not be written"));
     }
 
     #[test]

@@ -133,7 +133,8 @@ impl Model {
     pub fn reload(&mut self, painter: &dyn Painter) {
         let scene = painter.scene();
         self.notes.clone_from(&scene.notes);
-        self.mistake = None;
+        // What was measured is another scene's.
+        (self.mistake, self.trade) = (None, None);
         self.views = scene.views.len();
         let is_named = |view: &Camera| view.name.is_some() && view.name == self.camera.name;
         let same = scene.views.iter().position(is_named);
@@ -191,7 +192,13 @@ impl Model {
             }
             return Effect::None;
         }
-        if self.opens(painter, action) { Effect::None } else { self.act(painter, action) }
+        let measured = self.trade.as_ref().map(|_| self.camera.clone());
+        let effect = if self.opens(painter, action) { Effect::None } else { self.act(painter, action) };
+        if self.trade.is_some() && measured.is_some_and(|camera| camera != self.camera) {
+            self.trade = None;
+            self.told = Some("what was measured is another view's: F6 measures this one".to_owned());
+        }
+        effect
     }
 
     fn act(&mut self, painter: &dyn Painter, action: Action) -> Effect {

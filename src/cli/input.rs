@@ -82,7 +82,8 @@ pub fn read_watched(file: &str, reading: &ReadingArguments, onlooker: &Onlooker)
         return read_program(file, Program::File(Path::new(file)), options, reading, onlooker);
     }
     // The viewer has a screen that says what it is at.
-    let waiting = onlooker.progress.is_none().then(|| Waiting::new(file));
+    let is_silent = onlooker.has_screen || onlooker.progress.is_some();
+    let waiting = (!is_silent).then(|| Waiting::new(file));
     let read = scene::read_file(Path::new(file), options);
     drop(waiting);
     match read {

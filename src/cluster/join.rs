@@ -49,24 +49,23 @@ pub enum JoinError {
         other: String,
     },
     /// Some are not there.
-    #[error("{}", missing(.numbers, *.of))]
+    #[error("{}", missing(.numbers, *.more, *.of))]
     Missing {
-        /// Their numbers.
+        /// Their numbers, the first few of them.
         numbers: Vec<u32>,
+        /// How many there are besides.
+        more: u32,
         /// How many there have to be.
         of: u32,
     },
 }
 
-/// So many of the parts that are missing are told by number.
+/// So many of the parts that are missing are told by number: a line holds them.
 const TOLD: usize = 8;
 
-fn missing(numbers: &[u32], of: u32) -> String {
-    let told: Vec<String> = numbers.iter().take(TOLD).map(|number| format!("{number}/{of}")).collect();
-    let more = match numbers.len().saturating_sub(TOLD) {
-        0 => String::new(),
-        more => format!(" and {more} more"),
-    };
+fn missing(numbers: &[u32], more: u32, of: u32) -> String {
+    let told: Vec<String> = numbers.iter().map(|number| format!("{number}/{of}")).collect();
+    let more = if more == 0 { String::new() } else { format!(" and {more} more") };
     format!("not all parts are there: draw --part {}{more}", told.join(", "))
 }
 
@@ -111,8 +110,13 @@ impl Joining {
     /// The picture, without characters, when all parts are there.
     pub fn finish(self) -> Result<Frame, JoinError> {
         let of = self.about.share.of();
-        let numbers: Vec<u32> = (1..=of).filter(|number| !self.names.contains_key(number)).collect();
-        if numbers.is_empty() { Ok(self.frame) } else { Err(JoinError::Missing { numbers, of }) }
+        let missing = of - self.names.len() as u32;
+        if missing == 0 {
+            return Ok(self.frame);
+        }
+        let absent = (1..=of).filter(|number| !self.names.contains_key(number));
+        let numbers: Vec<u32> = absent.take(TOLD).collect();
+        Err(JoinError::Missing { more: missing - numbers.len() as u32, numbers, of })
     }
 
     /// What the first part is called.

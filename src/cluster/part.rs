@@ -133,7 +133,7 @@ impl PartAbout {
             Some(Self {
                 picture: PictureDigest::from_digits(value["picture"].as_str()?)?,
                 share: TileShare::new(number(&value["part"])?, number(&value["of"])?)?,
-                dots: (area <= MOST_DOTS as u64).then_some(dots)?,
+                dots: (1..=MOST_DOTS as u64).contains(&area).then_some(dots)?,
                 channels: DotChannels {
                     color: value["color"].as_bool()?,
                     depth: value["depth"].as_bool()?,

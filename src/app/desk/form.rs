@@ -23,6 +23,8 @@ pub struct DialogForm {
     pub width: u16,
     /// Where the keys go: a field by its number, then a button.
     pub focus: usize,
+    /// The line that letters are typed into while the keys go to a list; without one they are hot letters.
+    pub typed_into: Option<usize>,
 }
 
 /// A field and what is said of it.
@@ -100,7 +102,7 @@ impl FormField {
 impl DialogForm {
     /// A form whose keys go to its first field.
     pub fn new(title: &'static str, fields: Vec<FormField>, buttons: Vec<&'static str>) -> Self {
-        Self { title, fields, buttons, message: None, width: 64, focus: 0 }
+        Self { title, fields, buttons, message: None, width: 64, focus: 0, typed_into: None }
     }
 
     /// The text of a field; that of the row chosen where it is a list.
@@ -167,6 +169,11 @@ impl DialogForm {
                     return FormEvent::Changed(focus);
                 }
             }
+            Some(FieldInput::List(_)) if matches!(code, KeyCode::Char(_)) && self.typed_into.is_some() => {
+                self.focus = self.typed_into.unwrap_or(focus);
+                self.refresh();
+                return self.take_inside(code, key);
+            }
             Some(FieldInput::List(list)) => {
                 let last = list.rows.len().saturating_sub(1);
                 let next = match code {
@@ -219,6 +226,7 @@ impl DialogForm {
             return FormEvent::Nothing;
         };
         self.focus = found;
+        self.refresh();
         match found.checked_sub(self.fields.len()) {
             Some(button) => FormEvent::Pressed(button),
             None => FormEvent::Nothing,
@@ -235,8 +243,16 @@ impl DialogForm {
             };
             let told = self.fields.get(self.focus).map(|field| &field.input);
             if !matches!(told, Some(FieldInput::Told(_))) {
-                return;
+                break;
             }
+        }
+        self.refresh();
+    }
+
+    /// The first letter typed into a line that the keys have come to replaces what is there.
+    fn refresh(&mut self) {
+        if let Some(FieldInput::Line(line)) = self.fields.get_mut(self.focus).map(|field| &mut field.input) {
+            line.refresh();
         }
     }
 }

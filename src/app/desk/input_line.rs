@@ -26,6 +26,11 @@ impl InputLine {
         Self { at: letters.len(), letters, fresh: true }
     }
 
+    /// The first letter typed replaces the text again.
+    pub const fn refresh(&mut self) {
+        (self.at, self.fresh) = (self.letters.len(), true);
+    }
+
     /// The text.
     pub fn text(&self) -> String {
         self.letters.iter().collect()

@@ -22,7 +22,8 @@ pub struct LineDialog {
 impl LineDialog {
     /// Shows the line of a camera.
     pub fn new(camera: Camera) -> Self {
-        let name = camera.name.clone().unwrap_or_else(|| "view".to_owned());
+        // The scene has a view of its own name.
+        let name = camera.name.as_ref().map_or_else(|| "view".to_owned(), |name| format!("{name} 2"));
         let fields = vec![
             FormField::line("&Name", "What the view is called", &name),
             FormField::told("Line", String::new()),

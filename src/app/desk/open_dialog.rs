@@ -8,7 +8,8 @@ use super::order::{DeskCommand, DeskEvent};
 use crate::scene::embedded;
 
 const PATH: usize = 0;
-const LIST: usize = 1;
+const FOLDER: usize = 1;
+const LIST: usize = 2;
 
 /// The endings of files that the readers know by their content; any other can be typed.
 const ENDINGS: [&str; 10] = ["scene", "csg", "scad", "nff", "stl", "obj", "off", "ply", "3mf", "amf"];
@@ -31,11 +32,17 @@ impl OpenDialog {
         let hint = "A path, or the name of a scene inside the program; Enter opens it";
         let fields = vec![
             FormField::line("&Path", hint, ""),
-            FormField::list("&Scenes", "Enter opens the scene, or goes into the folder", Vec::new(), 0),
+            FormField::told("In", String::new()),
+            FormField::list(
+                "&Scenes",
+                "Enter opens the scene, or goes into the folder; letters begin a path",
+                Vec::new(),
+                0,
+            ),
         ];
         let form = DialogForm::new("OPEN", fields, vec!["&OK", "Cancel"]);
         let mut dialog = Self { form, names: Vec::new() };
-        dialog.form.focus = LIST;
+        (dialog.form.focus, dialog.form.typed_into) = (LIST, Some(PATH));
         dialog.go_into(folder);
         dialog
     }
@@ -88,6 +95,7 @@ impl OpenDialog {
         rows.extend(inside);
         let (rows, names) = rows.into_iter().unzip();
         self.names = names;
+        self.form.set(FOLDER, FieldInput::Told(folder.to_string_lossy().into_owned()));
         self.form.set(LIST, FieldInput::List(ChoiceList { rows, chosen: 0 }));
         self.write_chosen();
     }

@@ -84,7 +84,7 @@ impl Fast<'_> {
         }
         let TileMemory { mesh: rays, mesh_walks, frustums, counts, .. } = memory;
         let Some(Some(frustum)) = frustums.get(k) else { return nothing_known };
-        let nearest = &mut NearestTriangles { mesh: of.mesh, rays: &mut **rays };
+        let nearest = &mut NearestTriangles { mesh: of.mesh, rays };
         if mesh_walks.walk(simd, of, (frustum, wanted), nearest, counts) {
             return simd.vectorize(
                 #[inline(always)]

@@ -19,9 +19,10 @@ pub struct BezierPatches {
 /// Patches are cut into so many pieces at most for rays; where they are more themselves, they are not cut.
 const MOST_PIECES: usize = 1 << 14;
 
-/// So often a patch is cut in four at most. A piece of a patch that bends by a quarter turn is flat to a
-/// hundredth of its size then, and mostly crossed by a ray once at most.
-const MOST_CUTS: u32 = 3;
+/// So often a patch is cut in four at most. A piece of a patch that bends by a quarter turn is flat to half a
+/// hundredth of its size then, and mostly crossed by a ray once at most. With 3 cuts the teapot has 2.4
+/// times as many rays in doubt, which are asked one by one.
+const MOST_CUTS: u32 = 4;
 
 /// The sides of a patch: the places of their control points in its four rows of four.
 const SIDES: [[usize; 4]; 4] = [[0, 1, 2, 3], [3, 7, 11, 15], [15, 14, 13, 12], [12, 8, 4, 0]];

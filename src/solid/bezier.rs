@@ -20,6 +20,7 @@ use crate::scene;
 
 use super::bezier_cell::{Cell, range};
 use super::bezier_piece::{LyingPiece, Nets, Piece, nearest, normals};
+use super::bezier_shell::Shell;
 use super::bezier_steep::Flatness;
 use super::ray_shear::RayShear;
 use super::span::{End, WORLD, rounding_at};
@@ -37,6 +38,13 @@ const MOST_CELLS: usize = 4096;
 
 /// Within a factor of this a crossing's error is known: more exactly would take more halving.
 const SLOPES: f64 = 4.0;
+
+/// A line so far from all control points passes beside them whatever rounding does, and so does the rim of
+/// what they make: four times what either point may be off, and what rounding takes from two products and a
+/// sum.
+fn apart_from(place_error: f64) -> f64 {
+    4.0 * place_error
+}
 
 /// A surface of Bézier patches, in the world.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,7 +85,9 @@ impl BezierSurface {
         let bounds = pieces.iter().fold(Bounds::EMPTY, |b, piece| b.join(&piece.bounds()));
         let lying = |&old: &u32| {
             let piece = pieces[old as usize];
-            LyingPiece { piece, flatness: Flatness::of(&piece.points, place_error) }
+            let apart = apart_from(place_error);
+            let flatness = Flatness::of(&piece.points, place_error, apart);
+            LyingPiece { piece, flatness, shell: Shell::around(&piece.points, flatness.axis, apart) }
         };
         let pieces: Vec<LyingPiece> = order.iter().map(lying).collect();
         let uv_digits = (pieces.len().max(1) as u32 - 1).leading_zeros() / 2;
@@ -103,7 +113,10 @@ impl BezierSurface {
         open: &mut Vec<Cell>,
         found: &mut impl FnMut(End),
     ) {
-        let LyingPiece { piece, flatness } = &self.pieces[number as usize];
+        let LyingPiece { piece, flatness, shell } = &self.pieces[number as usize];
+        if shell.is_beside(ray.o.into(), ray.d.into()) {
+            return;
+        }
         let [mut x, mut y, mut along] = [[0.0; 16]; 3];
         for (i, &p) in piece.points.iter().enumerate() {
             [x[i], y[i], along[i]] = shear.sheared(p);
@@ -147,14 +160,15 @@ impl BezierSurface {
         open.push(Cell::whole(x, y, along));
         let mut looked_at = 0;
         while let Some(cell) = open.pop() {
-            if cell.is_beside() {
+            if cell.is_beside() || cell.is_apart(apart_from(self.place_error)) {
                 continue;
             }
             looked_at += 1;
-            let slopes = cell.slopes(shear.shear);
-            if slopes.is_some() && !cell.is_crossed_odd() {
+            let is_crossed_once = cell.is_crossed_once();
+            if is_crossed_once && !cell.is_crossed_odd() {
                 continue;
             }
+            let slopes = is_crossed_once.then(|| cell.slopes(shear.shear));
             if let Some(slopes) = slopes.filter(|s| s.most <= SLOPES * s.least.max(1.0))
                 && let Some(root) = cell.root(self.fine)
             {

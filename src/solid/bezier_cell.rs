@@ -196,9 +196,8 @@ impl Cell {
     /// Whether all points lie within `fine` of the line through the two corners that are farthest apart.
     fn is_thin(&self, fine: f64) -> bool {
         let corner = |a: usize, b: usize| [self.x[b] - self.x[a], self.y[b] - self.y[a]];
+        let long = self.longest_way();
         let square = |[x, y]: [f64; 2]| x * x + y * y;
-        let ways = [corner(0, 15), corner(3, 12), corner(0, 3), corner(0, 12)];
-        let long = ways.into_iter().fold([0.0; 2], |a, b| if square(b) > square(a) { b } else { a });
         let limit = fine * square(long).sqrt();
         (0..16).all(|i| {
             let p = corner(0, i);
@@ -210,46 +209,103 @@ impl Cell {
         })
     }
 
-    /// The slopes of the cell, if no ray of this direction can cross it twice.
+    /// Whether no ray of this direction can cross the cell twice.
     ///
     /// Two points of the cell differ by a mean of its differences along `u` times the step in `u`, and one of
     /// those along `v` times the step in `v`. Where each of the former turns the same way round to each of
-    /// the latter as seen along the ray, so do the means, and the points are not on one ray. The same weights
-    /// make the normals of these pairs a normal of the chord: a chord from one point to another, and so the
-    /// way that a crossing moves with the surface, is no steeper than the steepest pair. Along a side that is
-    /// one point differences are 0, and of no weight elsewhere.
-    pub fn slopes(&self, shear: [f64; 2]) -> Option<Slopes> {
-        let differences = |step: fn(&Net, usize) -> f64| -> [[f64; 3]; 12] {
-            std::array::from_fn(|i| [step(&self.x, i), step(&self.y, i), step(&self.along, i)])
-        };
-        let (by_u, by_v) = (differences(along_u), differences(along_v));
-        let is_some = |step: &&[f64; 3]| **step != [0.0; 3];
-        // Most cells that are no part of the answer are told by this.
-        let mut turns = [false; 2];
-        for u in by_u.iter().filter(is_some) {
-            for v in by_v.iter().filter(is_some) {
-                let (left, right) = (u[0] * v[1], u[1] * v[0]);
-                let (across, bound) = (left - right, SIGN * (left.abs() + right.abs()));
-                turns = [turns[0] || across > bound, turns[1] || across < -bound];
+    /// the latter as seen along the ray, so do the means, and the points are not on one ray. Along a side that
+    /// is one point differences are 0, and of no weight elsewhere.
+    pub fn is_crossed_once(&self) -> bool {
+        let [by_u, by_v] = self.differences();
+        let mut turns = [true; 2];
+        for i in 0..12 {
+            let u = [by_u[0][i], by_u[1][i]];
+            // All of a row, without a branch, so that several are compared at a time.
+            let [mut left, mut right] = [true; 2];
+            for j in 0..12 {
+                let (up, down) = (u[0] * by_v[1][j], u[1] * by_v[0][j]);
+                let (across, bound) = (up - down, SIGN * (up.abs() + down.abs()));
                 // What is not a number is not known to turn.
-                let is_certain = across.abs() > bound;
-                if !is_certain || turns == [true; 2] {
-                    return None;
-                }
+                left &= across > bound;
+                right &= across < -bound;
+            }
+            turns = [turns[0] & left, turns[1] & right];
+            if turns == [false; 2] {
+                return false;
             }
         }
+        true
+    }
+
+    /// The slopes of the cell, if no ray of this direction can cross it twice. The same weights as above make
+    /// the normals of pairs of differences a normal of the chord: a chord from one point to another, and so
+    /// the way that a crossing moves with the surface, is no steeper than the steepest pair.
+    pub fn slopes(&self, shear: [f64; 2]) -> Slopes {
+        let [by_u, by_v] = self.differences();
         let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
-        for u in by_u.iter().filter(is_some) {
-            for v in by_v.iter().filter(is_some) {
+        for i in 0..12 {
+            let u = [by_u[0][i], by_u[1][i], by_u[2][i]];
+            let mut squares = [0.0; 12];
+            for (j, square) in squares.iter_mut().enumerate() {
+                let v = [by_v[0][j], by_v[1][j], by_v[2][j]];
                 let across = u[0] * v[1] - u[1] * v[0];
                 let [x, y] = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2]];
                 // In the world: what the shear did to points its transpose undoes to normals.
                 let main = across - shear[0] * x - shear[1] * y;
-                let square = (main * main + x * x + y * y) / (across * across);
+                *square = (main * main + x * x + y * y) / (across * across);
+            }
+            for square in squares {
                 (least, most) = (least.min(square), most.max(square));
             }
         }
-        (most > 0.0).then(|| Slopes { least: least.sqrt(), most: most.sqrt() })
+        Slopes { least: least.sqrt(), most: most.sqrt() }
+    }
+
+    /// The differences of neighbours along `u` and along `v`, by axis. One that is 0 is left out: another
+    /// stands in its place.
+    fn differences(&self) -> [[[f64; 12]; 3]; 2] {
+        let mut both = [[[0.0; 12]; 3]; 2];
+        for (axis, net) in [&self.x, &self.y, &self.along].into_iter().enumerate() {
+            for i in 0..12 {
+                both[0][axis][i] = along_u(net, i);
+                both[1][axis][i] = along_v(net, i);
+            }
+        }
+        for all in &mut both {
+            let is_none =
+                |all: &[[f64; 12]; 3], i: usize| all[0][i] == 0.0 && all[1][i] == 0.0 && all[2][i] == 0.0;
+            let Some(some) = (0..12).find(|&i| !is_none(all, i)) else { continue };
+            for i in 0..12 {
+                if is_none(all, i) {
+                    for steps in all.iter_mut() {
+                        steps[i] = steps[some];
+                    }
+                }
+            }
+        }
+        both
+    }
+
+    /// Whether all points lie on one side of a line through the ray that runs as the longest way between
+    /// corners does, farther from it than `apart`.
+    pub fn is_apart(&self, apart: f64) -> bool {
+        let [x, y] = self.longest_way();
+        let limit = apart * (x * x + y * y).sqrt();
+        let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+        for i in 0..16 {
+            let height = self.y[i] * x - self.x[i] * y;
+            least = if height < least { height } else { least };
+            most = if height > most { height } else { most };
+        }
+        least > limit || most < -limit
+    }
+
+    /// Across the ray, from the corner to the corner that are farthest apart.
+    fn longest_way(&self) -> [f64; 2] {
+        let square = |[x, y]: [f64; 2]| x * x + y * y;
+        let way = |a: usize, b: usize| [self.x[b] - self.x[a], self.y[b] - self.y[a]];
+        let ways = [way(0, 15), way(3, 12), way(0, 3), way(0, 12)];
+        ways.into_iter().fold([0.0; 2], |a, b| if square(b) > square(a) { b } else { a })
     }
 
     /// Where the ray crosses the cell, which it does once, to within `fine`; none where Newton's method does

@@ -101,13 +101,17 @@ impl BezierPacket {
         if asking == 0 {
             return;
         }
-        let (LyingPiece { piece, flatness }, fine) = patches.piece(number);
+        let (LyingPiece { piece, flatness, shell }, fine) = patches.piece(number);
         for register in 0..REGISTERS {
             let own = asking >> (register * LANES) & 0xFF;
             if own == 0 {
                 continue;
             }
-            let own = mask_of(simd, asking, register);
+            let rays = packet.load(simd, register);
+            let own = mask_of(simd, asking, register) & !shell.is_beside(rays.o, rays.d);
+            if !own.any() {
+                continue;
+            }
             let row = shear.load::<S, MAIN>(simd, packet, register);
             let zero = f64x8::splat(simd, 0.0);
             let mut nets = [[zero; 16]; 3];
@@ -115,7 +119,7 @@ impl BezierPacket {
                 let [x, y, along] = row.sheared(p);
                 (nets[0][i], nets[1][i], nets[2][i]) = (x, y, along);
             }
-            let d = packet.load(simd, register).d;
+            let d = rays.d;
             let met = flatness.meet(&nets, d, MAIN, fine);
             let hits = met.hits & own;
             if hits.any() {

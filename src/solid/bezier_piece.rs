@@ -3,6 +3,7 @@
 use crate::math::{Bounds, DVec3, Mask, Number, Vector};
 
 use super::bezier_cell::{Net, evaluated, net_halves};
+use super::bezier_shell::Shell;
 use super::bezier_steep::Flatness;
 
 /// A patch by its control points: four rows of four.
@@ -16,6 +17,7 @@ pub(super) struct Piece {
 pub(super) struct LyingPiece {
     pub piece: Piece,
     pub flatness: Flatness,
+    pub shell: Shell,
 }
 
 /// The control points of a piece, or of a piece each for several rays: by axis, four rows of four.

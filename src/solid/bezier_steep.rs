@@ -67,8 +67,9 @@ impl Flatness {
     const UNKNOWN: Self =
         Self { axis: DVec3::ZERO, spread: 0.0, steep: f64::INFINITY, slip: 0.0, margin: 0.0, apart: 0.0 };
 
-    /// Of a piece with these control points, which may be off by `place_error`.
-    pub fn of(points: &[DVec3; 16], place_error: f64) -> Self {
+    /// Of a piece with these control points, which may be off by `place_error`. A line farther `apart` from
+    /// them than this passes beside.
+    pub fn of(points: &[DVec3; 16], place_error: f64, apart: f64) -> Self {
         let wide = extended(points);
         let steps = |stride: usize, places: [usize; 12]| places.map(|i| wide[i + stride] - wide[i]);
         let by_u = steps(1, [0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14]);
@@ -86,8 +87,6 @@ impl Flatness {
         let squares = longest(&by_u) + longest(&by_v);
         // What is not a number is not known.
         let is_plain = least > THIN * squares && spread < 0.5;
-        // Four times what either point may be off, and what rounding takes from two products and a sum.
-        let apart = 4.0 * place_error;
         if !is_plain {
             return Self { axis, apart, ..Self::UNKNOWN };
         }
@@ -254,7 +253,7 @@ mod tests {
     #[test]
     fn a_ray_down_onto_a_piece_is_decided_all_over() {
         let points = bent(0.2);
-        let flatness = Flatness::of(&points, 1e-15);
+        let flatness = Flatness::of(&points, 1e-15, 4e-15);
         assert!(flatness.spread < 0.3 && flatness.steep < 0.5, "{flatness:?}");
         for (x, y) in
             [(0.5, 0.5), (0.01, 0.99), (0.3, 0.8), (1.01, 0.5), (-0.4, 0.2), (3.0, 3.0), (0.5, -0.001)]
@@ -271,7 +270,7 @@ mod tests {
     #[test]
     fn nothing_is_said_through_the_rim_or_along_the_piece() {
         let points = bent(0.3);
-        let flatness = Flatness::of(&points, 1e-15);
+        let flatness = Flatness::of(&points, 1e-15, 4e-15);
         let from = DVec3::new(0.0, 0.5, 5.0);
         let onto_rim = flatness.meet(&nets(&points, from), DVec3::NEG_Z.into(), 2, 1e-15);
         assert!(!onto_rim.hits && !onto_rim.beside);
@@ -286,9 +285,9 @@ mod tests {
 
     #[test]
     fn of_a_piece_that_is_folded_or_flat_to_a_line_nothing_is_known() {
-        assert_eq!(Flatness::of(&bent(20.0), 1e-15).steep, f64::INFINITY);
+        assert_eq!(Flatness::of(&bent(20.0), 1e-15, 4e-15).steep, f64::INFINITY);
         let line: [DVec3; 16] = std::array::from_fn(|i| DVec3::X * i as f64);
-        assert_eq!(Flatness::of(&line, 1e-15).steep, f64::INFINITY);
-        assert_eq!(Flatness::of(&[DVec3::ONE; 16], 1e-15).steep, f64::INFINITY);
+        assert_eq!(Flatness::of(&line, 1e-15, 4e-15).steep, f64::INFINITY);
+        assert_eq!(Flatness::of(&[DVec3::ONE; 16], 1e-15, 4e-15).steep, f64::INFINITY);
     }
 }

@@ -8,6 +8,7 @@ mod bezier_cell;
 mod bezier_edge;
 mod bezier_packet;
 mod bezier_piece;
+mod bezier_shell;
 mod bezier_steep;
 mod classification;
 mod crossing;

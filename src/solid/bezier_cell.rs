@@ -213,8 +213,8 @@ impl Cell {
     ///
     /// Two points of the cell differ by a mean of its differences along `u` times the step in `u`, and one of
     /// those along `v` times the step in `v`. Where each of the former turns the same way round to each of
-    /// the latter as seen along the ray, so do the means, and the points are not on one ray. Along a side that
-    /// is one point differences are 0, and of no weight elsewhere.
+    /// the latter as seen along the ray, so do the means, and the points are not on one ray. Along a side
+    /// that is one point differences are 0, and of no weight elsewhere.
     pub fn is_crossed_once(&self) -> bool {
         let [by_u, by_v] = self.differences();
         let mut turns = [true; 2];

@@ -1,5 +1,5 @@
-//! What a piece of a Bézier patch lies in: a ball, and a slab across its mean normal. Most rays that come near
-//! its box are told by these, for a tenth of what its control points cost, to pass beside it.
+//! What a piece of a Bézier patch lies in: a ball, and a slab across its mean normal. Most rays that come
+//! near its box are told by these, for a tenth of what its control points cost, to pass beside it.
 
 use crate::math::{Bounds, DVec3, Number, Vector};
 
@@ -26,8 +26,8 @@ impl Shell {
 
     /// Which lines certainly pass beside it, from `o` along `d`, of length 1.
     ///
-    /// The slab is looked at along the ray: by the plane that holds the ray and leans as little as it can from
-    /// the slab's. A point of the ball and the slab is no farther from the middle across that plane than half
+    /// The slab is looked at along the ray: by the plane that holds the ray and leans as little as it can
+    /// from the slab's. A point of the ball and the slab is no farther from the middle across that plane than half
     /// the slab's height and the radius times the sine of the angle between ray and slab.
     #[inline(always)]
     pub fn is_beside<N: Number>(&self, o: Vector<N>, d: Vector<N>) -> N::Mask {

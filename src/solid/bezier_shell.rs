@@ -27,8 +27,8 @@ impl Shell {
     /// Which lines certainly pass beside it, from `o` along `d`, of length 1.
     ///
     /// The slab is looked at along the ray: by the plane that holds the ray and leans as little as it can
-    /// from the slab's. A point of the ball and the slab is no farther from the middle across that plane than half
-    /// the slab's height and the radius times the sine of the angle between ray and slab.
+    /// from the slab's. A point of the ball and the slab is no farther from the middle across that plane
+    /// than half the slab's height and the radius times the sine of the angle between ray and slab.
     #[inline(always)]
     pub fn is_beside<N: Number>(&self, o: Vector<N>, d: Vector<N>) -> N::Mask {
         let way = o - self.center;

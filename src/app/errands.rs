@@ -1,12 +1,13 @@
 //! What takes its time, each on a thread of its own, so that no key waits for it.
 
-use std::fs::{self, OpenOptions};
-use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::fs::OpenOptions;
+use std::io::{self, Read, Write};
 use std::panic::{self, AssertUnwindSafe};
 use std::path::Path;
 use std::sync::mpsc::Sender;
 use std::thread;
 
+use super::desk::camera_line;
 use super::done::Done;
 use super::events::Event;
 
@@ -35,23 +36,21 @@ pub fn append(path: &Path, line: &str) -> Result<String, String> {
     }
     let failed = |error: io::Error| format!("{} could not be written: {error}", path.display());
     let mut file = OpenOptions::new().read(true).append(true).create(true).open(path).map_err(failed)?;
-    let mut last = [b'\n'];
-    if file.metadata().map_err(failed)?.len() > 0 {
-        file.seek(SeekFrom::End(-1)).and_then(|_| file.read_exact(&mut last)).map_err(failed)?;
-    }
-    let (head, _) = line.split_once(", eye").unwrap_or((line, ""));
-    let name = head.trim_start_matches("camera(");
-    let text = fs::read_to_string(path).map_err(failed)?;
-    if name.starts_with('"') && text.lines().any(|one| one.contains("camera(") && one.contains(name)) {
+    let mut text = String::new();
+    file.read_to_string(&mut text).map_err(failed)?;
+    if let Some(name) = camera_line::name_in(line)
+        && text.lines().any(|one| one.contains("camera(") && one.contains(name))
+    {
         return Err(format!("{} has a view {name} already", path.display()));
     }
-    let begin = if last == [b'\n'] { "" } else { "\n" };
+    let begin = if text.is_empty() || text.ends_with('\n') { "" } else { "\n" };
     file.write_all(format!("{begin}{line}\n").as_bytes()).map_err(failed)?;
     Ok(format!("added to {}", path.display()))
 }
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
     use std::sync::mpsc;
 
     use super::*;

@@ -99,19 +99,11 @@ fn shown(render: &RenderArguments) -> Vec<String> {
     valued.chain(switches.map(|(option, _)| format!("--{option}"))).collect()
 }
 
-/// The options of [`shown`].
-const SHOWN: [&str; 9] =
-    ["format", "channel", "preset", "glyphs", "palette", "tone", "levels", "invert", "no-invert"];
-
-/// What [`shown`] has made options of.
-fn meant(shown: &[String]) -> Result<RenderArguments, CliError> {
-    let is_shown = |word: &String| {
-        let option = word.strip_prefix("--").and_then(|option| option.split('=').next());
-        option.is_some_and(|option| SHOWN.contains(&option))
-    };
-    let words = ["ray13", "render", "-"].into_iter().chain(shown.iter().map(String::as_str));
+/// What [`shown`] has made options of, and nothing else.
+fn meant(options: &[String]) -> Result<RenderArguments, CliError> {
+    let words = ["ray13", "render", "-"].into_iter().chain(options.iter().map(String::as_str));
     match Arguments::try_parse_from(words).map(|arguments| arguments.command) {
-        Ok(Some(Command::Render(render))) if shown.iter().all(is_shown) => Ok(render),
+        Ok(Some(Command::Render(render))) if shown(&render) == options => Ok(render),
         _ => Err(CliError::Input("the parts say nothing that ray13 knows of how they are shown".into())),
     }
 }

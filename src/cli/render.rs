@@ -6,7 +6,6 @@ use std::time::Instant;
 use clap::ValueEnum;
 
 use crate::frame::{Frame, Wants};
-use crate::plan::PrecisionChoice;
 use crate::scene::{FilesRead, Scene};
 
 use super::arguments::{PictureArguments, ReadingArguments, RenderArguments, SceneArguments, StillFormat};
@@ -16,7 +15,7 @@ use super::input::Onlooker;
 use super::openscad::OpenScadRun;
 use super::picture::Unsized;
 use super::reload::WatchedScene;
-use super::still::{Values, encoded, look, still_of, wants};
+use super::still::{Values, encoded, look, settle_precision, still_of, wants};
 use super::write::{Destination, print};
 use super::{input, join, stats, terminal};
 
@@ -84,10 +83,7 @@ fn draw(
     let look = look(&arguments.picture, format, terminal);
     let size = if format.is_pixels() { Unsized::Pixels } else { Unsized::Screen };
     let mut request = arguments.picture.request(&studio, look, wants(still), size)?;
-    // Raw values are for whoever computes with them.
-    if format == StillFormat::Pfm && request.options.precision == PrecisionChoice::Auto {
-        request.options.precision = PrecisionChoice::Double;
-    }
+    settle_precision(&mut request, format);
     let mut frame = match arguments.part {
         None => studio.draw(&request),
         Some(share) => studio.draw_share(&request, share),

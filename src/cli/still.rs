@@ -27,12 +27,17 @@ pub fn of_view(painter: &dyn Painter, shown: &Request, format: StillFormat) -> R
     if format == StillFormat::Txt {
         request.palette = Palette::Mono(Ground::Dark).for_glyphs(request.glyphs, Ground::Dark);
     }
-    if format == StillFormat::Pfm && request.options.precision == PrecisionChoice::Auto {
-        request.options.precision = PrecisionChoice::Double;
-    }
+    settle_precision(&mut request, format);
     let raw = Values::Raw(RawChannel::Light);
     let values = if format == StillFormat::Pfm { raw } else { Values::Toned };
     encoded(&painter.draw(&request), request.palette, request.tone, format, values)
+}
+
+/// Takes all digits where nobody asks for fewer and values are raw: these are for whoever computes with them.
+pub fn settle_precision(request: &mut Request, format: StillFormat) {
+    if format == StillFormat::Pfm && request.options.precision == PrecisionChoice::Auto {
+        request.options.precision = PrecisionChoice::Double;
+    }
 }
 
 /// What is shown of light in pixels and raw values.

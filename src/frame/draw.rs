@@ -242,13 +242,14 @@ impl<C: Channel> Work<C> for Shared<'_> {
         let picture = dots.assembly();
         let workers = Workers::new(wants, accuracy.is_some());
         let own = share.tiles(picture.size());
+        let all = accuracy.map(|_| tiles(picture.size()));
         // Which dots need more rays, those around them say.
-        let tiles = if accuracy.is_some() { tiles(picture.size()) } else { own.clone() };
-        progress.begin(Task::Tracing, tiles.len() as u64);
-        let drawn = tiles.into_par_iter().map(|tile| {
-            let watch = if is_timed(&tile) { Stopwatch::start(Stage::Ray) } else { Stopwatch::still() };
+        let drawn = all.as_ref().unwrap_or(&own);
+        progress.begin(Task::Tracing, drawn.len() as u64);
+        let drawn = drawn.par_iter().map(|tile| {
+            let watch = if is_timed(tile) { Stopwatch::start(Stage::Ray) } else { Stopwatch::still() };
             workers.with(renderer, |Worker { memory, finished, .. }| {
-                if !renderer.render(&tile, watch, memory, finished) {
+                if !renderer.render(tile, watch, memory, finished) {
                     return Self::Done::default();
                 }
                 picture.take(finished);

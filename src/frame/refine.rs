@@ -150,7 +150,8 @@ pub(super) fn open_dots<C: Channel>(first: &FirstRays, accuracy: Accuracy, own: 
     let of_tile = |tile: Tile| {
         let mut open = Vec::new();
         for (column, row) in tile.dots() {
-            if is_beside_own(column, row) && (first.small[(column, row)] || !is_flat(column, row)) {
+            // Most dots are flat: that is asked first.
+            if (first.small[(column, row)] || !is_flat(column, row)) && is_beside_own(column, row) {
                 let is_own = is_own(column, row);
                 open.extend(first.open_dot(column, row, accuracy).map(|dot| OpenDot { is_own, ..dot }));
             }

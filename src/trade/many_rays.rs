@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use crate::frame::{Frame, Request, Studio};
-use crate::glyph::{self, Cell, Palette};
+use crate::glyph::{self, Cell};
 use crate::math::{DVec3, Grid};
 use crate::plan::EngineChoice;
 use crate::stage::GiveUp;
@@ -45,12 +45,8 @@ impl MeanLight {
 
     /// Its characters, as a request wants them.
     pub fn composed(&self, request: &Request) -> Grid<Cell> {
-        match (&self.color, request.palette) {
-            (Some(color), Palette::Color(depth)) => {
-                glyph::compose_color(color, request.glyphs, depth, request.tone)
-            }
-            _ => glyph::compose(&self.light, request.glyphs, request.palette, request.tone),
-        }
+        let color = self.color.as_deref();
+        glyph::compose_dots(&self.light, color, request.glyphs, request.palette, request.tone)
     }
 }
 

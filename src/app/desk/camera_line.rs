@@ -24,6 +24,12 @@ pub fn line(name: &str, camera: &Camera) -> String {
     line + ");"
 }
 
+/// The name in a line that [`line`] has made, in its quotes; absent where it has none.
+pub fn name_in(line: &str) -> Option<&str> {
+    let name = line.strip_prefix("camera(")?.split_once(", eye")?.0;
+    name.starts_with('"').then_some(name)
+}
+
 /// The name as the first argument; nothing where there is none.
 fn quoted(name: &str) -> String {
     if name.is_empty() {

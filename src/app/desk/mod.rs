@@ -1,6 +1,6 @@
 //! What opens over the screen of a DOS program: pull-down menus, and dialogs with a shadow.
 
-mod camera_line;
+pub mod camera_line;
 mod form;
 mod form_view;
 mod glyph_dialog;

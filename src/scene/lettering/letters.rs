@@ -7,6 +7,8 @@ use std::sync::Arc;
 use harfrust::{Buffer, Direction, Font, FontFuncs, Language, Script, ShapeOptions, ShaperFont};
 use skrifa::instance::{LocationRef, Size};
 use skrifa::outline::{DrawSettings, HintingInstance, HintingOptions};
+use skrifa::raw::TableProvider;
+use skrifa::raw::tables::head::{Flags, Head};
 use skrifa::{FontRef, GlyphId, MetadataProvider};
 
 use super::curve_pen::CurvePen;
@@ -107,7 +109,7 @@ pub fn written(
     let collection = font.outline_glyphs();
     // As FreeType does unasked, letters are fitted to the dots of that size: half a dot is 0.0003 of the
     // size.
-    let size = Size::new(EM as f32 / 64.0);
+    let size = size_of(&font);
     let hinting = HintingInstance::new(&collection, size, LocationRef::default(), HintingOptions::default());
     let mut drawn = Vec::with_capacity(glyphs.list.len());
     let mut room = most_corners;
@@ -137,6 +139,15 @@ pub fn written(
     }
     let any_unknown = glyphs.list.iter().any(|glyph| glyph.id == 0);
     Ok(WrittenText { outlines, font: chosen, any_unknown })
+}
+
+/// The size that letters are drawn at. A TrueType font may ask for whole dots to its em, and FreeType then takes
+/// the nearest for its outlines, fitted or not, but not for the ways between letters.
+fn size_of(font: &FontRef<'_>) -> Size {
+    let dots = EM as f32 / 64.0;
+    let asks = |head: Head<'_>| head.flags().contains(Flags::FORCE_INTEGER_PPEM);
+    let is_whole = font.glyf().is_ok() && font.head().is_ok_and(asks);
+    Size::new(if is_whole { dots.round() } else { dots })
 }
 
 /// The letters of a line as signs of a font, in FreeType's units.

@@ -201,8 +201,8 @@ fn stills_are_repainted() {
     fs::write(&file, objects(0)).unwrap();
     let mut pty = Pty::start(&[VIEWER, "--watch", file.to_str().unwrap(), "--cells", "40x12"], SCREEN);
     let ink = |pty: &Pty| pty.text().lines().take(12).map(str::trim_end).collect::<Vec<_>>().join("\n");
-    // Whole, and not the part that has come so far: what ends a picture clears all below it. (A first picture taken
-    // half drawn was waited for in vain, on a busy machine.)
+    // Whole, and not the part that has come so far: what ends a picture clears all below it. (A first picture
+    // taken half drawn was waited for in vain, on a busy machine.)
     let is_there = |pty: &Pty| {
         pty.log().ends_with(b"\x1b[J") && ink(pty).chars().filter(|c| !c.is_whitespace()).count() > 20
     };

@@ -339,6 +339,7 @@ impl Assembly {
             primitives.par_iter().map(numbers).reduce(|| (0.0, f64::INFINITY), join)
         };
         let is_mesh = |p: &WorldPrimitive| matches!(p.form, WorldShape::Mesh(_));
+        let is_bezier = |p: &WorldPrimitive| matches!(p.form, WorldShape::Bezier(_));
         let alone = |object: &WorldObject| match &object.body {
             &Body::Single(index) | &Body::Surface(index) => match primitives[index as usize].form {
                 WorldShape::Ball(_) => (index, BatchKind::Ball),
@@ -348,8 +349,8 @@ impl Assembly {
             },
             Body::Composite { tree, .. } => match **tree {
                 CsgTree::Leaf(index) if is_mesh(&primitives[index as usize]) => (index, BatchKind::Mesh),
-                CsgTree::Leaf(index) => (index, BatchKind::Bezier),
-                CsgTree::Any(_) | CsgTree::All(_) => (MANY, BatchKind::Other),
+                CsgTree::Leaf(index) if is_bezier(&primitives[index as usize]) => (index, BatchKind::Bezier),
+                CsgTree::Leaf(_) | CsgTree::Any(_) | CsgTree::All(_) => (MANY, BatchKind::Other),
             },
         };
         let alone: Vec<_> = objects.iter().map(alone).collect();

@@ -181,12 +181,14 @@ impl WorldShape {
         match self {
             Self::Mesh(mesh) => mesh.crossings(ray, found),
             Self::Bezier(patches) => patches.crossings(ray, found),
-            _ => {
+            // One by one, so that a new shape is asked for here: what is not convex has more than one span.
+            Self::Ball(_) | Self::AxisBox(_) | Self::SkewBox(_) | Self::Quadric(_) | Self::Facets(_) => {
                 if let Some(span) = self.span(ray) {
                     found(span.enter);
                     found(span.leave);
                 }
             }
+            Self::Sheet(_) | Self::Face(_) | Self::Patch(_) | Self::Tube(_) => {}
         }
     }
 

@@ -141,8 +141,8 @@ pub fn written(
     Ok(WrittenText { outlines, font: chosen, any_unknown })
 }
 
-/// The size that letters are drawn at. A TrueType font may ask for whole dots to its em, and FreeType then takes
-/// the nearest for its outlines, fitted or not, but not for the ways between letters.
+/// The size that letters are drawn at. A TrueType font may ask for whole dots to its em, and FreeType then
+/// takes the nearest for its outlines, fitted or not, but not for the ways between letters.
 fn size_of(font: &FontRef<'_>) -> Size {
     let dots = EM as f32 / 64.0;
     let asks = |head: Head<'_>| head.flags().contains(Flags::FORCE_INTEGER_PPEM);

@@ -3,8 +3,8 @@
 //!
 //! A tile of rays is bounded by frustums, which walk a hierarchy of boxes; what they leave is computed for
 //! eight rays at a time, by the same formulas in the same order. Rays that are incoherent are traced as a
-//! stream. Where a ray's answer needs more than that, two surfaces in one place above all, that ray is left to
-//! the exact engine.
+//! stream. Where a ray's answer needs more than that, two surfaces in one place above all, that ray is left
+//! to the exact engine.
 
 mod bezier;
 mod blocked;

@@ -27,6 +27,7 @@ mod formats {
     mod openscad_examples;
     mod openscad_facets;
     mod openscad_letters;
+    mod six_digits;
     mod spd;
     mod surfaces;
 }

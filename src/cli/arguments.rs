@@ -7,7 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
 use crate::math::{DVec3, Size};
-use crate::scene::{FacetMode, UpAxis};
+use crate::scene::{Digits, FacetMode, UpAxis};
 use crate::view::TileShare;
 
 use super::names::{
@@ -108,6 +108,9 @@ pub struct ReadingArguments {
     /// Curved things of OpenSCAD: smooth, or openscad for the very facets that it exports
     #[arg(long, value_name = "HOW", value_parser = values::facets, default_value = "smooth", hide_default_value = true)]
     pub facets: FacetMode,
+    /// Numbers of OpenSCAD: six, to half a unit of their sixth digit; or exact [default: six in .csg and .scad]
+    #[arg(long, value_name = "WHICH", value_parser = values::digits)]
+    pub digits: Option<Digits>,
     /// The axis of a mesh file that is up: it is given as `--up`, which commands with a camera have for that
     /// too.
     #[arg(skip)]

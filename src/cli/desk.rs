@@ -170,6 +170,7 @@ mod tests {
             root: None,
             up: None,
             facets: crate::scene::FacetMode::default(),
+            digits: None,
             openscad,
         };
         DeskFiles { reading, seen: FilesSeen::default() }

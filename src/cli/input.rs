@@ -140,7 +140,7 @@ fn working_folder() -> PathBuf {
 }
 
 fn options(reading: &ReadingArguments, onlooker: &Onlooker) -> ReadOptions {
-    let ReadingArguments { skip_unsupported, memory, up, facets, ref root, openscad: _ } = *reading;
+    let ReadingArguments { skip_unsupported, memory, up, facets, digits, ref root, openscad: _ } = *reading;
     let memory = memory.or_else(memory::half_of_all);
     let Onlooker { progress, files, fonts, .. } = onlooker.clone();
     let root = root.clone();
@@ -150,6 +150,7 @@ fn options(reading: &ReadingArguments, onlooker: &Onlooker) -> ReadOptions {
         memory,
         up,
         facets,
+        digits,
         root,
         fonts,
         files,

@@ -109,6 +109,7 @@ mod tests {
             memory: None,
             root: None,
             facets: crate::scene::FacetMode::default(),
+            digits: None,
             up: None,
             openscad: super::super::arguments::OpenScadArguments::default(),
         };

@@ -45,6 +45,8 @@ impl CommandLine {
             FacetMode::Smooth => String::new(),
             facets @ FacetMode::OpenScad => format!(" --facets {}", facets.name()),
         };
+        let digits = arguments.scene.reading.digits;
+        let digits = digits.map(|digits| format!(" --digits {}", digits.name())).unwrap_or_default();
         let turned = match arguments.scene.reading.up {
             None => "",
             Some(UpAxis::Y) => " --up y",
@@ -54,7 +56,7 @@ impl CommandLine {
             picture: picture.clone(),
             file: quoted(&arguments.scene.file),
             rest: format!(
-                "{skip}{}{facets}{turned}{}{}",
+                "{skip}{}{facets}{digits}{turned}{}{}",
                 root.unwrap_or_default(),
                 told(&arguments.scene.reading.openscad),
                 rest(picture, request)

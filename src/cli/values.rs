@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use crate::frame::MOST_DOTS;
 use crate::math::{DVec3, Size};
-use crate::scene::{FacetMode, UpAxis};
+use crate::scene::{Digits, FacetMode, UpAxis};
 use crate::view::TileShare;
 
 use super::up::Up;
@@ -53,6 +53,12 @@ pub fn folder(text: &str) -> Result<PathBuf, String> {
 pub fn facets(text: &str) -> Result<FacetMode, String> {
     let modes = [FacetMode::Smooth, FacetMode::OpenScad];
     modes.into_iter().find(|mode| mode.name() == text).ok_or_else(|| "expected smooth or openscad".into())
+}
+
+/// What the digits of a number say.
+pub fn digits(text: &str) -> Result<Digits, String> {
+    let all = [Digits::Exact, Digits::Six];
+    all.into_iter().find(|digits| digits.name() == text).ok_or_else(|| "expected six or exact".into())
 }
 
 /// An axis of a mesh file.

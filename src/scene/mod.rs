@@ -37,6 +37,6 @@ pub use model::{
     Anchor, Camera, CameraError, Corner, Facets, FieldSpan, HalfSpace, Light, Material, MaterialId, Object,
     Primitive, REACH, Scene, Shape, Solid, World,
 };
-pub use options::{FacetMode, FilesRead, Format, MAX_FILE_BYTES, ReadOptions, UpAxis};
+pub use options::{Digits, FacetMode, FilesRead, Format, MAX_FILE_BYTES, ReadOptions, UpAxis};
 pub use read::{ReadError, read, read_file};
 pub use triangles::Mesh;

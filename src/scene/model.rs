@@ -75,6 +75,19 @@ impl Solid {
         self.fold(f, &mut |_, _| ());
     }
 
+    /// Calls `f` with each primitive, in file order, to be changed.
+    pub(super) fn each_mut<'a>(&'a mut self, f: &mut impl FnMut(&'a mut Primitive)) {
+        let mut open = vec![self];
+        while let Some(solid) = open.pop() {
+            match solid {
+                Self::Primitive(primitive) => f(primitive),
+                Self::Union(c) | Self::Intersection(c) | Self::Difference(c) => {
+                    open.extend(c.iter_mut().rev());
+                }
+            }
+        }
+    }
+
     /// The operands of an operator; none of a primitive.
     fn operands(&self) -> &[Self] {
         match self {
@@ -147,6 +160,8 @@ pub struct Primitive {
     pub map_error_share: [f32; 3],
     /// Its surface.
     pub material: MaterialId,
+    /// A reader's own number of it, while it reads; 0 afterwards.
+    pub(super) note: u32,
 }
 
 impl Primitive {
@@ -156,7 +171,7 @@ impl Primitive {
         // Both numbers of a product, the product and three sums, of three products and an entry: 6 half-ulps,
         // rounded up to 8.
         const COMPOSED: f32 = 4.0 * f64::EPSILON as f32;
-        Self { shape, map, map_error_share: [COMPOSED; 3], material }
+        Self { shape, map, map_error_share: [COMPOSED; 3], material, note: 0 }
     }
 
     /// The primitive with a [`Primitive::map_error`] of this much.

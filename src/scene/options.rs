@@ -115,6 +115,25 @@ impl FacetMode {
     }
 }
 
+/// What the digits of a number say.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Digits {
+    /// The number.
+    Exact,
+    /// The number to half a unit of its sixth digit: faces that may be one plane by that are.
+    Six,
+}
+
+impl Digits {
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::Six => "six",
+        }
+    }
+}
+
 /// The files that a scene is read from, as far as they are known: for who waits for changes of them. Those
 /// that could not be read are among them.
 #[derive(Clone, Debug, Default)]
@@ -157,6 +176,9 @@ pub struct ReadOptions {
     pub up: Option<UpAxis>,
     /// How curved things of the scene language are made.
     pub facets: FacetMode,
+    /// What digits say in the scene language. Where it is not given, those of `.csg` are OpenSCAD's, which
+    /// prints six, and all others exact.
+    pub digits: Option<Digits>,
     /// Where the files are that a scene or a mesh names; [`read_file`](super::read_file) takes the folder of
     /// its own.
     pub folder: Option<PathBuf>,

@@ -26,7 +26,7 @@ pub use reference::reference;
 use super::diagnostic::{Reported, Sink};
 use super::memory::Memory;
 use super::options::ReadOptions;
-use super::{Diagnostics, Scene};
+use super::{Diagnostics, Digits, Scene};
 use crate::stage::{Progress, Task};
 use build::{Builder, Flow};
 use parser::{Parser, Reading};
@@ -35,7 +35,10 @@ use syntax::SyntaxEvent;
 /// Reads a scene. `text` must be no longer than [`super::MAX_FILE_BYTES`]: places are kept in 32 bits.
 pub(super) fn read(name: &str, text: &str, options: &ReadOptions) -> Result<Scene, Diagnostics> {
     let leaves_out = options.skip_unsupported || is_from_a_program(name, text);
-    let builder = || Builder::new(options, Sink::new(leaves_out), Memory::new(options.memory, text.len()));
+    let digits =
+        options.digits.unwrap_or(if is_from_a_program(name, text) { Digits::Six } else { Digits::Exact });
+    let builder =
+        || Builder::new(options, digits, Sink::new(leaves_out), Memory::new(options.memory, text.len()));
     let mut built = builder();
     let mut grammar = Sink::new(leaves_out);
     let progress = options.progress.as_ref();
@@ -52,7 +55,9 @@ pub(super) fn read(name: &str, text: &str, options: &ReadOptions) -> Result<Scen
         grammar.finish(name, text)?;
     }
     let (mut scene, sink) = built.finish();
-    scene.notes = sink.finish(name, text)?;
+    let mut notes = sink.finish(name, text)?;
+    notes.append(&mut scene.notes);
+    scene.notes = notes;
     Ok(scene)
 }
 

@@ -2,6 +2,7 @@
 
 use std::rc::Rc;
 
+use super::six_digits::half_units;
 use crate::math::{Bounds, DAffine3, DMat3, DVec3, is_singular, product_rest};
 use crate::scene::Diagnostic;
 use crate::scene::language::syntax::TextSpan;
@@ -12,6 +13,9 @@ const TURNED: f64 = 14.0 * f64::EPSILON;
 
 /// What a decimal number loses when it becomes an f64: half an ulp.
 const WRITTEN: f64 = 0.5 * f64::EPSILON;
+
+/// No error.
+const NOTHING: DAffine3 = DAffine3 { matrix3: DMat3::ZERO, translation: DVec3::ZERO };
 
 /// Maps from the innermost coordinates to the world's, the outermost first.
 #[derive(Clone, Debug, Default)]
@@ -25,6 +29,8 @@ pub struct Chain {
 pub enum Numbers {
     /// As they stand in the text.
     Written,
+    /// As they stand in a text in which numbers have six digits.
+    Printed,
     /// From angles and axes: rotations and reflections.
     Computed,
 }
@@ -36,6 +42,8 @@ struct Link {
     own_error: DAffine3,
     /// How far along the world's axes a step along this map's axes may lead, whichever way it goes.
     stretch: DMat3,
+    /// How far each of its numbers may be from the one that was printed with six digits.
+    printed: DAffine3,
     /// What the product down to here lost when this map was multiplied to it.
     lost: DAffine3,
     above: Option<Rc<Link>>,
@@ -58,6 +66,10 @@ impl Chain {
         let link = Link {
             own,
             own_error: error_of_numbers(&own, numbers),
+            printed: match numbers {
+                Numbers::Printed => half_units(&own),
+                Numbers::Written | Numbers::Computed => NOTHING,
+            },
             stretch: self.product.matrix3.abs(),
             lost: product_rest(&self.product, &own, &product),
             above: self.last.clone(),
@@ -90,6 +102,31 @@ impl Chain {
         // What numbers near the ends of f64 make of it is no bound, and no solid may vanish by it.
         if error.is_finite() { error } else { DVec3::ZERO }
     }
+
+    /// What six digits leave open of where a point of the box lies in the world, to first order, map by map, the
+    /// outermost first.
+    pub fn printed(&self, b: &Bounds) -> Vec<PrintedMap> {
+        let (mut points, mut maps) = (b.corners(), Vec::new());
+        let mut next = self.last.as_ref();
+        while let Some(link) = next {
+            let farthest = Bounds::around(points).farthest();
+            let off = link.stretch * (link.printed.matrix3 * farthest + link.printed.translation);
+            maps.push(PrintedMap { id: Rc::as_ptr(link).addr(), off });
+            points = points.map(|p| link.own.transform_point3(p));
+            next = link.above.as_ref();
+        }
+        maps.reverse();
+        maps
+    }
+}
+
+/// What a map that was printed with six digits leaves open.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PrintedMap {
+    /// Which map it is: the same for all that stand below it, as long as there are chains with it.
+    pub id: usize,
+    /// How far along each axis of the world it may have moved a point.
+    pub off: DVec3,
 }
 
 /// How far each number of a map may be from what was meant. A multiple of a half, such as 0 and 1 in a
@@ -99,7 +136,7 @@ fn error_of_numbers(own: &DAffine3, numbers: Numbers) -> DAffine3 {
     let whole = |x: f64| (2.0 * x).fract() == 0.0 && x.abs() < libm::ldexp(1.0, 52);
     let of = |x: f64| match numbers {
         _ if whole(x) => 0.0,
-        Numbers::Written => WRITTEN * x.abs(),
+        Numbers::Written | Numbers::Printed => WRITTEN * x.abs(),
         Numbers::Computed => TURNED,
     };
     DAffine3::from_cols_array(&own.to_cols_array().map(of))

@@ -101,7 +101,8 @@ impl Builder {
                 return self.shown(Piece::Figure(figure), context, origin).map(Made::Solid);
             }
         };
-        self.put(shape, local, DVec3::ZERO, context, origin).map(|p| Made::Solid(Solid::Primitive(p)))
+        let primitive = self.put(shape, local, DVec3::ZERO, context, origin)?;
+        Ok(Made::Solid(Solid::Primitive(self.noting_digits(primitive, &local, context))))
     }
 
     /// The outlines of a figure.
@@ -235,7 +236,8 @@ impl Builder {
                 };
                 let off = DVec3::new(figure.error, figure.error, 0.0);
                 let shape = Shape::Mesh(Arc::new(mesh));
-                self.put(shape, DAffine3::IDENTITY, off, context, origin).map(Solid::Primitive)
+                let primitive = self.put(shape, DAffine3::IDENTITY, off, context, origin)?;
+                Ok(Solid::Primitive(self.noting_digits(primitive, &DAffine3::IDENTITY, context)))
             }
             Piece::Solid(_) if matches!(context.space, FormSpace::Extruded { .. }) => {
                 Err(self.solid_in_drawing(origin))

@@ -8,6 +8,7 @@ mod definitions;
 mod drawings;
 mod facets;
 mod figures;
+mod flush;
 mod form;
 mod forms;
 mod frame;
@@ -25,6 +26,8 @@ mod origin;
 mod patches;
 mod pieces;
 mod polyhedron;
+mod printed;
+mod six_digits;
 mod solids;
 mod surface;
 mod survey;
@@ -42,14 +45,19 @@ use crate::scene::lettering::FontLibrary;
 use crate::scene::memory::Memory;
 use crate::scene::profile::WorkLeft;
 use crate::scene::triangulation::EarClipper;
-use crate::scene::{Diagnostic, FacetMode, ReadOptions, Scene, Solid};
+use crate::scene::{Diagnostic, Digits, FacetMode, ReadOptions, Scene, Solid};
 use context::Context;
 use facets::Polygons;
 use frame::OpenCall;
 use imports::Imports;
 use materials::Surfaces;
 use pieces::Piece;
+use printed::PrintedPrimitive;
 use survey::{Survey, is_definition};
+
+/// What is said of faces that were moved.
+const FLUSH: &str = "taken as flush with others, from which six digits do not tell them apart; \
+                     `--digits exact` takes them as they are written";
 
 /// Whether to read on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,6 +75,9 @@ pub struct Builder {
     pub memory: Memory,
     skip_unsupported: bool,
     facet_mode: FacetMode,
+    digits: Digits,
+    /// What is known of primitives by their notes, of which the first is 1.
+    printed: Vec<PrintedPrimitive>,
     scene: Scene,
     surfaces: Surfaces,
     view_names: HashSet<String>,
@@ -90,12 +101,14 @@ pub struct Builder {
 }
 
 impl Builder {
-    pub fn new(options: &ReadOptions, sink: Sink, memory: Memory) -> Self {
+    pub fn new(options: &ReadOptions, digits: Digits, sink: Sink, memory: Memory) -> Self {
         Self {
             sink,
             memory,
             skip_unsupported: options.skip_unsupported,
             facet_mode: options.facets,
+            digits,
+            printed: Vec::new(),
             scene: Scene::default(),
             surfaces: Surfaces::default(),
             view_names: HashSet::new(),
@@ -172,6 +185,11 @@ impl Builder {
             self.sink.report(empty(&self.sink));
         }
         self.scene.objects.shrink_to_fit();
+        match self.flush() {
+            0 => {}
+            1 => self.scene.notes.push(format!("one face {FLUSH}")),
+            count => self.scene.notes.push(format!("{count} faces {FLUSH}")),
+        }
         (Scene { materials: self.surfaces.table(), ..self.scene }, self.sink)
     }
 

@@ -16,7 +16,7 @@ use crate::scene::diagnostic::Reported;
 use crate::scene::language::syntax::{Call, TextSpan};
 use crate::scene::language::vocabulary::{FormWord, MapWord, Meaning, OperatorWord, Word};
 use crate::scene::profile::Fragments;
-use crate::scene::{Diagnostic, Object, Solid};
+use crate::scene::{Diagnostic, Digits, Object, Solid};
 
 impl Builder {
     /// Begins the scene, with the settings of the whole file.
@@ -169,6 +169,8 @@ impl Builder {
             Meaning::Map(map) => {
                 let numbers = match map {
                     MapWord::Rotate | MapWord::Mirror => Numbers::Computed,
+                    // OpenSCAD writes no other map.
+                    MapWord::Multmatrix if self.digits == Digits::Six => Numbers::Printed,
                     MapWord::Translate | MapWord::Scale | MapWord::Multmatrix => Numbers::Written,
                 };
                 let map = maps::map_of(map, &arguments, sink)?;

@@ -49,7 +49,8 @@ impl Builder {
                 return Err(arguments.refuse(error, Lost::Missing, &mut self.sink));
             }
         }
-        self.put(shape, local, DVec3::ZERO, context, origin).map(Solid::Primitive)
+        let primitive = self.put(shape, local, DVec3::ZERO, context, origin)?;
+        Ok(Solid::Primitive(self.noting_digits(primitive, &local, context)))
     }
 
     /// The unit shape of a call, and its map. Round ones are exact where no number of `sides` is given.

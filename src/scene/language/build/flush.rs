@@ -1,0 +1,231 @@
+//! Flat sides that were printed apart and may have been meant as one plane.
+//!
+//! OpenSCAD prints six digits of each number, so that a side is known to an interval. A map that stands above two
+//! sides moves both alike, so that its digits are of no account between them: sides are compared from the
+//! innermost maps outwards, and those whose intervals have a plane in common are one plane from there on.
+
+use std::collections::{BTreeMap, HashSet};
+use std::rc::Rc;
+
+use super::chain::PrintedMap;
+use super::printed::PrintedPrimitive;
+use crate::math::DVec3;
+use crate::scene::Primitive;
+
+/// The axes of a shape.
+pub const AXES: [usize; 3] = [0, 1, 2];
+
+/// Normals that agree to so many parts of 1 are one: what six digits make different differs by 5 · 10⁻⁷ at least,
+/// and rounding by less than 10⁻¹⁴.
+const OF_NORMAL: f64 = (1 << 30) as f64;
+
+/// Steps that an object may take, maps by sides: some seconds.
+const MOST_STEPS: usize = 1 << 27;
+
+/// A flat side of a primitive.
+#[derive(Clone, Debug)]
+pub struct PrintedSide {
+    /// Which primitive, in file order.
+    leaf: u32,
+    axis: usize,
+    upper: bool,
+    /// Its plane: the points with `normal · p = at`.
+    normal: DVec3,
+    at: f64,
+    /// How far `at` grows with a step along the axis in the shape's own coordinates.
+    along: f64,
+    /// Nearer than this it is in the same place.
+    rounded: f64,
+    /// How far `at` may be off by the size of the primitive, and by each map, the outermost first.
+    off: f64,
+    maps: Rc<[(usize, f64)]>,
+}
+
+impl PrintedSide {
+    /// The flat sides of a primitive.
+    pub fn all_of(leaf: u32, primitive: &Primitive, printed: &PrintedPrimitive) -> Vec<Self> {
+        let (m, b) = (&primitive.map.matrix3, primitive.shape.bounds());
+        let mut sides = Vec::new();
+        for axis in AXES {
+            let across = m.col((axis + 1) % 3).cross(m.col((axis + 2) % 3)).normalize_or_zero();
+            // The same for both sides of a plane: the first part of it that is not 0 is positive.
+            let rounded = (across * OF_NORMAL).round();
+            let first = AXES.into_iter().map(|k| rounded[k]).find(|&part| part != 0.0);
+            let normal = if first.is_some_and(|part| part < 0.0) { -across } else { across };
+            let along = normal.dot(m.col(axis));
+            for (end, upper) in [(b.lo, false), (b.hi, true)] {
+                let Some((off, maps)) = printed.side(axis, usize::from(upper)) else { continue };
+                let within = |map: &PrintedMap| (map.id, normal.abs().dot(map.off));
+                let at = normal.dot(primitive.map.translation) + along * end[axis];
+                let maps: Rc<[_]> = maps.iter().map(within).collect();
+                let off = off * along.abs();
+                let rounded = normal.abs().dot(primitive.map_error());
+                if at.is_finite() && along != 0.0 && off.is_finite() {
+                    sides.push(Self { leaf, axis, upper, normal, at, along, rounded, off, maps });
+                }
+            }
+        }
+        sides
+    }
+
+    /// How far it may be moved, in the shape's own coordinates.
+    fn loose(&self) -> f64 {
+        (self.off + self.maps.iter().map(|&(_, off)| off).sum::<f64>()) / self.along.abs()
+    }
+
+    fn key(&self) -> [i64; 3] {
+        (self.normal * OF_NORMAL).round().to_array().map(|part| part as i64)
+    }
+}
+
+/// Sides that are one plane, as far as was looked.
+#[derive(Debug)]
+struct Plane {
+    key: [i64; 3],
+    /// Where it may be.
+    lo: f64,
+    hi: f64,
+    /// Where the side that is known best has it, and how well that is known.
+    at: f64,
+    best: f64,
+    /// By their indices, ascending.
+    sides: Vec<usize>,
+    leaves: HashSet<u32>,
+    maps: Rc<[(usize, f64)]>,
+    /// The maps that its sides stand below, of those that are looked at.
+    below: HashSet<usize>,
+}
+
+impl Plane {
+    fn of((index, side): (usize, &PrintedSide)) -> Self {
+        Self {
+            key: side.key(),
+            lo: side.at - side.off,
+            hi: side.at + side.off,
+            at: side.at,
+            best: side.off,
+            sides: vec![index],
+            leaves: HashSet::from([side.leaf]),
+            maps: Rc::clone(&side.maps),
+            below: HashSet::new(),
+        }
+    }
+
+    /// Whether both may be one. Two sides of a primitive never are: how thick it is was printed by itself. Nor
+    /// are sides that stand below one map and were told apart there.
+    fn may_be(&self, other: &Self) -> bool {
+        self.lo.max(other.lo) <= self.hi.min(other.hi)
+            && self.leaves.is_disjoint(&other.leaves)
+            && self.below.is_disjoint(&other.below)
+    }
+
+    fn join(&mut self, other: Self) {
+        (self.lo, self.hi) = (self.lo.max(other.lo), self.hi.min(other.hi));
+        if other.best < self.best {
+            (self.at, self.best) = (other.at, other.best);
+        }
+        self.sides.extend(other.sides);
+        self.leaves.extend(other.leaves);
+        self.below.extend(other.below);
+    }
+}
+
+/// Moves sides that may be one plane into one, each by no more than its digits leave open. Answers how many were
+/// moved.
+pub fn flushed(primitives: &mut [&mut Primitive], sides: Vec<PrintedSide>) -> usize {
+    let deepest = sides.iter().map(|side| side.maps.len()).max().unwrap_or(0);
+    if sides.len().saturating_mul(deepest + 1) > MOST_STEPS {
+        return 0;
+    }
+    let mut planes: Vec<Plane> = sides.iter().enumerate().map(Plane::of).collect();
+    let ids = |plane: &Plane| plane.maps.iter().map(|&(id, _)| id).collect::<Vec<_>>();
+    planes.sort_by_cached_key(|plane| (plane.key, ids(plane)));
+    for depth in (0..=deepest).rev() {
+        for plane in planes.iter_mut().filter(|plane| plane.maps.len() > depth) {
+            plane.below = HashSet::from([plane.maps[depth].0]);
+            let off = plane.sides.iter().map(|&side| sides[side].maps[depth].1).fold(0.0, f64::max);
+            (plane.lo, plane.hi, plane.best) = (plane.lo - off, plane.hi + off, plane.best + off);
+        }
+        planes = joined(planes, depth);
+    }
+    let mut moves: BTreeMap<(u32, usize), [Option<f64>; 2]> = BTreeMap::new();
+    let mut count = 0;
+    for plane in &planes {
+        let at = plane.at.clamp(plane.lo, plane.hi);
+        let far = |&&side: &&usize| (sides[side].at - at).abs() > sides[side].rounded;
+        if plane.sides.len() > 1 && plane.sides.iter().any(|side| far(&side)) {
+            count += plane.sides.iter().filter(far).count();
+            for side in plane.sides.iter().map(|&side| &sides[side]) {
+                let step = (at - side.at) / side.along;
+                moves.entry((side.leaf, side.axis)).or_default()[usize::from(side.upper)] = Some(step);
+            }
+        }
+    }
+    let loose = |leaf: u32, axis: usize, upper: bool| {
+        let side = sides.iter().find(|side| (side.leaf, side.axis, side.upper) == (leaf, axis, upper));
+        side.map_or(0.0, PrintedSide::loose)
+    };
+    for ((leaf, axis), steps) in moves {
+        // Where only one side has to move the other goes with it, as far as it may: how thick the primitive is
+        // was printed, too.
+        let follow = |step: f64, upper: bool| {
+            let most = loose(leaf, axis, upper);
+            Some(step.clamp(-most, most))
+        };
+        let steps = match steps {
+            [Some(low), None] => [Some(low), follow(low, true)],
+            [None, Some(high)] => [follow(high, false), Some(high)],
+            both => both,
+        };
+        if let [Some(low), Some(high)] = steps {
+            stretch(primitives[leaf as usize], axis, low, high);
+        }
+    }
+    count
+}
+
+/// Joins the planes that may be one, of those that stand below the same maps down to a depth, and side by side.
+fn joined(planes: Vec<Plane>, depth: usize) -> Vec<Plane> {
+    let is_run = |a: &Plane, b: &Plane| {
+        let above = |plane: &Plane| {
+            plane.maps.get(..depth).map(|maps| maps.iter().map(|&(id, _)| id).collect::<Vec<_>>())
+        };
+        a.key == b.key && above(a).is_some_and(|ids| above(b) == Some(ids))
+    };
+    let mut all: Vec<Plane> = Vec::with_capacity(planes.len());
+    let mut rest = planes.into_iter().peekable();
+    while let Some(first) = rest.next() {
+        let mut run = vec![first];
+        while let Some(next) = rest.next_if(|next| is_run(&run[0], next)) {
+            run.push(next);
+        }
+        run.sort_by(|a, b| a.at.total_cmp(&b.at).then(a.sides[0].cmp(&b.sides[0])));
+        let start = all.len();
+        for plane in run {
+            match all[start..].last_mut() {
+                Some(last) if last.may_be(&plane) => last.join(plane),
+                _ => all.push(plane),
+            }
+        }
+    }
+    all
+}
+
+/// Moves the lower and the upper side of a primitive by a step each along an axis of its shape.
+fn stretch(primitive: &mut Primitive, axis: usize, low: f64, high: f64) {
+    let b = primitive.shape.bounds();
+    let (lo, hi) = (b.lo[axis], b.hi[axis]);
+    let share = (hi + high - (lo + low)) / (hi - lo);
+    // What two planes would make of a plate that is thinner than its place is known is no plate.
+    if !(0.5..=2.0).contains(&share) {
+        return;
+    }
+    let map = &mut primitive.map;
+    let along = map.matrix3.col(axis);
+    *map.matrix3.col_mut(axis) = along * share;
+    map.translation += along * (lo + low - lo * share);
+    // Four products and three sums, of half an ulp each.
+    let rounded = primitive.shape.bounds().mapped(&primitive.map).farthest() * (4.0 * f64::EPSILON);
+    let error = primitive.map_error() + rounded;
+    *primitive = primitive.clone().with_map_error(error);
+}

@@ -108,7 +108,7 @@ pub struct ReadingArguments {
     /// Curved things of OpenSCAD: smooth, or openscad for the very facets that it exports
     #[arg(long, value_name = "HOW", value_parser = values::facets, default_value = "smooth", hide_default_value = true)]
     pub facets: FacetMode,
-    /// Numbers of OpenSCAD: six, to half a unit of their sixth digit; or exact [default: six in .csg and .scad]
+    /// Numbers: exact, or six, to half a unit of the sixth digit [default: six in .csg and .scad]
     #[arg(long, value_name = "WHICH", value_parser = values::digits)]
     pub digits: Option<Digits>,
     /// The axis of a mesh file that is up: it is given as `--up`, which commands with a camera have for that

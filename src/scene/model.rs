@@ -160,8 +160,6 @@ pub struct Primitive {
     pub map_error_share: [f32; 3],
     /// Its surface.
     pub material: MaterialId,
-    /// A reader's own number of it, while it reads; 0 afterwards.
-    pub(super) note: u32,
 }
 
 impl Primitive {
@@ -171,7 +169,7 @@ impl Primitive {
         // Both numbers of a product, the product and three sums, of three products and an entry: 6 half-ulps,
         // rounded up to 8.
         const COMPOSED: f32 = 4.0 * f64::EPSILON as f32;
-        Self { shape, map, map_error_share: [COMPOSED; 3], material, note: 0 }
+        Self { shape, map, map_error_share: [COMPOSED; 3], material }
     }
 
     /// The primitive with a [`Primitive::map_error`] of this much.

@@ -9,8 +9,8 @@ use crate::support::request::request;
 
 const DOTS: Size = Size { width: 60, height: 60 };
 
-/// Pockets whose floor or mouth is given by two numbers, as programs write them: a hole is seen in all of them, from
-/// above or below.
+/// Pockets whose floor or mouth is given by two numbers, as programs write them: a hole is seen in all of
+/// them, from above or below.
 const POCKETS: [&str; 16] = [
     "difference() { cube([20, 20, 2]); translate([10, 10, 2 - 2/3]) cylinder(h = 2/3, r = 5); }",
     // Upside down, and turned.
@@ -66,8 +66,8 @@ fn cameras(scene: &Scene) -> [Camera; 3] {
     })
 }
 
-/// In how many dots two pictures show other places, by more than a share of the distance that six digits are of no
-/// account to.
+/// In how many dots two pictures show other places, by more than a share of the distance that six digits are
+/// of no account to.
 fn other_dots(a: &Frame, b: &Frame) -> usize {
     let [a, b] = [a, b].map(|frame| frame.depth.as_ref().unwrap());
     let is_other = |(a, b): (&f64, &f64)| a != b && !((a - b).abs() <= 1e-3 * a.min(*b));

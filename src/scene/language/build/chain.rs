@@ -103,8 +103,8 @@ impl Chain {
         if error.is_finite() { error } else { DVec3::ZERO }
     }
 
-    /// What six digits leave open of where a point of the box lies in the world, to first order, map by map, the
-    /// outermost first.
+    /// What six digits leave open of where a point of the box lies in the world, to first order, map by map,
+    /// the outermost first.
     pub fn printed(&self, b: &Bounds) -> Vec<PrintedMap> {
         let (mut points, mut maps) = (b.corners(), Vec::new());
         let mut next = self.last.as_ref();

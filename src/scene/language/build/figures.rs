@@ -102,7 +102,8 @@ impl Builder {
             }
         };
         let primitive = self.put(shape, local, DVec3::ZERO, context, origin)?;
-        Ok(Made::Solid(Solid::Primitive(self.noting_digits(primitive, &local, context))))
+        self.note_digits(&primitive, &local, context);
+        Ok(Made::Solid(Solid::Primitive(primitive)))
     }
 
     /// The outlines of a figure.
@@ -237,7 +238,8 @@ impl Builder {
                 let off = DVec3::new(figure.error, figure.error, 0.0);
                 let shape = Shape::Mesh(Arc::new(mesh));
                 let primitive = self.put(shape, DAffine3::IDENTITY, off, context, origin)?;
-                Ok(Solid::Primitive(self.noting_digits(primitive, &DAffine3::IDENTITY, context)))
+                self.note_digits(&primitive, &DAffine3::IDENTITY, context);
+                Ok(Solid::Primitive(primitive))
             }
             Piece::Solid(_) if matches!(context.space, FormSpace::Extruded { .. }) => {
                 Err(self.solid_in_drawing(origin))

@@ -1,30 +1,63 @@
 //! Flat sides that were printed apart and may have been meant as one plane.
 //!
-//! OpenSCAD prints six digits of each number, so that a side is known to an interval. A map that stands above two
-//! sides moves both alike, so that its digits are of no account between them: sides are compared from the
+//! OpenSCAD prints six digits of each number, so that a side is known to an interval. A map that stands above
+//! two sides moves both alike, so that its digits are of no account between them: sides are compared from the
 //! innermost maps outwards, and those whose intervals have a plane in common are one plane from there on.
 
 use std::collections::{BTreeMap, HashSet};
 use std::rc::Rc;
 
+use super::Builder;
 use super::chain::PrintedMap;
-use super::printed::PrintedPrimitive;
-use crate::math::DVec3;
-use crate::scene::Primitive;
+use super::context::Context;
+use super::printed::{AXES, PrintedPrimitive};
+use crate::math::{DAffine3, DVec3};
+use crate::scene::{Digits, Primitive};
 
-/// The axes of a shape.
-pub const AXES: [usize; 3] = [0, 1, 2];
-
-/// Normals that agree to so many parts of 1 are one: what six digits make different differs by 5 · 10⁻⁷ at least,
-/// and rounding by less than 10⁻¹⁴.
+/// Normals that agree to so many parts of 1 are one: what six digits make different differs by 5 · 10⁻⁷ at
+/// least, and rounding by less than 10⁻¹⁴.
 const OF_NORMAL: f64 = (1 << 30) as f64;
 
 /// Steps that an object may take, maps by sides: some seconds.
 const MOST_STEPS: usize = 1 << 27;
 
+impl Builder {
+    /// Notes what six digits leave open of a primitive that `local` gives its size, where something is cut.
+    pub(super) fn note_digits(&mut self, primitive: &Primitive, local: &DAffine3, context: &Context) {
+        if self.digits == Digits::Exact || !self.is_operand() {
+            return;
+        }
+        if let Some(printed) = PrintedPrimitive::new(primitive, local, &context.maps) {
+            self.memory.take(size_of::<PrintedPrimitive>() as u64);
+            self.printed.add(primitive, printed);
+        }
+    }
+
+    /// Makes one plane of the sides that may be one by six digits, object by object. Answers how many were
+    /// moved.
+    pub(super) fn flush(&mut self) -> usize {
+        let mut count = 0;
+        if self.printed.is_empty() {
+            return count;
+        }
+        for object in &mut self.scene.objects {
+            let mut primitives = Vec::new();
+            object.solid.each_mut(&mut |primitive| primitives.push(primitive));
+            let mut sides = Vec::new();
+            for (primitive, leaf) in primitives.iter().zip(0..) {
+                if let Some(printed) = self.printed.take(primitive) {
+                    sides.extend(PrintedSide::all_of(leaf, primitive, &printed));
+                }
+            }
+            count += flushed(&mut primitives, &sides);
+        }
+        count
+    }
+}
+
 /// A flat side of a primitive.
 #[derive(Clone, Debug)]
-pub struct PrintedSide {
+struct PrintedSide {
     /// Which primitive, in file order.
     leaf: u32,
     axis: usize,
@@ -43,7 +76,7 @@ pub struct PrintedSide {
 
 impl PrintedSide {
     /// The flat sides of a primitive.
-    pub fn all_of(leaf: u32, primitive: &Primitive, printed: &PrintedPrimitive) -> Vec<Self> {
+    fn all_of(leaf: u32, primitive: &Primitive, printed: &PrintedPrimitive) -> Vec<Self> {
         let (m, b) = (&primitive.map.matrix3, primitive.shape.bounds());
         let mut sides = Vec::new();
         for axis in AXES {
@@ -111,8 +144,8 @@ impl Plane {
         }
     }
 
-    /// Whether both may be one. Two sides of a primitive never are: how thick it is was printed by itself. Nor
-    /// are sides that stand below one map and were told apart there.
+    /// Whether both may be one. Two sides of a primitive never are: how thick it is was printed by itself.
+    /// Nor are sides that stand below one map and were told apart there.
     fn may_be(&self, other: &Self) -> bool {
         self.lo.max(other.lo) <= self.hi.min(other.hi)
             && self.leaves.is_disjoint(&other.leaves)
@@ -130,9 +163,9 @@ impl Plane {
     }
 }
 
-/// Moves sides that may be one plane into one, each by no more than its digits leave open. Answers how many were
-/// moved.
-pub fn flushed(primitives: &mut [&mut Primitive], sides: Vec<PrintedSide>) -> usize {
+/// Moves sides that may be one plane into one, each by no more than its digits leave open. Answers how many
+/// were moved.
+fn flushed(primitives: &mut [&mut Primitive], sides: &[PrintedSide]) -> usize {
     let deepest = sides.iter().map(|side| side.maps.len()).max().unwrap_or(0);
     if sides.len().saturating_mul(deepest + 1) > MOST_STEPS {
         return 0;
@@ -166,8 +199,8 @@ pub fn flushed(primitives: &mut [&mut Primitive], sides: Vec<PrintedSide>) -> us
         side.map_or(0.0, PrintedSide::loose)
     };
     for ((leaf, axis), steps) in moves {
-        // Where only one side has to move the other goes with it, as far as it may: how thick the primitive is
-        // was printed, too.
+        // Where only one side has to move the other goes with it, as far as it may: how thick the primitive
+        // is was printed, too.
         let follow = |step: f64, upper: bool| {
             let most = loose(leaf, axis, upper);
             Some(step.clamp(-most, most))
@@ -184,7 +217,8 @@ pub fn flushed(primitives: &mut [&mut Primitive], sides: Vec<PrintedSide>) -> us
     count
 }
 
-/// Joins the planes that may be one, of those that stand below the same maps down to a depth, and side by side.
+/// Joins the planes that may be one, of those that stand below the same maps down to a depth, and side by
+/// side.
 fn joined(planes: Vec<Plane>, depth: usize) -> Vec<Plane> {
     let is_run = |a: &Plane, b: &Plane| {
         let above = |plane: &Plane| {

@@ -26,6 +26,14 @@ impl Builder {
         }
     }
 
+    /// Whether what is read is cut, or cuts: a part of a difference or an intersection.
+    pub(super) fn is_operand(&self) -> bool {
+        let cuts = |frame: &OpenCall| {
+            matches!(frame.operator(), Some(OperatorWord::Difference | OperatorWord::Intersection))
+        };
+        self.frames.iter().any(cuts)
+    }
+
     /// The one solid that a run on the stack is.
     pub(super) fn solid(&mut self, start: usize, run: Run) -> Option<Solid> {
         if let Run::Operands(operator) = run {

@@ -52,7 +52,7 @@ use frame::OpenCall;
 use imports::Imports;
 use materials::Surfaces;
 use pieces::Piece;
-use printed::PrintedPrimitive;
+use printed::PrintedPrimitives;
 use survey::{Survey, is_definition};
 
 /// What is said of faces that were moved.
@@ -76,8 +76,7 @@ pub struct Builder {
     skip_unsupported: bool,
     facet_mode: FacetMode,
     digits: Digits,
-    /// What is known of primitives by their notes, of which the first is 1.
-    printed: Vec<PrintedPrimitive>,
+    printed: PrintedPrimitives,
     scene: Scene,
     surfaces: Surfaces,
     view_names: HashSet<String>,
@@ -108,7 +107,7 @@ impl Builder {
             skip_unsupported: options.skip_unsupported,
             facet_mode: options.facets,
             digits,
-            printed: Vec::new(),
+            printed: PrintedPrimitives::default(),
             scene: Scene::default(),
             surfaces: Surfaces::default(),
             view_names: HashSet::new(),

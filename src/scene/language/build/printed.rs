@@ -1,12 +1,14 @@
 //! What six digits leave open of the flat sides of primitives.
 
-use super::Builder;
+use std::collections::{HashMap, VecDeque};
+
 use super::chain::{Chain, PrintedMap};
-use super::context::Context;
-use super::flush::{AXES, PrintedSide, flushed};
 use super::six_digits::half_unit;
 use crate::math::{Bounds, DAffine3};
-use crate::scene::{Digits, Primitive, Shape};
+use crate::scene::{Primitive, Shape};
+
+/// The axes of a shape.
+pub const AXES: [usize; 3] = [0, 1, 2];
 
 /// What was printed of a primitive.
 #[derive(Clone, Debug)]
@@ -15,36 +17,14 @@ pub struct PrintedPrimitive {
     maps: Chain,
     /// The box of its shape under its own map, which gives it its size.
     b: Bounds,
-    /// By axis of the shape, for its lower and its upper side, how far that may lie from where the size that was
-    /// printed has it, in the shape's own coordinates. None where there is no flat side.
+    /// By axis of the shape, for its lower and its upper side, how far that may lie from where the size that
+    /// was printed has it, in the shape's own coordinates. None where there is no flat side.
     off: [[Option<f64>; 2]; 3],
 }
 
 impl PrintedPrimitive {
-    /// How far a side may lie from where it was meant to be, map by map, the outermost first; across it.
-    pub fn side(&self, axis: usize, upper: usize) -> Option<(f64, Vec<PrintedMap>)> {
-        let off = self.off[axis][upper]?;
-        let mut b = self.b;
-        if upper == 1 {
-            b.lo[axis] = b.hi[axis]
-        } else {
-            b.hi[axis] = b.lo[axis]
-        };
-        Some((off, self.maps.printed(&b)))
-    }
-}
-
-impl Builder {
-    /// Notes what six digits leave open of a primitive that `local` gives its size.
-    pub(super) fn noting_digits(
-        &mut self,
-        mut primitive: Primitive,
-        local: &DAffine3,
-        context: &Context,
-    ) -> Primitive {
-        if self.digits == Digits::Exact {
-            return primitive;
-        }
+    /// Of a primitive that `local` gives its size below `maps`; none where it has no flat side.
+    pub fn new(primitive: &Primitive, local: &DAffine3, maps: &Chain) -> Option<Self> {
         let b = primitive.shape.bounds();
         // Others are made of points that were printed.
         let is_sized = *local != DAffine3::IDENTITY;
@@ -58,39 +38,47 @@ impl Builder {
                 is_flat.then(|| off_of(ends, upper, is_sized) / along[axis].abs())
             })
         });
-        if off.as_flattened().iter().all(Option::is_none) {
-            return primitive;
-        }
-        self.memory.take(size_of::<PrintedPrimitive>() as u64);
-        self.printed.push(PrintedPrimitive { maps: context.maps.clone(), b: b.mapped(local), off });
-        primitive.note = self.printed.len() as u32;
-        primitive
+        let any = off.as_flattened().iter().any(Option::is_some);
+        any.then(|| Self { maps: maps.clone(), b: b.mapped(local), off })
     }
 
-    /// Makes one plane of the sides that may be one by six digits, object by object. Answers how many were
-    /// moved.
-    pub(super) fn flush(&mut self) -> usize {
-        let mut count = 0;
-        for object in &mut self.scene.objects {
-            let mut primitives = Vec::new();
-            object.solid.each_mut(&mut |primitive| {
-                if primitive.note != 0 {
-                    primitives.push(primitive);
-                }
-            });
-            if primitives.len() > 1 {
-                let of = |leaf: u32, primitive: &Primitive| {
-                    let printed = &self.printed[primitive.note as usize - 1];
-                    PrintedSide::all_of(leaf, primitive, printed)
-                };
-                let sides =
-                    primitives.iter().zip(0..).flat_map(|(primitive, leaf)| of(leaf, primitive)).collect();
-                count += flushed(&mut primitives, sides);
-            }
-            primitives.iter_mut().for_each(|primitive| primitive.note = 0);
-        }
-        count
+    /// How far a side may lie from where it was meant to be, map by map, the outermost first; across it.
+    pub fn side(&self, axis: usize, upper: usize) -> Option<(f64, Vec<PrintedMap>)> {
+        let off = self.off[axis][upper]?;
+        let mut b = self.b;
+        if upper == 1 {
+            b.lo[axis] = b.hi[axis]
+        } else {
+            b.hi[axis] = b.lo[axis]
+        };
+        Some((off, self.maps.printed(&b)))
     }
+}
+
+/// What was printed of primitives, by where they are: those that are in one place in file order.
+#[derive(Clone, Debug, Default)]
+pub struct PrintedPrimitives(HashMap<[u64; 12], VecDeque<PrintedPrimitive>>);
+
+impl PrintedPrimitives {
+    /// Adds what was printed of a primitive.
+    pub fn add(&mut self, of: &Primitive, printed: PrintedPrimitive) {
+        self.0.entry(place(of)).or_default().push_back(printed);
+    }
+
+    /// Takes out what was printed of a primitive.
+    pub fn take(&mut self, of: &Primitive) -> Option<PrintedPrimitive> {
+        self.0.get_mut(&place(of))?.pop_front()
+    }
+
+    /// Whether nothing was.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+/// The bits of a primitive's map.
+fn place(primitive: &Primitive) -> [u64; 12] {
+    primitive.map.to_cols_array().map(f64::to_bits)
 }
 
 /// How far the end of a size may be from where it was meant to be. What begins at 0 does so exactly, and ends

@@ -1,9 +1,10 @@
-//! What is known of a number that was printed with six significant digits, as OpenSCAD prints all that it writes.
+//! What is known of a number that was printed with six significant digits, as OpenSCAD prints all that it
+//! writes.
 
 use crate::math::{DAffine3, DMat3, DVec3};
 
-/// How far a number may be from the one that was printed: half a unit of its sixth digit. Nothing where it has
-/// more digits, which nobody printed with six, and of 0, which is printed of 0 alone.
+/// How far a number may be from the one that was printed: half a unit of its sixth digit. Nothing where it
+/// has more digits, which nobody printed with six, and of 0, which is printed of 0 alone.
 pub fn half_unit(x: f64) -> f64 {
     if x == 0.0 || !x.is_finite() {
         return 0.0;
@@ -21,8 +22,8 @@ pub fn half_unit(x: f64) -> f64 {
 pub fn half_units(map: &DAffine3) -> DAffine3 {
     let m = map.matrix3.to_cols_array_2d();
     let of = |column: usize, row: usize| {
-        // What leaves an axis alone, or turns it over, is meant to: a turn whose cosine is 1 in six digits has
-        // a sine in them. A scale by less than that is lost.
+        // What leaves an axis alone, or turns it over, is meant to: a turn whose cosine is 1 in six digits
+        // has a sine in them. A scale by less than that is lost.
         let is_alone = (0..3).all(|k| (k == column || m[k][row] == 0.0) && (k == row || m[column][k] == 0.0));
         if is_alone && m[column][row].abs() == 1.0 { 0.0 } else { half_unit(m[column][row]) }
     };

@@ -4,7 +4,6 @@ use super::arguments::{BoundArguments, refuse};
 use super::chain::Numbers;
 use super::context::Context;
 use super::facets::Polygons;
-use super::frame::OpenCall;
 use super::lost::Lost;
 use super::origin::Origin;
 use super::pieces::carried;
@@ -12,7 +11,7 @@ use super::{Builder, facets, patches, polyhedron};
 use crate::math::{DAffine3, DMat3, DVec3, Placement};
 use crate::scene::diagnostic::Sink;
 use crate::scene::language::syntax::Call;
-use crate::scene::language::vocabulary::{OperatorWord, SolidWord, Word};
+use crate::scene::language::vocabulary::{SolidWord, Word};
 use crate::scene::memory::{ASSEMBLED, ASSEMBLED_FACES, ASSEMBLED_PIECE, ASSEMBLED_TRIANGLE};
 use crate::scene::model::is_within_reach;
 use crate::scene::{Diagnostic, FacetMode, Object, Primitive, REACH, Shape, Solid};
@@ -41,16 +40,14 @@ impl Builder {
         if let Shape::Bezier(surface) = &shape
             && let Some(open) = surface.open_side()
         {
-            let is_operand = |frame: &OpenCall| {
-                matches!(frame.operator(), Some(OperatorWord::Difference | OperatorWord::Intersection))
-            };
-            if self.frames.iter().any(is_operand) {
+            if self.is_operand() {
                 let error = patches::not_closed(&arguments, open);
                 return Err(arguments.refuse(error, Lost::Missing, &mut self.sink));
             }
         }
         let primitive = self.put(shape, local, DVec3::ZERO, context, origin)?;
-        Ok(Solid::Primitive(self.noting_digits(primitive, &local, context)))
+        self.note_digits(&primitive, &local, context);
+        Ok(Solid::Primitive(primitive))
     }
 
     /// The unit shape of a call, and its map. Round ones are exact where no number of `sides` is given.

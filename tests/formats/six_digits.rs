@@ -11,7 +11,7 @@ const DOTS: Size = Size { width: 60, height: 60 };
 
 /// Pockets whose floor or mouth is given by two numbers, as programs write them: a hole is seen in all of
 /// them, from above or below.
-const POCKETS: [&str; 16] = [
+const POCKETS: [&str; 19] = [
     "difference() { cube([20, 20, 2]); translate([10, 10, 2 - 2/3]) cylinder(h = 2/3, r = 5); }",
     // Upside down, and turned.
     "mirror([0, 0, 1]) difference() { cube([20, 20, 2]); translate([10, 10, 2 - 2/3]) cylinder(h = 2/3, r = 5); }",
@@ -21,6 +21,11 @@ const POCKETS: [&str; 16] = [
     // Both moved by themselves.
     "difference() { translate([0, 0, 1/3]) cube([20, 20, 2]); translate([10, 10, 2 + 1/3 - 2/7]) cylinder(h = 2/7, r = 5); }",
     "difference() { translate([0, 0, 1/3]) cube([20, 20, 5/3]); translate([10, 10, 1/7]) translate([0, 0, 1 - 1/7]) cylinder(h = 1, r = 5); }",
+    // A bore that ends where the pocket begins, so that this must not move with the pocket's mouth.
+    "difference() { cube([20, 20, 2]); translate([10, 10, 2 - 2/3]) cylinder(h = 2/3, r = 6); translate([10, 10, 0]) cylinder(h = 2 - 2/3, r = 4); }",
+    "rotate([30, 20, 10]) difference() { cube([20, 20, 2]); translate([10, 10, 2 - 2/3]) cylinder(h = 2/3, r = 6); translate([10, 10, 0]) cylinder(h = 2 - 2/3, r = 4); }",
+    // Step by step.
+    "difference() { cube([20, 20, 3]); translate([10, 10, 3 - 1/3]) cylinder(h = 1/3, r = 8); translate([10, 10, 3 - 1/3 - 2/7]) cylinder(h = 2/7, r = 6); translate([10, 10, 0]) cylinder(h = 3 - 1/3 - 2/7, r = 4); }",
     // Small and large.
     "scale(1/7e4) difference() { cube([20, 20, 2]); translate([10, 10, 2 - 2/3]) cylinder(h = 2/3, r = 5); }",
     "difference() { cube([20e5, 20e5, 2e5]); translate([10e5, 10e5, 2e5 - 2e5/3]) cylinder(h = 2e5/3, r = 5e5); }",
@@ -37,13 +42,17 @@ const POCKETS: [&str; 16] = [
 ];
 
 /// What is thin and real, or ends beyond what it cuts by so much that people write: nothing changes.
-const REAL: [&str; 6] = [
+const REAL: [&str; 9] = [
     "difference() { cube([100, 100, 2]); translate([50, 50, 0.01]) cylinder(h = 5, r = 20); }",
     "difference() { cube([20, 20, 2]); translate([10, 10, 2 - 2/3]) cylinder(h = 2/3 - 0.0001, r = 5); }",
     "translate([1000.12, 0, 77.7]) difference() { cube([20, 20, 2]); translate([10, 10, 2/3]) cylinder(h = 4/3 - 0.0001, r = 5); }",
     "difference() { cube([10, 10, 10]); translate([5, 5, -0.001]) cylinder(h = 10.002, r = 3); }",
     "difference() { cube([10, 10, 10]); translate([1, 1, 1]) cube([8, 8, 8]); translate([2, 2, -1]) cube([1, 1, 12]); }",
     "union() { cube([20/3, 20, 1e-4]); translate([0, 0, 1/3]) cube([20/3, 20, 1e-4]); }",
+    // One unit of the last digit: no number is printed as both.
+    "difference() { cube([2, 2, 1.33334]); translate([0.5, 0.5, 0]) cube([1, 1, 1.33333]); }",
+    "difference() { cube([2000, 200, 1000.02]); translate([50, 50, 0]) cube([100, 100, 1000.01]); }",
+    "rotate([30, 20, 10]) difference() { cube([200, 200, 100.13]); translate([50, 50, 0]) cube([100, 100, 100.12]); }",
 ];
 
 fn scene(text: &[u8], ending: &str, digits: Option<Digits>) -> Scene {

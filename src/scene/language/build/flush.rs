@@ -121,6 +121,8 @@ struct Plane {
     /// Where the side that is known best has it, and how well that is known.
     at: f64,
     best: f64,
+    /// By how much rounding may have moved `at`, `lo` and `hi`.
+    rounded: f64,
     /// By their indices, ascending.
     sides: Vec<usize>,
     leaves: HashSet<u32>,
@@ -137,6 +139,8 @@ impl Plane {
             hi: side.at + side.off,
             at: side.at,
             best: side.off,
+            // Each map widens the interval, by a sum that rounds to half an ulp.
+            rounded: side.rounded + side.at.abs() * ((side.maps.len() + 2) as f64 * f64::EPSILON),
             sides: vec![index],
             leaves: HashSet::from([side.leaf]),
             maps: Rc::clone(&side.maps),
@@ -145,9 +149,12 @@ impl Plane {
     }
 
     /// Whether both may be one. Two sides of a primitive never are: how thick it is was printed by itself.
-    /// Nor are sides that stand below one map and were told apart there.
+    /// Nor are sides that stand below one map and were told apart there. Intervals that only touch have no
+    /// number in common: what lies half way between 1.33333 and 1.33334 is always printed as one of them.
     fn may_be(&self, other: &Self) -> bool {
-        self.lo.max(other.lo) <= self.hi.min(other.hi)
+        let rounded = self.rounded + other.rounded;
+        let has_common = self.hi.min(other.hi) - self.lo.max(other.lo) > rounded;
+        (has_common || (self.at - other.at).abs() <= rounded)
             && self.leaves.is_disjoint(&other.leaves)
             && self.below.is_disjoint(&other.below)
     }
@@ -157,6 +164,7 @@ impl Plane {
         if other.best < self.best {
             (self.at, self.best) = (other.at, other.best);
         }
+        self.rounded = self.rounded.max(other.rounded);
         self.sides.extend(other.sides);
         self.leaves.extend(other.leaves);
         self.below.extend(other.below);
@@ -186,10 +194,12 @@ fn flushed(primitives: &mut [&mut Primitive], sides: &[PrintedSide]) -> usize {
     for plane in &planes {
         let at = plane.at.clamp(plane.lo, plane.hi);
         let far = |&&side: &&usize| (sides[side].at - at).abs() > sides[side].rounded;
-        if plane.sides.len() > 1 && plane.sides.iter().any(|side| far(&side)) {
-            count += plane.sides.iter().filter(far).count();
+        if plane.sides.len() > 1 {
+            let moved = plane.sides.iter().filter(far).count();
+            count += moved;
+            // Sides that are one plane already stay so: they follow no other side of their primitives.
             for side in plane.sides.iter().map(|&side| &sides[side]) {
-                let step = (at - side.at) / side.along;
+                let step = if moved > 0 { (at - side.at) / side.along } else { 0.0 };
                 moves.entry((side.leaf, side.axis)).or_default()[usize::from(side.upper)] = Some(step);
             }
         }
@@ -210,7 +220,9 @@ fn flushed(primitives: &mut [&mut Primitive], sides: &[PrintedSide]) -> usize {
             [None, Some(high)] => [follow(high, false), Some(high)],
             both => both,
         };
-        if let [Some(low), Some(high)] = steps {
+        if let [Some(low), Some(high)] = steps
+            && (low, high) != (0.0, 0.0)
+        {
             stretch(primitives[leaf as usize], axis, low, high);
         }
     }

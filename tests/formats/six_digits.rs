@@ -79,7 +79,9 @@ fn cameras(scene: &Scene) -> [Camera; 3] {
 /// of no account to.
 fn other_dots(a: &Frame, b: &Frame) -> usize {
     let [a, b] = [a, b].map(|frame| frame.depth.as_ref().unwrap());
-    let is_other = |(a, b): (&f64, &f64)| a != b && !((a - b).abs() <= 1e-3 * a.min(*b));
+    let is_other = |(a, b): (&f64, &f64)| {
+        a != b && (a.is_infinite() || b.is_infinite() || (a - b).abs() > 1e-3 * a.min(*b))
+    };
     a.values().iter().zip(b.values()).filter(|&pair| is_other(pair)).count()
 }
 

@@ -18,6 +18,14 @@ use crate::scene::{Digits, Primitive};
 /// least, and rounding by less than 10⁻¹⁴.
 const OF_NORMAL: f64 = (1 << 30) as f64;
 
+/// What is said of faces that were moved.
+const FLUSH: &str = "taken as flush with others, from which six digits do not tell them apart; \
+                     `--digits exact` takes them as they are written";
+
+/// Planes in one place that are barred from each other, as the two sides of a thin plate are: so many are
+/// looked at for one that another side may be in.
+const LOOK_BACK: usize = 8;
+
 /// Steps that an object may take, maps by sides: some seconds.
 const MOST_STEPS: usize = 1 << 27;
 
@@ -33,13 +41,12 @@ impl Builder {
         }
     }
 
-    /// Makes one plane of the sides that may be one by six digits, object by object. Answers how many were
-    /// moved.
-    pub(super) fn flush(&mut self) -> usize {
-        let mut count = 0;
+    /// Makes one plane of the sides that may be one by six digits, object by object, and says so.
+    pub(super) fn flush(&mut self) {
         if self.printed.is_empty() {
-            return count;
+            return;
         }
+        let (mut count, mut is_whole) = (0, true);
         for object in &mut self.scene.objects {
             let mut primitives = Vec::new();
             object.solid.each_mut(&mut |primitive| primitives.push(primitive));
@@ -49,9 +56,20 @@ impl Builder {
                     sides.extend(PrintedSide::all_of(leaf, primitive, &printed));
                 }
             }
-            count += flushed(&mut primitives, &sides);
+            match flushed(&mut primitives, &sides) {
+                Some(moved) => count += moved,
+                None => is_whole = false,
+            }
         }
-        count
+        match count {
+            0 => {}
+            1 => self.scene.notes.push(format!("one face {FLUSH}")),
+            _ => self.scene.notes.push(format!("{count} faces {FLUSH}")),
+        }
+        if !is_whole {
+            let why = "an object has too many faces to look which of them six digits do not tell apart";
+            self.scene.notes.push(format!("{why}: they stay as they are written"));
+        }
     }
 }
 
@@ -172,11 +190,11 @@ impl Plane {
 }
 
 /// Moves sides that may be one plane into one, each by no more than its digits leave open. Answers how many
-/// were moved.
-fn flushed(primitives: &mut [&mut Primitive], sides: &[PrintedSide]) -> usize {
+/// were moved; nothing where that would take too long.
+fn flushed(primitives: &mut [&mut Primitive], sides: &[PrintedSide]) -> Option<usize> {
     let deepest = sides.iter().map(|side| side.maps.len()).max().unwrap_or(0);
     if sides.len().saturating_mul(deepest + 1) > MOST_STEPS {
-        return 0;
+        return None;
     }
     let mut planes: Vec<Plane> = sides.iter().enumerate().map(Plane::of).collect();
     let ids = |plane: &Plane| plane.maps.iter().map(|&(id, _)| id).collect::<Vec<_>>();
@@ -190,29 +208,32 @@ fn flushed(primitives: &mut [&mut Primitive], sides: &[PrintedSide]) -> usize {
         planes = joined(planes, depth);
     }
     let mut moves: BTreeMap<(u32, usize), [Option<f64>; 2]> = BTreeMap::new();
-    let mut count = 0;
-    for plane in &planes {
+    for plane in planes.iter().filter(|plane| plane.sides.len() > 1) {
         let at = plane.at.clamp(plane.lo, plane.hi);
-        let far = |&&side: &&usize| (sides[side].at - at).abs() > sides[side].rounded;
-        if plane.sides.len() > 1 {
-            let moved = plane.sides.iter().filter(far).count();
-            count += moved;
-            // Sides that are one plane already stay so: they follow no other side of their primitives.
-            for side in plane.sides.iter().map(|&side| &sides[side]) {
-                let step = if moved > 0 { (at - side.at) / side.along } else { 0.0 };
-                moves.entry((side.leaf, side.axis)).or_default()[usize::from(side.upper)] = Some(step);
-            }
+        let any_far = plane.sides.iter().any(|&side| (sides[side].at - at).abs() > sides[side].rounded);
+        // Sides that are one plane already stay so: they follow no other side of their primitives.
+        for side in plane.sides.iter().map(|&side| &sides[side]) {
+            let step = if any_far { (at - side.at) / side.along } else { 0.0 };
+            moves.entry((side.leaf, side.axis)).or_default()[usize::from(side.upper)] = Some(step);
         }
     }
-    let loose = |leaf: u32, axis: usize, upper: bool| {
-        let side = sides.iter().find(|side| (side.leaf, side.axis, side.upper) == (leaf, axis, upper));
-        side.map_or(0.0, PrintedSide::loose)
-    };
+    moves.retain(|_, steps| steps.iter().any(|step| step.is_some_and(|step| step != 0.0)));
+    if moves.is_empty() {
+        return Some(0);
+    }
+    let by_place: BTreeMap<_, &PrintedSide> =
+        sides.iter().map(|side| ((side.leaf, side.axis, side.upper), side)).collect();
+    let mut count = 0;
     for ((leaf, axis), steps) in moves {
+        let is_far = |upper: usize, step: Option<f64>| {
+            let side = by_place.get(&(leaf, axis, upper == 1));
+            side.zip(step).is_some_and(|(side, step)| (step * side.along).abs() > side.rounded)
+        };
+        let moved = (0..2).filter(|&upper| is_far(upper, steps[upper])).count();
         // Where only one side has to move the other goes with it, as far as it may: how thick the primitive
         // is was printed, too.
         let follow = |step: f64, upper: bool| {
-            let most = loose(leaf, axis, upper);
+            let most = by_place.get(&(leaf, axis, upper)).map_or(0.0, |side| side.loose());
             Some(step.clamp(-most, most))
         };
         let steps = match steps {
@@ -221,12 +242,12 @@ fn flushed(primitives: &mut [&mut Primitive], sides: &[PrintedSide]) -> usize {
             both => both,
         };
         if let [Some(low), Some(high)] = steps
-            && (low, high) != (0.0, 0.0)
+            && stretch(primitives[leaf as usize], axis, low, high)
         {
-            stretch(primitives[leaf as usize], axis, low, high);
+            count += moved;
         }
     }
-    count
+    Some(count)
 }
 
 /// Joins the planes that may be one, of those that stand below the same maps down to a depth, and side by
@@ -248,23 +269,24 @@ fn joined(planes: Vec<Plane>, depth: usize) -> Vec<Plane> {
         run.sort_by(|a, b| a.at.total_cmp(&b.at).then(a.sides[0].cmp(&b.sides[0])));
         let start = all.len();
         for plane in run {
-            match all[start..].last_mut() {
-                Some(last) if last.may_be(&plane) => last.join(plane),
-                _ => all.push(plane),
+            match all[start..].iter_mut().rev().take(LOOK_BACK).find(|other| other.may_be(&plane)) {
+                Some(other) => other.join(plane),
+                None => all.push(plane),
             }
         }
     }
     all
 }
 
-/// Moves the lower and the upper side of a primitive by a step each along an axis of its shape.
-fn stretch(primitive: &mut Primitive, axis: usize, low: f64, high: f64) {
+/// Moves the lower and the upper side of a primitive by a step each along an axis of its shape. Not where
+/// that would make a plate of another thickness than was printed.
+fn stretch(primitive: &mut Primitive, axis: usize, low: f64, high: f64) -> bool {
     let b = primitive.shape.bounds();
     let (lo, hi) = (b.lo[axis], b.hi[axis]);
     let share = (hi + high - (lo + low)) / (hi - lo);
     // What two planes would make of a plate that is thinner than its place is known is no plate.
     if !(0.5..=2.0).contains(&share) {
-        return;
+        return false;
     }
     let map = &mut primitive.map;
     let along = map.matrix3.col(axis);
@@ -274,4 +296,5 @@ fn stretch(primitive: &mut Primitive, axis: usize, low: f64, high: f64) {
     let rounded = primitive.shape.bounds().mapped(&primitive.map).farthest() * (4.0 * f64::EPSILON);
     let error = primitive.map_error() + rounded;
     *primitive = primitive.clone().with_map_error(error);
+    true
 }

@@ -55,10 +55,6 @@ use pieces::Piece;
 use printed::PrintedPrimitives;
 use survey::{Survey, is_definition};
 
-/// What is said of faces that were moved.
-const FLUSH: &str = "taken as flush with others, from which six digits do not tell them apart; \
-                     `--digits exact` takes them as they are written";
-
 /// Whether to read on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flow {
@@ -184,11 +180,7 @@ impl Builder {
             self.sink.report(empty(&self.sink));
         }
         self.scene.objects.shrink_to_fit();
-        match self.flush() {
-            0 => {}
-            1 => self.scene.notes.push(format!("one face {FLUSH}")),
-            count => self.scene.notes.push(format!("{count} faces {FLUSH}")),
-        }
+        self.flush();
         (Scene { materials: self.surfaces.table(), ..self.scene }, self.sink)
     }
 

@@ -46,11 +46,8 @@ impl PrintedPrimitive {
     pub fn side(&self, axis: usize, upper: usize) -> Option<(f64, Vec<PrintedMap>)> {
         let off = self.off[axis][upper]?;
         let mut b = self.b;
-        if upper == 1 {
-            b.lo[axis] = b.hi[axis]
-        } else {
-            b.hi[axis] = b.lo[axis]
-        };
+        let end = [b.lo, b.hi][upper][axis];
+        (b.lo[axis], b.hi[axis]) = (end, end);
         Some((off, self.maps.printed(&b)))
     }
 }

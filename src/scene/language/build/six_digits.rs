@@ -40,14 +40,14 @@ mod tests {
     fn half_a_unit_of_the_sixth_digit() {
         for (x, half) in [
             (1.33333, 5e-6),
-            (0.666667, 5e-7),
+            (0.666_667, 5e-7),
             (-20.0, 5e-5),
             (100.001, 5e-4),
             (1e-7, 5e-13),
             (1.5e6, 5.0),
             (0.0, 0.0),
             // Seven digits.
-            (1.333333, 0.0),
+            (1.333_333, 0.0),
             (1.0 / 3.0, 0.0),
         ] {
             assert_eq!(half_unit(x), half, "{x}");
@@ -57,8 +57,8 @@ mod tests {
     #[test]
     fn what_a_map_leaves_alone_is_exact() {
         let turned = DMat3::from_cols(
-            DVec3::new(0.866025, 0.5, 0.0),
-            DVec3::new(-0.5, 0.866025, 0.0),
+            DVec3::new(0.866_025, 0.5, 0.0),
+            DVec3::new(-0.5, 0.866_025, 0.0),
             DVec3::new(0.0, 0.0, 1.0),
         );
         let map = DAffine3 { matrix3: turned, translation: DVec3::new(0.0, 0.0, 1.33333) };

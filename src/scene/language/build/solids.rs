@@ -39,11 +39,10 @@ impl Builder {
         };
         if let Shape::Bezier(surface) = &shape
             && let Some(open) = surface.open_side()
+            && self.is_operand()
         {
-            if self.is_operand() {
-                let error = patches::not_closed(&arguments, open);
-                return Err(arguments.refuse(error, Lost::Missing, &mut self.sink));
-            }
+            let error = patches::not_closed(&arguments, open);
+            return Err(arguments.refuse(error, Lost::Missing, &mut self.sink));
         }
         let primitive = self.put(shape, local, DVec3::ZERO, context, origin)?;
         self.note_digits(&primitive, &local, context);

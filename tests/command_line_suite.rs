@@ -1,5 +1,9 @@
 //! What the command `ray13` promises to a shell: exit codes, which stream, and no half-written files.
 
+mod support {
+    pub mod seen;
+}
+
 mod command_line {
     use super::{BALL, done, fails, folder, ray13, run, scene, text};
 
@@ -7,6 +11,7 @@ mod command_line {
     mod bad_input;
     mod bad_output;
     mod describe;
+    mod dos_art;
     mod effects;
     mod engines;
     mod follow;
@@ -20,6 +25,7 @@ mod command_line {
     mod still;
     mod threads;
     mod trade;
+    mod turntable;
 }
 
 use std::fs;

@@ -178,9 +178,23 @@ pub struct RenderArguments {
     /// says what it is to become [default: png]
     #[arg(long, value_name = "K/N", value_parser = values::share, requires = "output", conflicts_with = "watch")]
     pub part: Option<TileShare>,
+    #[command(flatten)]
+    pub turn: TurntableArguments,
     /// Say on standard error what was counted and how long it took
     #[arg(long, value_enum)]
     pub stats: Option<StatsFormat>,
+}
+
+/// The scene on a turntable.
+#[derive(Clone, Debug, Default, Args)]
+pub struct TurntableArguments {
+    /// Draw N views round the scene, a full turn: as one cast or svg that moves, or as files that a number in
+    /// -o tells apart, as in turn-%03d.png. With --part K/N every Nth of these files, from the Kth
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=3600), conflicts_with_all = ["watch", "stats"])]
+    pub turntable: Option<u32>,
+    /// Views a second of a turntable in cast and svg [default: 12]
+    #[arg(long, value_name = "N", value_parser = values::positive, requires = "turntable")]
+    pub fps: Option<f64>,
 }
 
 #[derive(Clone, Debug, Args)]
@@ -457,7 +471,12 @@ pub enum StillFormat {
     Txt,
     /// Characters with ANSI colours
     Ans,
-    /// Characters as a picture of rectangles and text, the colours a PC's
+    /// ANSI art as DOS had it, for its viewers and editors: 80x25 bytes of code page 437 unless --cells says
+    /// otherwise, 16 colours, a SAUCE record. Such files end in .ans
+    AnsDos,
+    /// What a terminal is sent, as asciinema plays it: a recording of a --turntable
+    Cast,
+    /// Characters as a picture of rectangles and text, the colours a PC's; a --turntable moves
     Svg,
     /// Characters as a page
     Html,

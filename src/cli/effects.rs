@@ -277,7 +277,13 @@ impl Given<'_> {
     fn is_in_own_ink(&self) -> bool {
         match self.format() {
             Some(StillFormat::Txt) => true,
-            Some(StillFormat::Ans | StillFormat::Svg | StillFormat::Html) => {
+            Some(
+                StillFormat::Ans
+                | StillFormat::AnsDos
+                | StillFormat::Cast
+                | StillFormat::Svg
+                | StillFormat::Html,
+            ) => {
                 matches!(self.picture.look(None).palette, Palette::Mono(_))
             }
             _ => false,

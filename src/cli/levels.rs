@@ -14,7 +14,7 @@ use super::arguments::ComparisonArguments;
 use super::error::{CliError, visible};
 use super::input;
 use super::picture::Unsized;
-use super::render::{refuse_over_budget, say_nothing};
+use super::still::{refuse_over_budget, say_nothing};
 use super::waiting::Waiting;
 
 /// A terminal's cells, of which a picture without a size has as many dots as they show.

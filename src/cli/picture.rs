@@ -29,7 +29,12 @@ pub enum Unsized {
     Screen,
     /// [`PIXELS`].
     Pixels,
+    /// As many dots as the cells of a PC's screen have.
+    Dos,
 }
+
+/// A PC's screen of text.
+const DOS_SCREEN: Size = Size { width: 80, height: 25 };
 
 /// Rays per dot along each axis where only `--aa fixed` is given: 16 in all leave one dot in a hundred with
 /// another level than any number would (docs/performance.md).
@@ -164,7 +169,8 @@ impl PictureArguments {
         } else if let (None, Unsized::Pixels) = (self.cells, size) {
             (PIXELS, 1.0)
         } else {
-            let cells = self.cells.unwrap_or_else(screen);
+            let unsized_screen = || if size == Unsized::Dos { DOS_SCREEN } else { screen() };
+            let cells = self.cells.unwrap_or_else(unsized_screen);
             let dots = Size::new(cells.width * per_cell.width, cells.height * per_cell.height);
             (dots, glyphs.dot_aspect(CELL_ASPECT))
         };

@@ -5,32 +5,43 @@ use std::time::Instant;
 
 use clap::ValueEnum;
 
-use crate::frame::{Frame, Wants};
+use crate::frame::Wants;
 use crate::scene::{FilesRead, Scene};
 
-use super::arguments::{PictureArguments, ReadingArguments, RenderArguments, SceneArguments, StillFormat};
+use super::arguments::{
+    PictureArguments, ReadingArguments, RenderArguments, SceneArguments, StillFormat, TurntableArguments,
+};
 use super::effects::{self, Still};
-use super::error::{CliError, tell, visible};
+use super::error::{CliError, visible};
 use super::input::Onlooker;
 use super::openscad::OpenScadRun;
 use super::picture::Unsized;
 use super::reload::WatchedScene;
-use super::still::{Values, encoded, look, settle_precision, still_of, wants};
+use super::still::{
+    Values, check_dos, encoded, look, refuse_over_budget, say_nothing, settle_precision, still_of,
+    unsized_picture, wants,
+};
 use super::write::{Destination, print};
-use super::{input, join, stats, terminal};
+use super::{input, join, stats, terminal, turntable};
 
 /// Draws one still and writes it.
 pub fn run(arguments: &RenderArguments) -> Result<(), CliError> {
     let to = Destination::new(arguments.output.as_deref());
     to.check(&arguments.scene.file)?;
-    let still = match (arguments.format, arguments.part) {
+    // The parts of a turntable are pictures.
+    let share = arguments.part.filter(|_| arguments.turn.turntable.is_none());
+    let still = match (arguments.format, share) {
         (None, None) => still_of(arguments, format_of(&to)?),
         // The ending of a part's name is that of no format.
         _ => still_of(arguments, StillFormat::Png),
     };
     let notes = effects::check(&arguments.picture, effects::Presentation::Still(still))?;
     input::say(&notes);
+    check_dos(&arguments.picture, still.format)?;
     let SceneArguments { file, reading } = &arguments.scene;
+    if let Some(views) = arguments.turn.turntable {
+        return turntable::run(arguments, views, still, &to);
+    }
     if !arguments.watch {
         let begin = Instant::now();
         let files = FilesRead::default();
@@ -81,7 +92,7 @@ fn draw(
     // What goes into a file is not for the terminal that the command runs in.
     let terminal = if arguments.output.is_some() { None } else { terminal::of_output() };
     let look = look(&arguments.picture, format, terminal);
-    let size = if format.is_pixels() { Unsized::Pixels } else { Unsized::Screen };
+    let size = unsized_picture(format);
     let mut request = arguments.picture.request(&studio, look, wants(still), size)?;
     settle_precision(&mut request, format);
     let mut frame = match arguments.part {
@@ -121,6 +132,7 @@ pub fn watched_still(
         output: None,
         watch: true,
         part: None,
+        turn: TurntableArguments::default(),
         stats: None,
     })
 }
@@ -139,21 +151,6 @@ pub fn still(file: &str, reading: &ReadingArguments, picture: &PictureArguments)
     print(&encoded(&frame, request.palette, request.tone, StillFormat::Txt, Values::Toned)?)?;
     say_nothing(&frame);
     Ok(())
-}
-
-/// Refuses a picture whose space is cut otherwise than was asked for.
-pub fn refuse_over_budget(frame: &Frame) -> Result<(), CliError> {
-    match &frame.over_budget {
-        Some(over) => Err(CliError::Input(format!("{over}: use --structure tree"))),
-        None => Ok(()),
-    }
-}
-
-/// Says why a picture is all background.
-pub fn say_nothing(frame: &Frame) {
-    if let Some(why) = frame.nothing {
-        tell(&why.to_string());
-    }
 }
 
 /// The format that a file's ending names. A file without one holds text; an ending that names no format is an

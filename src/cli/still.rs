@@ -1,11 +1,11 @@
 //! The bytes of a still: which values its format shows, and those values as the format has them.
 
-use std::io;
+use std::io::{self, Write};
 use std::sync::Arc;
 
 use crate::app::Painter;
 use crate::frame::{Frame, Request, Wants};
-use crate::glyph::{Ground, Palette};
+use crate::glyph::{GlyphMode, Ground, Palette};
 use crate::math::Grid;
 use crate::output::{self, Capabilities, Pixels};
 use crate::plan::PrecisionChoice;
@@ -13,8 +13,8 @@ use crate::tone::Tone;
 
 use super::arguments::{PictureArguments, RawChannel, RenderArguments, StillFormat};
 use super::effects::Still;
-use super::error::CliError;
-use super::picture::{Look, PIXELS};
+use super::error::{CliError, tell};
+use super::picture::{Look, PIXELS, Unsized};
 
 /// The picture that the viewer shows, drawn as a format needs it: characters as they stand there, pixels in
 /// the number that they have where nobody says another.
@@ -72,7 +72,15 @@ pub fn still_of(arguments: &RenderArguments, format: StillFormat) -> Still {
 /// What the format shows of a picture.
 pub fn wants(still: Still) -> Wants {
     match (still.format, still.channel) {
-        (StillFormat::Txt | StillFormat::Ans | StillFormat::Svg | StillFormat::Html, _) => Wants::CELLS,
+        (
+            StillFormat::Txt
+            | StillFormat::Ans
+            | StillFormat::AnsDos
+            | StillFormat::Cast
+            | StillFormat::Svg
+            | StillFormat::Html,
+            _,
+        ) => Wants::CELLS,
         (_, Some(RawChannel::Depth)) => Wants { depth: true, ..Wants::LIGHT },
         (_, Some(RawChannel::Normal)) => Wants { normal: true, ..Wants::LIGHT },
         (_, Some(RawChannel::Object)) => Wants { object: true, ..Wants::LIGHT },
@@ -92,8 +100,44 @@ pub fn look(picture: &PictureArguments, format: StillFormat, terminal: Option<Ca
                 look
             }
         }
+        StillFormat::AnsDos => dos_look(picture),
+        // Whoever plays it has a terminal of today, and colours of their own for the attributes.
+        StillFormat::Cast => picture.look(Some(Capabilities::default())),
         _ => picture.look(terminal),
     }
+}
+
+/// A PC's characters and attributes, unless other ones that it has are asked for.
+fn dos_look(picture: &PictureArguments) -> Look {
+    let look = picture.look(Some(Capabilities::default()));
+    let glyphs = if picture.glyphs.is_none() { GlyphMode::Cp437 } else { look.glyphs };
+    let palette = if matches!(look.palette, Palette::Dos(_)) { Palette::DOS } else { look.palette };
+    Look { glyphs, palette: palette.for_glyphs(glyphs, picture.ground()) }
+}
+
+/// The size of a picture for which none is given.
+pub fn unsized_picture(format: StillFormat) -> Unsized {
+    match format {
+        _ if format.is_pixels() => Unsized::Pixels,
+        StillFormat::AnsDos => Unsized::Dos,
+        _ => Unsized::Screen,
+    }
+}
+
+/// Refuses what a PC's screen has not.
+pub fn check_dos(picture: &PictureArguments, format: StillFormat) -> Result<(), CliError> {
+    if format != StillFormat::AnsDos {
+        return Ok(());
+    }
+    let Look { glyphs, palette } = dos_look(picture);
+    let what = match (glyphs, palette) {
+        (GlyphMode::Blocks | GlyphMode::Quadrant | GlyphMode::Braille, _) => {
+            "characters: --glyphs cp437, half, shade or ascii"
+        }
+        (_, Palette::Gray(_) | Palette::Color(_)) => "colours: --palette dos, dos16 or mono",
+        _ => return Ok(()),
+    };
+    Err(CliError::Input(format!("ans-dos is for a PC's screen, which has other {what}")))
 }
 
 /// The whole still in memory, so that an error leaves nothing half-written.
@@ -108,6 +152,14 @@ pub fn encoded(
     let done = match format {
         StillFormat::Txt => wanted(frame.cells.as_ref()).and_then(|cells| output::text(cells, &mut out)),
         StillFormat::Ans => wanted(frame.cells.as_ref()).and_then(|cells| output::ansi(cells, &mut out)),
+        StillFormat::AnsDos => {
+            wanted(frame.cells.as_ref()).and_then(|cells| output::dos_ansi(cells, &mut out))
+        }
+        StillFormat::Cast => wanted(frame.cells.as_ref()).and_then(|cells| {
+            let mut cast = output::Cast::new(cells.size());
+            cast.show(cells, 0.0);
+            out.write_all(cast.finish(1.0).as_bytes())
+        }),
         StillFormat::Svg => {
             wanted(frame.cells.as_ref()).and_then(|cells| output::svg(cells, palette.ground(), &mut out))
         }
@@ -138,6 +190,21 @@ pub fn encoded(
     };
     done.map_err(|e| CliError::Output(format!("the picture could not be encoded: {e}")))?;
     Ok(out)
+}
+
+/// Refuses a picture whose space is cut otherwise than was asked for.
+pub fn refuse_over_budget(frame: &Frame) -> Result<(), CliError> {
+    match &frame.over_budget {
+        Some(over) => Err(CliError::Input(format!("{over}: use --structure tree"))),
+        None => Ok(()),
+    }
+}
+
+/// Says why a picture is all background.
+pub fn say_nothing(frame: &Frame) {
+    if let Some(why) = frame.nothing {
+        tell(&why.to_string());
+    }
 }
 
 /// A grid that the request asked for.

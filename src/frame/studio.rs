@@ -11,7 +11,7 @@ use crate::plan::StructureChoice;
 use crate::scene::{Camera, Scene};
 use crate::solid::{Assembly, AssemblyError};
 use crate::stage::Progress;
-use crate::view::{framed, framed_from};
+use crate::view::{Turntable, framed, framed_from};
 
 use super::frame_cache::FrameCache;
 use super::scratch_pool::ScratchPool;
@@ -165,6 +165,23 @@ impl Studio {
             return framed_from(back, up, DVec3::length, aspect);
         }
         framed_from(back, up, |v| self.assembly.support(v), aspect)
+    }
+
+    /// A turntable through the middle of the scene's bounds, whose axis is along `up`.
+    pub fn turntable(&self, up: DVec3) -> Turntable {
+        if self.assembly.objects.is_empty() {
+            return Turntable::new(DVec3::ZERO, up);
+        }
+        let middle = |axis: DVec3| 0.5 * (self.assembly.support(axis) - self.assembly.support(-axis));
+        Turntable::new(DVec3::new(middle(DVec3::X), middle(DVec3::Y), middle(DVec3::Z)), up)
+    }
+
+    /// A camera that sees the whole scene at any place of a turntable.
+    pub fn framed_turning(&self, turntable: &Turntable, aspect: f64) -> Camera {
+        if self.assembly.objects.is_empty() {
+            return self.framed(aspect);
+        }
+        framed(|v| turntable.swept_support(|v| self.assembly.support(v), v), aspect)
     }
 
     /// The lattice, built now if it was not before; else why there is none.

@@ -15,7 +15,7 @@ const DOT: u32 = 5;
 pub fn svg(cells: &Grid<Cell>, ground: Ground, out: &mut impl Write) -> io::Result<()> {
     let Size { width, height } = cells.size();
     let (across, down) = (width * CELL.width, height * CELL.height);
-    let page = Colors::of(ground).paper;
+    let page = PageColors::of(ground).paper;
     writeln!(
         out,
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {across} {down}\" font-family=\"monospace\" \
@@ -23,7 +23,7 @@ pub fn svg(cells: &Grid<Cell>, ground: Ground, out: &mut impl Write) -> io::Resu
     )?;
     writeln!(out, "<rect width=\"{across}\" height=\"{down}\" fill=\"{}\"/>", hex(page))?;
     for (y, row) in (0..).zip(cells.rows()) {
-        let looks: Vec<Shown> = row.iter().map(|&cell| Shown::of(cell, Colors::of(ground))).collect();
+        let looks: Vec<Shown> = row.iter().map(|&cell| Shown::of(cell, PageColors::of(ground))).collect();
         for run in runs(&looks) {
             run.shown.write_svg([run.first * CELL.width, y * CELL.height], run.count, page, out)?;
         }
@@ -33,7 +33,7 @@ pub fn svg(cells: &Grid<Cell>, ground: Ground, out: &mut impl Write) -> io::Resu
 
 /// The cells as a page of HTML: lines of text whose runs have the colours of their cells.
 pub fn html(cells: &Grid<Cell>, ground: Ground, out: &mut impl Write) -> io::Result<()> {
-    let colors = Colors::of(ground);
+    let colors = PageColors::of(ground);
     writeln!(out, "<!DOCTYPE html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>ray13</title>")?;
     // Rows without a gap, as terminals have them.
     writeln!(
@@ -62,13 +62,13 @@ pub fn html(cells: &Grid<Cell>, ground: Ground, out: &mut impl Write) -> io::Res
 
 /// What stands for the terminal's own ink and paper.
 #[derive(Clone, Copy)]
-struct Colors {
+pub(super) struct PageColors {
     ink: [u8; 3],
-    paper: [u8; 3],
+    pub(super) paper: [u8; 3],
 }
 
-impl Colors {
-    fn of(ground: Ground) -> Self {
+impl PageColors {
+    pub(super) fn of(ground: Ground) -> Self {
         match ground {
             Ground::Dark => Self { ink: [0xFF; 3], paper: [0; 3] },
             Ground::Light => Self { ink: [0; 3], paper: [0xFF; 3] },
@@ -86,14 +86,14 @@ impl Colors {
 
 /// What is drawn of a cell.
 #[derive(Clone, Copy, PartialEq)]
-struct Shown {
-    ink: [u8; 3],
-    paper: [u8; 3],
-    strokes: Strokes,
+pub(super) struct Shown {
+    pub(super) ink: [u8; 3],
+    pub(super) paper: [u8; 3],
+    pub(super) strokes: Strokes,
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum Strokes {
+pub(super) enum Strokes {
     /// That share of the ink everywhere.
     Even(f64),
     /// The ink in these dots.
@@ -102,7 +102,7 @@ enum Strokes {
 }
 
 impl Shown {
-    fn of(cell: Cell, colors: Colors) -> Self {
+    pub(super) fn of(cell: Cell, colors: PageColors) -> Self {
         let strokes = match coverage(cell.glyph) {
             Some(Coverage::Even(share)) if !cell.glyph.is_ascii() || share == 0.0 => Strokes::Even(share),
             Some(Coverage::Dots(mask)) => Strokes::Dots(mask),
@@ -166,11 +166,11 @@ fn dots(mask: u8, [x, y]: [u32; 2]) -> String {
         .collect()
 }
 
-fn hex([r, g, b]: [u8; 3]) -> String {
+pub(super) fn hex([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-fn escaped(glyph: char) -> String {
+pub(super) fn escaped(glyph: char) -> String {
     match glyph {
         '<' => "&lt;".to_owned(),
         '&' => "&amp;".to_owned(),

@@ -2,8 +2,11 @@
 //! function writes to what it is given, in pieces: give it a buffered writer. The only errors are the
 //! writer's own, and a PNG of no dots.
 
+mod animation;
+mod cast;
 mod cells;
 mod cursor;
+mod dos;
 mod encoder;
 mod levels;
 mod markup;
@@ -14,7 +17,10 @@ mod sgr;
 mod terminal;
 mod terminfo;
 
+pub use animation::animated_svg;
+pub use cast::Cast;
 pub use cells::{ansi, text};
+pub use dos::dos_ansi;
 pub use encoder::Encoder;
 pub use levels::{LevelsError, levels, read_levels};
 pub use markup::{html, svg};

@@ -10,6 +10,7 @@ mod sample_points;
 mod tile;
 mod tile_camera;
 mod tile_share;
+mod turntable;
 
 pub use block::{BLOCK, Block};
 pub use direction::{all_settled, settled};
@@ -21,3 +22,4 @@ pub use sample_points::{edge_error, missed_edge_error, sample_point};
 pub use tile::{TILE, Tile, tiles};
 pub use tile_camera::{TileCamera, TileRays};
 pub use tile_share::{PLASTIC, TileShare};
+pub use turntable::Turntable;

@@ -78,9 +78,8 @@ impl Strata {
         for (y, row) in (0..).zip(screen.rows()) {
             let looks: Vec<Look> = row.iter().map(|&cell| Look::of(Shown::of(cell, page))).collect();
             // Two columns of dots to a cell; half cells and dots only where they differ from what is below.
-            let column = |x: usize, paint: fn(&Look, usize) -> Option<Rgb>| paint(&looks[x / 2], x % 2);
             let columns = 2 * looks.len();
-            let whole = |x: usize| column(x, Look::below).filter(|color| *color != page.paper);
+            let whole = |x: usize| Some(looks[x / 2].below(x % 2)).filter(|color| *color != page.paper);
             strata.runs(0, [y, 8, 4], columns, whole);
             for half in 0..2 {
                 let pair = |x: usize| looks[x / 2].pair(2 * half, x % 2);
@@ -186,8 +185,8 @@ impl Look {
     }
 
     /// The colour of a column from top to bottom: the ink where all of its dots have it.
-    fn below(&self, column: usize) -> Option<Rgb> {
-        Some(if self.column(column) == LEFT { self.ink } else { self.paper })
+    fn below(&self, column: usize) -> Rgb {
+        if self.column(column) == LEFT { self.ink } else { self.paper }
     }
 
     fn has(&self, row: usize, column: usize) -> bool {

@@ -161,6 +161,7 @@ mod tests {
     use super::*;
     use crate::cli::arguments::OpenScadArguments;
     use crate::frame::{Wants, pcat};
+    use crate::glyph::{FourGrays, GlyphMode, Palette};
 
     fn files() -> DeskFiles {
         let openscad = OpenScadArguments::default();
@@ -204,7 +205,17 @@ mod tests {
         (opened.reloading.end)();
         let dots = crate::math::Size::new(16, 16);
         let camera = opened.painter.camera(0, 1.0);
-        let request = Request { dots, dot_aspect: 1.0, wants: Wants::CELLS, ..pcat::request(camera) };
+        // As on a terminal of today, whose characters and colours not every format has.
+        let palette = Palette::Dos(FourGrays::Indexed);
+        let pcat = pcat::request(camera);
+        let request = Request {
+            dots,
+            dot_aspect: 1.0,
+            wants: Wants::CELLS,
+            glyphs: GlyphMode::Blocks,
+            palette,
+            ..pcat
+        };
         let save = |path: &Path, format: &SaveFormat, replaces| {
             let order = SaveOrder { path: path.to_owned(), format: format.name.clone(), replaces };
             files.save(&*opened.painter, &request, &order)

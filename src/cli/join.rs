@@ -64,6 +64,8 @@ fn encoded(render: &RenderArguments, to: &Destination, mut frame: Frame) -> Resu
         && let Some(ending) = path.extension()
         && let Ok(other) = StillFormat::from_str(&ending.to_string_lossy(), true)
         && other != shown.format
+        // Files of both end alike.
+        && (other, shown.format) != (StillFormat::Ans, StillFormat::AnsDos)
     {
         let drawn_for = name(&shown.format);
         return Err(CliError::Input(format!(

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::app::Painter;
 use crate::frame::{Frame, Request, Wants};
 use crate::glyph::{GlyphMode, Ground, Palette};
-use crate::math::Grid;
+use crate::math::{Grid, Size};
 use crate::output::{self, Capabilities, Pixels};
 use crate::plan::PrecisionChoice;
 use crate::tone::Tone;
@@ -14,6 +14,7 @@ use crate::tone::Tone;
 use super::arguments::{PictureArguments, RawChannel, RenderArguments, StillFormat};
 use super::effects::Still;
 use super::error::{CliError, tell};
+use super::names::Glyphs;
 use super::picture::{Look, PIXELS, Unsized};
 
 /// The picture that the viewer shows, drawn as a format needs it: characters as they stand there, pixels in
@@ -27,10 +28,24 @@ pub fn of_view(painter: &dyn Painter, shown: &Request, format: StillFormat) -> R
     if format == StillFormat::Txt {
         request.palette = Palette::Mono(Ground::Dark).for_glyphs(request.glyphs, Ground::Dark);
     }
+    if format == StillFormat::AnsDos {
+        as_dos(&mut request);
+    }
     settle_precision(&mut request, format);
     let raw = Values::Raw(RawChannel::Light);
     let values = if format == StillFormat::Pfm { raw } else { Values::Toned };
     encoded(&painter.draw(&request), request.palette, request.tone, format, values)
+}
+
+/// The same cells in a PC's own characters and colours, whatever the terminal has.
+fn as_dos(request: &mut Request) {
+    let (cells, shown, dos) =
+        (request.cells(), request.glyphs.dots_per_cell(), GlyphMode::Cp437.dots_per_cell());
+    let shape = |size: Size| f64::from(size.width) / f64::from(size.height);
+    // A cell keeps its shape, with other dots in it.
+    request.dot_aspect *= shape(shown) / shape(dos);
+    request.dots = Size::new(cells.width * dos.width, cells.height * dos.height);
+    (request.glyphs, request.palette) = (GlyphMode::Cp437, Palette::DOS);
 }
 
 /// Takes all digits where nobody asks for fewer and values are raw: these are for whoever computes with them.
@@ -110,7 +125,8 @@ pub fn look(picture: &PictureArguments, format: StillFormat, terminal: Option<Ca
 /// A PC's characters and attributes, unless other ones that it has are asked for.
 fn dos_look(picture: &PictureArguments) -> Look {
     let look = picture.look(Some(Capabilities::default()));
-    let glyphs = if picture.glyphs.is_none() { GlyphMode::Cp437 } else { look.glyphs };
+    let is_open = matches!(picture.glyphs, None | Some(Glyphs::Auto));
+    let glyphs = if is_open { GlyphMode::Cp437 } else { look.glyphs };
     let palette = if matches!(look.palette, Palette::Dos(_)) { Palette::DOS } else { look.palette };
     Look { glyphs, palette: palette.for_glyphs(glyphs, picture.ground()) }
 }

@@ -82,6 +82,19 @@ fn a_dos_viewer_shows_the_picture_and_knows_its_size() {
 }
 
 #[test]
+fn parts_join_to_the_same_file_under_its_usual_ending() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let [part, joined] = ["dos.part", "dos-joined.ans"].map(|name| folder.join(name));
+    let [part, joined] = [&part, &joined].map(|path| path.to_str().unwrap());
+    let done = render(&["die", "--format", "ans-dos", "--part", "1/1", "-o", part]);
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    let done = Command::new(env!("CARGO_BIN_EXE_ray13")).args(["join", part, "-o", joined]).output().unwrap();
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    let whole = render(&["die", "--format", "ans-dos", "--glyphs", "auto"]).stdout;
+    assert!(std::fs::read(joined).unwrap() == whole && !whole.is_empty());
+}
+
+#[test]
 fn what_a_dos_screen_has_not_is_refused() {
     for (arguments, why) in [(["--glyphs", "braille"], "characters"), (["--palette", "gray"], "colours")] {
         let refused = render(&[&["die", "--format", "ans-dos"], &arguments[..]].concat());

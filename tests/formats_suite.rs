@@ -2,6 +2,7 @@
 
 mod support {
     pub mod agreement;
+    pub mod around;
     pub mod beside;
     pub mod cases;
     pub mod drawings;

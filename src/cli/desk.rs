@@ -11,8 +11,9 @@ use crate::frame::Request;
 use crate::scene::Scene;
 use crate::stage::Progress;
 
-use super::arguments::{ReadingArguments, StillFormat};
+use super::arguments::ReadingArguments;
 use super::error::CliError;
+use super::formats::StillFormat;
 use super::input::{self, Onlooker};
 use super::openscad::OpenScadRun;
 use super::reload::WatchedScene;

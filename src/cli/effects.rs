@@ -4,8 +4,9 @@
 use crate::glyph::{GlyphMode, Palette};
 use crate::plan::{EngineChoice, Shading};
 
-use super::arguments::{PictureArguments, RawChannel, StillFormat};
+use super::arguments::PictureArguments;
 use super::error::CliError;
+use super::formats::{RawChannel, StillFormat};
 use super::names::{AntiAliasing, PaletteName, PrecisionName};
 
 /// What shows a picture.
@@ -259,7 +260,7 @@ impl Given<'_> {
     }
 
     fn has_characters(&self) -> bool {
-        self.format().is_none_or(|format| !format.is_pixels() && format != StillFormat::Levels)
+        self.format().is_none_or(StillFormat::has_characters)
     }
 
     /// Whether characters have colours.
@@ -277,13 +278,7 @@ impl Given<'_> {
     fn is_in_own_ink(&self) -> bool {
         match self.format() {
             Some(StillFormat::Txt) => true,
-            Some(
-                StillFormat::Ans
-                | StillFormat::AnsDos
-                | StillFormat::Cast
-                | StillFormat::Svg
-                | StillFormat::Html,
-            ) => {
+            Some(format) if format.has_characters() => {
                 matches!(self.picture.look(None).palette, Palette::Mono(_))
             }
             _ => false,

@@ -12,8 +12,9 @@ use crate::glyph;
 use crate::scene::Scene;
 use crate::view::TileShare;
 
-use super::arguments::{Arguments, Command, JoinArguments, RenderArguments, StillFormat};
+use super::arguments::{Arguments, Command, JoinArguments, RenderArguments};
 use super::error::{CliError, visible};
+use super::formats::StillFormat;
 use super::still::{self, Values};
 use super::write::{Destination, SceneFiles};
 

@@ -10,6 +10,7 @@ mod diff;
 mod effects;
 mod error;
 mod follow;
+mod formats;
 mod input;
 mod interrupts;
 mod join;

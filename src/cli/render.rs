@@ -9,10 +9,11 @@ use crate::frame::Wants;
 use crate::scene::{FilesRead, Scene};
 
 use super::arguments::{
-    PictureArguments, ReadingArguments, RenderArguments, SceneArguments, StillFormat, TurntableArguments,
+    PictureArguments, ReadingArguments, RenderArguments, SceneArguments, TurntableArguments,
 };
 use super::effects::{self, Still};
 use super::error::{CliError, visible};
+use super::formats::StillFormat;
 use super::input::Onlooker;
 use super::openscad::OpenScadRun;
 use super::picture::Unsized;

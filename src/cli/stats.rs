@@ -7,8 +7,8 @@ use serde_json::{Map, Value, json};
 use crate::frame::{Built, Frame, Space};
 use crate::stage::Stage;
 
-use super::arguments::StatsFormat;
 use super::error::tell;
+use super::formats::StatsFormat;
 
 /// Says the figures on standard error, and why there is nothing in view where there is nothing.
 pub fn say(frame: &Frame, built: &Built, form: StatsFormat) {

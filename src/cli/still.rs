@@ -11,9 +11,10 @@ use crate::output::{self, Capabilities, Pixels};
 use crate::plan::PrecisionChoice;
 use crate::tone::Tone;
 
-use super::arguments::{PictureArguments, RawChannel, RenderArguments, StillFormat};
+use super::arguments::{PictureArguments, RenderArguments};
 use super::effects::Still;
 use super::error::{CliError, tell};
+use super::formats::{RawChannel, StillFormat};
 use super::names::Glyphs;
 use super::picture::{Look, PIXELS, Unsized};
 
@@ -87,15 +88,7 @@ pub fn still_of(arguments: &RenderArguments, format: StillFormat) -> Still {
 /// What the format shows of a picture.
 pub fn wants(still: Still) -> Wants {
     match (still.format, still.channel) {
-        (
-            StillFormat::Txt
-            | StillFormat::Ans
-            | StillFormat::AnsDos
-            | StillFormat::Cast
-            | StillFormat::Svg
-            | StillFormat::Html,
-            _,
-        ) => Wants::CELLS,
+        (format, _) if format.has_characters() => Wants::CELLS,
         (_, Some(RawChannel::Depth)) => Wants { depth: true, ..Wants::LIGHT },
         (_, Some(RawChannel::Normal)) => Wants { normal: true, ..Wants::LIGHT },
         (_, Some(RawChannel::Object)) => Wants { object: true, ..Wants::LIGHT },

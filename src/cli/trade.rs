@@ -1,6 +1,6 @@
 //! Time against accuracy: measured, and an answer to act on.
 
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, IsTerminal};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -17,6 +17,7 @@ use crate::trade::{EyeDistance, NothingMeasured, Sweep, SweepLimits, SweepStep, 
 use super::arguments::{PlotFormat, TradeArguments};
 use super::error::{CliError, INTERRUPTED, tell};
 use super::picture::Unsized;
+use super::progress_line::ProgressLine;
 use super::trade_line::CommandLine;
 use super::trade_report::{Report, ms, percent};
 use super::write::{Destination, print};
@@ -53,9 +54,10 @@ pub fn run(arguments: &TradeArguments) -> Result<(), CliError> {
     };
 
     let interrupt = interrupt();
-    let mut progress = ProgressLine::new(arguments.seconds);
-    let sweep = Sweep::new(&studio, &request, &limits, &interrupt, &mut |step| progress.show(step));
-    progress.clear();
+    let (mut progress, begin) = (ProgressLine::new(true), Instant::now());
+    let mut show = |step| progress.show(&bar(step, begin, arguments.seconds));
+    let sweep = Sweep::new(&studio, &request, &limits, &interrupt, &mut show);
+    drop(progress);
     let sweep = sweep.map_err(|nothing| match nothing {
         NothingMeasured::Interrupted => CliError::Interrupted(nothing.to_string()),
         NothingMeasured::OutOfTime => CliError::Input(format!(
@@ -141,37 +143,14 @@ fn interrupt() -> Arc<AtomicBool> {
     interrupt
 }
 
-/// How far a sweep is, on one line of standard error that is written over; nothing where that is no terminal.
-struct ProgressLine {
-    is_shown: bool,
-    begin: Instant,
-    time: Duration,
-}
-
-impl ProgressLine {
-    fn new(time: Duration) -> Self {
-        Self { is_shown: io::stderr().is_terminal(), begin: Instant::now(), time }
-    }
-
-    fn show(&mut self, step: SweepStep) {
-        if !self.is_shown {
-            return;
-        }
-        let share = self.begin.elapsed().as_secs_f64() / self.time.as_secs_f64().max(f64::MIN_POSITIVE);
-        let done = (share.min(1.0) * BAR as f64) as usize;
-        let what = match step {
-            SweepStep::Reference => "the reference".to_owned(),
-            SweepStep::Settings(number) => format!("{number} settings"),
-            SweepStep::Round(round) => format!("timing, round {round}"),
-        };
-        let bar = format!("{}{}", "█".repeat(done), "░".repeat(BAR - done));
-        // Where even that fails there is nobody to tell.
-        let _ = write!(io::stderr(), "\r{bar} {what}\x1b[K");
-    }
-
-    fn clear(&self) {
-        if self.is_shown {
-            let _ = write!(io::stderr(), "\r\x1b[K");
-        }
-    }
+/// How far a sweep of so much time is, that began then.
+fn bar(step: SweepStep, begin: Instant, time: Duration) -> String {
+    let share = begin.elapsed().as_secs_f64() / time.as_secs_f64().max(f64::MIN_POSITIVE);
+    let done = (share.min(1.0) * BAR as f64) as usize;
+    let what = match step {
+        SweepStep::Reference => "the reference".to_owned(),
+        SweepStep::Settings(number) => format!("{number} settings"),
+        SweepStep::Round(round) => format!("timing, round {round}"),
+    };
+    format!("{}{} {what}", "█".repeat(done), "░".repeat(BAR - done))
 }

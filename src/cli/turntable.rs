@@ -4,6 +4,7 @@
 //! ends the program; the names of all are looked at before the first is drawn.
 
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use crate::frame::{Frame, Request, Studio};
 use crate::glyph::Cell;
@@ -12,9 +13,10 @@ use crate::output::{self, Cast};
 use crate::scene::{Camera, FilesRead};
 use crate::view::Turntable;
 
-use super::arguments::{PictureArguments, RenderArguments, StillFormat};
+use super::arguments::{PictureArguments, RenderArguments};
 use super::effects::Still;
 use super::error::{CliError, tell};
+use super::formats::StillFormat;
 use super::input;
 use super::interrupts::Interrupts;
 use super::numbered::NumberedName;
@@ -22,6 +24,7 @@ use super::progress_line::ProgressLine;
 use super::still::{
     Values, encoded, look, refuse_over_budget, say_nothing, settle_precision, unsized_picture, wants,
 };
+use super::terminal::capabilities;
 use super::write::{Destination, SceneFiles};
 
 /// Views a second where none are asked for: smooth enough for a part that turns, and few for a page.
@@ -42,29 +45,26 @@ pub fn run(arguments: &RenderArguments, views: u32, still: Still, to: &Destinati
     input::say(&scene.notes);
     let studio = input::studio(scene)?;
     let turn = Turn::new(&arguments.picture, still, &studio, views)?;
-    let mut progress = ProgressLine::begin();
+    let mut progress = Progress::begin();
     let fps = arguments.turn.fps.unwrap_or(FPS);
     match form {
         Form::Files(name) => {
             let (first, step) = arguments.part.map_or((1, 1), |share| (share.number(), share.of()));
             let mine: Vec<u32> = (first - 1..views).step_by(step as usize).collect();
             for (done, &view) in (0..).zip(&mine) {
-                progress.say(done, mine.len() as u32, "views");
+                progress.say(done, mine.len() as u32);
                 let frame = turn.draw(view)?;
                 let values = Values::new(still, &arguments.picture);
                 let Request { palette, tone, .. } = turn.request;
                 let bytes = encoded(&frame, palette, tone, still.format, values)?;
-                let interrupts = Interrupts::begin();
-                let written = Destination::File(name.path(view)).write(&bytes);
-                interrupts.end();
-                written?;
+                write(&Destination::File(name.path(view)), &bytes)?;
             }
             Ok(())
         }
         Form::Cast => {
             let mut cast = Cast::new(turn.request.cells());
             for view in 0..views {
-                progress.say(view, views, "views");
+                progress.say(view, views);
                 cast.show(turn.cells(view)?.as_ref(), f64::from(view) / fps);
             }
             drop(progress);
@@ -73,7 +73,7 @@ pub fn run(arguments: &RenderArguments, views: u32, still: Still, to: &Destinati
         Form::Svg => {
             let mut screens = Vec::new();
             for view in 0..views {
-                progress.say(view, views, "views");
+                progress.say(view, views);
                 screens.push(Arc::unwrap_or_clone(turn.cells(view)?));
             }
             drop(progress);
@@ -93,6 +93,30 @@ fn write(to: &Destination, bytes: &[u8]) -> Result<(), CliError> {
     let written = to.write(bytes);
     interrupts.end();
     written
+}
+
+/// What takes no longer needs no word.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// How many views are done.
+struct Progress {
+    line: ProgressLine,
+    begin: Instant,
+}
+
+impl Progress {
+    fn begin() -> Self {
+        Self { line: ProgressLine::new(capabilities().cursor), begin: Instant::now() }
+    }
+
+    /// Says that so many are done of all.
+    fn say(&mut self, done: u32, of: u32) {
+        let spent = self.begin.elapsed();
+        if spent >= PATIENCE && done > 0 {
+            let left = spent.div_f64(f64::from(done)).mul_f64(f64::from(of.saturating_sub(done)));
+            self.line.show(&format!("{done} of {of} views, {} s left", left.as_secs() + 1));
+        }
+    }
 }
 
 /// What the views become.

@@ -176,8 +176,8 @@ pub struct ReadOptions {
     pub up: Option<UpAxis>,
     /// How curved things of the scene language are made.
     pub facets: FacetMode,
-    /// What digits say in the scene language. Where it is not given, those of `.csg` are OpenSCAD's, which
-    /// prints six, and all others exact.
+    /// What digits say in the scene language. Where it is not given, those of `.csg`, and of a text
+    /// without an ending that is plainly OpenSCAD's, are six, as that program prints; all others exact.
     pub digits: Option<Digits>,
     /// Where the files are that a scene or a mesh names; [`read_file`](super::read_file) takes the folder of
     /// its own.

@@ -1,12 +1,11 @@
 //! `--facets openscad` beside OpenSCAD's own export: the same depths, dot for dot.
 
-use ray13::frame::{Frame, Studio};
-use ray13::math::{DVec3, Size};
-use ray13::scene::{Camera, FacetMode, Format, ReadOptions, Scene, read};
+use ray13::frame::Frame;
+use ray13::scene::{FacetMode, Format, ReadOptions, read};
 
+use crate::support::around::{DOTS, cameras_around, frame};
 use crate::support::drawings::own_corners;
 use crate::support::openscad::{exported_text, in_parallel, is_missing};
-use crate::support::request::request;
 
 /// Small models: each word alone, and nested, mirrored, small and large.
 const MODELS: [&str; 24] = [
@@ -36,25 +35,6 @@ const MODELS: [&str; 24] = [
     "resize([4, 0, 9], auto = true) union() { sphere(3); translate([4, 0, 0]) cylinder(h = 3, r = 1); }",
 ];
 
-const DOTS: Size = Size { width: 60, height: 60 };
-
-fn frame(scene: Scene, camera: &Camera) -> Frame {
-    Studio::new(scene).unwrap().draw_anew(&request(camera.clone(), DOTS))
-}
-
-/// How far a scene reaches from the origin, and cameras on it.
-fn cameras(scene: &Scene) -> (f64, Vec<Camera>) {
-    let studio = Studio::new(scene.clone()).unwrap();
-    let own = studio.camera(0, 1.0);
-    let size = (own.eye - own.target).length();
-    let eyes = [[1.0, -2.0, 0.7], [-0.3, 0.4, -1.5], [0.2, 0.1, 3.0]];
-    let camera = |eye: [f64; 3]| {
-        let eye = own.target + DVec3::from(eye).normalize() * size;
-        Camera { eye, up: DVec3::new(0.13, 0.95, 0.2), ..own.clone() }
-    };
-    (size, eyes.map(camera).into())
-}
-
 /// What lies between the depths of a dot and of those around it; what is missed is infinitely far.
 fn around(frame: &Frame, column: u32, row: u32) -> [f64; 2] {
     let depth = frame.depth.as_ref().unwrap();
@@ -76,10 +56,10 @@ fn what_is_seen_is_what_is_exported() {
         let own = read("model.csg", &csg, &options).unwrap_or_else(|why| panic!("{model}: {why}"));
         let as_mesh = ReadOptions { format: Some(Format::Stl), ..ReadOptions::default() };
         let theirs = read("model.stl", &stl, &as_mesh).unwrap_or_else(|why| panic!("{model}: {why}"));
-        let (size, cameras) = cameras(&own);
+        let (size, cameras) = cameras_around(&own, [[1.0, -2.0, 0.7], [-0.3, 0.4, -1.5], [0.2, 0.1, 3.0]]);
         let (mut seen, mut off) = (0, 0);
         for camera in cameras {
-            let [own, theirs] = [&own, &theirs].map(|scene| frame(scene.clone(), &camera));
+            let [own, theirs] = [&own, &theirs].map(|scene| frame(scene, &camera));
             let [depth, expected] = [&own, &theirs].map(|frame| frame.depth.as_ref().unwrap());
             for place in (0..DOTS.height).flat_map(|j| (0..DOTS.width).map(move |i| (i, j))) {
                 // STL has six digits.

@@ -1,13 +1,10 @@
 //! Numbers that OpenSCAD printed with six digits: what was meant flush is flush, and nothing real is lost.
 
-use ray13::frame::{Frame, Studio};
-use ray13::math::{DVec3, Size};
+use ray13::frame::Frame;
 use ray13::scene::{Camera, Digits, FacetMode, Format, ReadOptions, Scene, read};
 
+use crate::support::around::{cameras_around, frame};
 use crate::support::openscad::{exported_text, in_parallel, is_missing};
-use crate::support::request::request;
-
-const DOTS: Size = Size { width: 60, height: 60 };
 
 /// Pockets whose floor or mouth is given by two numbers, as programs write them: a hole is seen in all of
 /// them, from above or below.
@@ -61,18 +58,9 @@ fn scene(text: &[u8], ending: &str, digits: Option<Digits>) -> Scene {
     read(&format!("model.{ending}"), text, &options).unwrap_or_else(|why| panic!("{why}"))
 }
 
-fn frame(scene: &Scene, camera: &Camera) -> Frame {
-    Studio::new(scene.clone()).unwrap().draw_anew(&request(camera.clone(), DOTS))
-}
-
 /// From obliquely above, below and beside.
 fn cameras(scene: &Scene) -> [Camera; 3] {
-    let own = Studio::new(scene.clone()).unwrap().camera(0, 1.0);
-    let size = (own.eye - own.target).length();
-    [[0.4, -0.5, 1.2], [0.3, 0.5, -1.2], [1.3, 0.4, 0.5]].map(|eye| {
-        let eye = own.target + DVec3::from(eye).normalize() * size;
-        Camera { eye, up: DVec3::new(0.13, 0.95, 0.2), ..own.clone() }
-    })
+    cameras_around(scene, [[0.4, -0.5, 1.2], [0.3, 0.5, -1.2], [1.3, 0.4, 0.5]]).1
 }
 
 /// In how many dots two pictures show other places, by more than a share of the distance that six digits are

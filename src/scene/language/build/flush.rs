@@ -254,10 +254,8 @@ fn flushed(primitives: &mut [&mut Primitive], sides: &[PrintedSide]) -> Option<u
 /// side.
 fn joined(planes: Vec<Plane>, depth: usize) -> Vec<Plane> {
     let is_run = |a: &Plane, b: &Plane| {
-        let above = |plane: &Plane| {
-            plane.maps.get(..depth).map(|maps| maps.iter().map(|&(id, _)| id).collect::<Vec<_>>())
-        };
-        a.key == b.key && above(a).is_some_and(|ids| above(b) == Some(ids))
+        let mut pairs = a.maps.iter().zip(b.maps.iter()).take(depth);
+        a.key == b.key && a.maps.len().min(b.maps.len()) >= depth && pairs.all(|(a, b)| a.0 == b.0)
     };
     let mut all: Vec<Plane> = Vec::with_capacity(planes.len());
     let mut rest = planes.into_iter().peekable();

@@ -34,7 +34,7 @@ impl PrintedPrimitive {
             let is_straight = AXES.into_iter().all(|k| (k == axis) == (along[k] != 0.0));
             let ends = [b.lo, b.hi].map(|end| local.translation[axis] + along[axis] * end[axis]);
             [0, 1].map(|upper| {
-                let is_flat = is_straight && has_side(&primitive.shape, axis, upper);
+                let is_flat = is_straight && has_side(&primitive.shape, &b, axis, upper);
                 is_flat.then(|| off_of(ends, upper, is_sized) / along[axis].abs())
             })
         });
@@ -88,8 +88,8 @@ fn off_of(ends: [f64; 2], upper: usize, is_sized: bool) -> f64 {
     half_unit(end)
 }
 
-/// Whether the end of a shape's box is a side of it.
-fn has_side(shape: &Shape, axis: usize, upper: usize) -> bool {
+/// Whether the end of `b`, a shape's box, is a side of it.
+fn has_side(shape: &Shape, b: &Bounds, axis: usize, upper: usize) -> bool {
     match shape {
         Shape::Cube => true,
         Shape::Cone { bottom, top } => axis == 2 && [bottom, top][upper] != &0.0,
@@ -98,7 +98,6 @@ fn has_side(shape: &Shape, axis: usize, upper: usize) -> bool {
             is_along && (face.normal[axis] > 0.0) == (upper == 1)
         }),
         Shape::Mesh(mesh) => {
-            let b = shape.bounds();
             let end = [b.lo, b.hi][upper][axis];
             let is_there =
                 |triangle: &[u32; 3]| triangle.iter().all(|&p| mesh.points[p as usize][axis] == end);

@@ -114,6 +114,22 @@ fn without_digits_that_say_so_a_skin_stays() {
     assert!(other_dots(&frame(&six, camera), &frame(&exact, camera)) > 200);
 }
 
+/// Found by texts at random: a bottom whose rounding is wider than the other solid was taken for one place
+/// with its side, half a unit away.
+#[test]
+fn what_is_off_by_more_than_all_the_other_moves_nothing() {
+    for more in [
+        "cylinder(h = 1e300, r1 = 1, r2 = 1, $fn = 0);",
+        "cylinder(h = 1e-300, r1 = 1e300, r2 = 1);",
+        "multmatrix([[1e300,0,0,1e300],[0,1,0,0],[0,0,1e-290,0],[0,0,0,1]]) cube(1);",
+    ] {
+        let text = format!("difference() {{ cube([1, 1, 1], center = true); {more} }}");
+        let [six, exact] =
+            [Digits::Six, Digits::Exact].map(|digits| scene(text.as_bytes(), "csg", Some(digits)));
+        assert_eq!(six.objects, exact.objects, "{text}");
+    }
+}
+
 #[test]
 fn what_is_thin_and_real_stays() {
     if is_missing() {

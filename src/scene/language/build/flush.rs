@@ -11,7 +11,7 @@ use super::Builder;
 use super::chain::PrintedMap;
 use super::context::Context;
 use super::printed::{AXES, PrintedPrimitive};
-use crate::math::{DAffine3, DVec3};
+use crate::math::{DAffine3, DVec3, Placement};
 use crate::scene::{Digits, Primitive};
 
 /// Normals that agree to so many parts of 1 are one: what six digits make different differs by 5 · 10⁻⁷ at
@@ -170,9 +170,10 @@ impl Plane {
     /// Nor are sides that stand below one map and were told apart there. Intervals that only touch have no
     /// number in common: what lies half way between 1.33333 and 1.33334 is always printed as one of them.
     fn may_be(&self, other: &Self) -> bool {
-        let rounded = self.rounded + other.rounded;
-        let has_common = self.hi.min(other.hi) - self.lo.max(other.lo) > rounded;
-        (has_common || (self.at - other.at).abs() <= rounded)
+        let has_common = self.hi.min(other.hi) - self.lo.max(other.lo) > self.rounded + other.rounded;
+        // Of the two roundings the smaller: a side that is off by more than another is wide is in no one's
+        // place.
+        (has_common || (self.at - other.at).abs() <= self.rounded.min(other.rounded))
             && self.leaves.is_disjoint(&other.leaves)
             && self.below.is_disjoint(&other.below)
     }
@@ -182,7 +183,11 @@ impl Plane {
         if other.best < self.best {
             (self.at, self.best) = (other.at, other.best);
         }
-        self.rounded = self.rounded.max(other.rounded);
+        // Those that are in one place but for rounding may have no number in common.
+        if self.lo > self.hi {
+            (self.lo, self.hi) = (self.at, self.at);
+        }
+        self.rounded = self.rounded.min(other.rounded);
         self.sides.extend(other.sides);
         self.leaves.extend(other.leaves);
         self.below.extend(other.below);
@@ -233,7 +238,8 @@ fn flushed(primitives: &mut [&mut Primitive], sides: &[PrintedSide]) -> Option<u
         // Where only one side has to move the other goes with it, as far as it may: how thick the primitive
         // is was printed, too.
         let follow = |step: f64, upper: bool| {
-            let most = by_place.get(&(leaf, axis, upper)).map_or(0.0, |side| side.loose());
+            // 0 also where the numbers end, and that is not a number.
+            let most = by_place.get(&(leaf, axis, upper)).map_or(0.0, |side| side.loose()).max(0.0);
             Some(step.clamp(-most, most))
         };
         let steps = match steps {
@@ -286,10 +292,14 @@ fn stretch(primitive: &mut Primitive, axis: usize, low: f64, high: f64) -> bool 
     if !(0.5..=2.0).contains(&share) {
         return false;
     }
-    let map = &mut primitive.map;
+    let mut map = primitive.map;
     let along = map.matrix3.col(axis);
     *map.matrix3.col_mut(axis) = along * share;
     map.translation += along * (lo + low - lo * share);
+    if Placement::new(&map).is_none() {
+        return false;
+    }
+    primitive.map = map;
     // Four products and three sums, of half an ulp each.
     let rounded = primitive.shape.bounds().mapped(&primitive.map).farthest() * (4.0 * f64::EPSILON);
     let error = primitive.map_error() + rounded;
